@@ -1,0 +1,115 @@
+"""Viscoelastic friction of rubber from laboratory data, at any speed and temperature, and back.
+
+The front door: every public name, loaded when first used, so that importing viscofric costs next to nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from viscofric.contact.indenters import Ball as Ball
+    from viscofric.contact.solution import ContactSolution as ContactSolution
+    from viscofric.contact.solution import Diagnostics as Diagnostics
+    from viscofric.contact.steady import solve_steady as solve_steady
+    from viscofric.data import Isotherm as Isotherm
+    from viscofric.data import IsothermalSweeps as IsothermalSweeps
+    from viscofric.data import TractionRuns as TractionRuns
+    from viscofric.errors import ConvergenceError as ConvergenceError
+    from viscofric.errors import DataFileError as DataFileError
+    from viscofric.errors import InputError as InputError
+    from viscofric.errors import StudyError as StudyError
+    from viscofric.errors import SuperpositionError as SuperpositionError
+    from viscofric.errors import ViscofricError as ViscofricError
+    from viscofric.friction.agreement import Agreement as Agreement
+    from viscofric.friction.agreement import compare as compare
+    from viscofric.friction.curves import FrictionCurves as FrictionCurves
+    from viscofric.friction.curves import predict_friction as predict_friction
+    from viscofric.friction.master_curve import FrictionMasterCurve as FrictionMasterCurve
+    from viscofric.friction.master_curve import shift_friction as shift_friction
+    from viscofric.friction.tribometry import separate as separate
+    from viscofric.readers import read_dma as read_dma
+    from viscofric.readers import read_mtm as read_mtm
+    from viscofric.rheology.catalogue import synthetic_fluoroelastomer as synthetic_fluoroelastomer
+    from viscofric.rheology.material import Material as Material
+    from viscofric.rheology.overlap import OverlapQuality as OverlapQuality
+    from viscofric.rheology.shift_factors import ShiftFactors as ShiftFactors
+    from viscofric.rheology.shift_laws import WLF as WLF
+    from viscofric.rheology.shift_laws import Arrhenius as Arrhenius
+    from viscofric.rheology.shift_laws import WLFArrhenius as WLFArrhenius
+    from viscofric.rheology.spectrum import RetardationSpectrum as RetardationSpectrum
+    from viscofric.rheology.spectrum import SpectrumFit as SpectrumFit
+    from viscofric.rheology.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
+    from viscofric.rheology.superposition import MasterCurve as MasterCurve
+    from viscofric.rheology.superposition import Superposition as Superposition
+    from viscofric.rheology.superposition import superpose as superpose
+    from viscofric.study import Study as Study
+    from viscofric.study import StudyResults as StudyResults
+    from viscofric.study import load_study as load_study
+    from viscofric.study import open_results as open_results
+    from viscofric.study import run_study as run_study
+
+__version__: str
+
+# public name -> the module that defines it
+_HOME = {
+    "Ball": "viscofric.contact.indenters",
+    "ContactSolution": "viscofric.contact.solution",
+    "Diagnostics": "viscofric.contact.solution",
+    "solve_steady": "viscofric.contact.steady",
+    "Isotherm": "viscofric.data",
+    "IsothermalSweeps": "viscofric.data",
+    "TractionRuns": "viscofric.data",
+    "ConvergenceError": "viscofric.errors",
+    "DataFileError": "viscofric.errors",
+    "InputError": "viscofric.errors",
+    "StudyError": "viscofric.errors",
+    "SuperpositionError": "viscofric.errors",
+    "ViscofricError": "viscofric.errors",
+    "Agreement": "viscofric.friction.agreement",
+    "compare": "viscofric.friction.agreement",
+    "FrictionCurves": "viscofric.friction.curves",
+    "predict_friction": "viscofric.friction.curves",
+    "FrictionMasterCurve": "viscofric.friction.master_curve",
+    "shift_friction": "viscofric.friction.master_curve",
+    "separate": "viscofric.friction.tribometry",
+    "read_dma": "viscofric.readers",
+    "read_mtm": "viscofric.readers",
+    "synthetic_fluoroelastomer": "viscofric.rheology.catalogue",
+    "Material": "viscofric.rheology.material",
+    "OverlapQuality": "viscofric.rheology.overlap",
+    "ShiftFactors": "viscofric.rheology.shift_factors",
+    "Arrhenius": "viscofric.rheology.shift_laws",
+    "WLF": "viscofric.rheology.shift_laws",
+    "WLFArrhenius": "viscofric.rheology.shift_laws",
+    "RetardationSpectrum": "viscofric.rheology.spectrum",
+    "SpectrumFit": "viscofric.rheology.spectrum",
+    "fit_retardation_spectrum": "viscofric.rheology.spectrum_fit",
+    "MasterCurve": "viscofric.rheology.superposition",
+    "Superposition": "viscofric.rheology.superposition",
+    "superpose": "viscofric.rheology.superposition",
+    "Study": "viscofric.study",
+    "StudyResults": "viscofric.study",
+    "load_study": "viscofric.study",
+    "open_results": "viscofric.study",
+    "run_study": "viscofric.study",
+}
+
+__all__ = ["__version__", *_HOME]  # noqa: PLE0604
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        value = getattr(importlib.import_module(_HOME[name]), name)
+        globals()[name] = value
+        return value
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("viscofric")
+    raise AttributeError(f"module 'viscofric' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,0 +1,1 @@
+"""Steady viscoelastic contact: indenters, influence coefficients, the solver and what it gives back."""

@@ -1,0 +1,161 @@
+"""What readers hand over: typed, immutable measurements in SI units, with notes on what was doubtful."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: How a dynamic mechanical analyser deformed its sample.
+Deformation: TypeAlias = Literal["tension", "shear"]
+
+
+def _column(values: object) -> Array:
+    """Return a read-only float copy, so that frozen measurements stay frozen."""
+    column = np.array(values, dtype=float)
+    column.flags.writeable = False
+    return column
+
+
+@dataclass(frozen=True, eq=False)
+class Isotherm:
+    """One frequency sweep at one temperature.
+
+    Parameters
+    ----------
+    temperature : float
+        Mean measured temperature, K.
+    angular_frequency : (n,) array
+        Ascending, without repeats, rad/s.
+    storage_modulus, loss_modulus : (n,) array
+        As measured (tensile or shear, see `IsothermalSweeps.deformation`), positive, Pa.
+    """
+
+    temperature: float
+    angular_frequency: Array
+    storage_modulus: Array
+    loss_modulus: Array
+
+    def __post_init__(self) -> None:
+        for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
+            column = _column(getattr(self, name))
+            if column.shape != (np.size(self.angular_frequency),) or not np.all(column > 0):
+                raise InputError(f"{name} of an isotherm must be one row of positive numbers, one per frequency.")
+            object.__setattr__(self, name, column)
+        if np.any(np.diff(self.angular_frequency) <= 0):
+            raise InputError("the frequencies of an isotherm must ascend without repeats.")
+
+    def __len__(self) -> int:
+        return len(self.angular_frequency)
+
+
+@dataclass(frozen=True, eq=False)
+class IsothermalSweeps:
+    """Frequency sweeps of a dynamic mechanical analyser at several temperatures.
+
+    Parameters
+    ----------
+    isotherms : tuple of Isotherm
+        In ascending temperature.
+    deformation : {"tension", "shear"}
+        Whether the moduli are E (tension) or G (shear).
+    source : str
+        Where they came from (a file's name).
+    notes : tuple of str
+        What the reader found doubtful, left out, sorted or averaged: one sentence each.
+    """
+
+    isotherms: tuple[Isotherm, ...]
+    deformation: Deformation = "tension"
+    source: str = ""
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.deformation not in ("tension", "shear"):
+            raise InputError(f"deformation = {self.deformation!r}: must be 'tension' or 'shear'.")
+        object.__setattr__(self, "isotherms", tuple(sorted(self.isotherms, key=lambda sweep: sweep.temperature)))
+
+    def __len__(self) -> int:
+        return len(self.isotherms)
+
+    @property
+    def temperatures(self) -> Array:
+        """Temperatures of the isotherms, K, ascending."""
+        return np.array([sweep.temperature for sweep in self.isotherms])
+
+    def in_tension(self, poisson_ratio: float) -> IsothermalSweeps:
+        """Return the sweeps as tensile moduli, E = 2(1+ν)G if they were measured in shear."""
+        if self.deformation == "tension":
+            return self
+        factor = 2.0 * (1.0 + poisson_ratio)
+        isotherms = tuple(
+            replace(
+                sweep,
+                storage_modulus=factor * sweep.storage_modulus,
+                loss_modulus=factor * sweep.loss_modulus,
+            )
+            for sweep in self.isotherms
+        )
+        note = f"Shear moduli turned into tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
+        return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
+
+
+@dataclass(frozen=True, eq=False)
+class TractionRuns:
+    """Traction measurements of a mini-traction machine, one row per reading.
+
+    Velocities are signed: the sign of `disc_speed` is the direction in which the rubber is deformed, the
+    sign of ``disc_speed - ball_speed`` that of sliding.
+
+    Parameters
+    ----------
+    disc_speed, ball_speed : (n,) array
+        Signed surface velocities, m/s.
+    traction_force : (n,) array
+        Signed force on the ball's force cell, zero reading included, N.
+    load : (n,) array
+        Measured normal load, N.
+    temperature : (n,) array
+        K.
+    replicate : (n,) array of int
+        Number of the repetition that a row belongs to.
+    source : str
+        Where they came from.
+    notes : tuple of str
+        What the reader found doubtful or changed: one sentence each.
+    """
+
+    disc_speed: Array
+    ball_speed: Array
+    traction_force: Array
+    load: Array
+    temperature: Array
+    replicate: NDArray[np.int64]
+    source: str = ""
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        rows = np.size(self.disc_speed)
+        for name in ("disc_speed", "ball_speed", "traction_force", "load", "temperature"):
+            column = _column(getattr(self, name))
+            if column.shape != (rows,) or not np.all(np.isfinite(column)):
+                raise InputError(f"{name} of traction runs must be one row of finite numbers, one per reading.")
+            object.__setattr__(self, name, column)
+        replicate = np.array(self.replicate, dtype=np.int64)
+        if replicate.shape != (rows,):
+            raise InputError("replicate of traction runs must hold one whole number per reading.")
+        replicate.flags.writeable = False
+        object.__setattr__(self, "replicate", replicate)
+        if rows and not np.all(self.load > 0):
+            raise InputError("load of traction runs must be above zero in every reading.")
+
+    def __len__(self) -> int:
+        return len(self.disc_speed)

@@ -1,0 +1,47 @@
+"""The few exceptions that users of viscofric meet; every message is one clear sentence."""
+
+from __future__ import annotations
+
+
+class ViscofricError(Exception):
+    """Base of all errors that viscofric raises on purpose."""
+
+
+class InputError(ViscofricError, ValueError):
+    """A value given to viscofric cannot be used: wrong unit, sign, range or shape."""
+
+
+class DataFileError(InputError):
+    """A data file cannot be read as what it should be.
+
+    Parameters
+    ----------
+    path : str
+        The file, as the user named it.
+    problem : str
+        What is wrong and what would be right, without the file's name.
+    row : int, optional
+        Line of the file, counted from 1, where the trouble sits.
+    """
+
+    def __init__(self, path: object, problem: str, row: int | None = None) -> None:
+        self.path = str(path)
+        self.problem = problem
+        self.row = row
+        where = self.path if row is None else f"{self.path}, line {row}"
+        super().__init__(f"{where}: {problem}")
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.path, self.problem, self.row)
+
+
+class StudyError(InputError):
+    """A run file asks for something that cannot be done; names the file and the field."""
+
+
+class SuperpositionError(InputError):
+    """The isotherms cannot be joined into one master curve."""
+
+
+class ConvergenceError(ViscofricError, RuntimeError):
+    """An iterative solution did not reach its tolerance; it is never returned as if it had."""

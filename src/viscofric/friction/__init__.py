@@ -1,0 +1,1 @@
+"""Friction of viscoelastic solids: separated from measurements, predicted, shifted and compared."""

@@ -1,0 +1,232 @@
+"""Delimited text tables with a unit in every heading: decoded, split and checked cell by cell."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+# "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C": tried in this order.
+_BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
+_SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
+_UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>°?[CKF]|deg[CFK]|[mkM]?Hz|rad/s|[kMG]?Pa|m?N|[mc]?m/s|1/s)$")
+
+# How instruments write the units of temperature that pint would take for coulomb, farad or nothing at all.
+_TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column's heading.
+
+    Parameters
+    ----------
+    heading : str
+        As printed in the file.
+    name : str
+        The heading without its unit, single-spaced, all sorts of primes written as ``'`` and ``''``.
+    unit : str
+        The unit's text, empty if the heading has none.
+    """
+
+    heading: str
+    name: str
+    unit: str
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A delimited text table, still as text, with the file's line numbers.
+
+    Parameters
+    ----------
+    path : str
+        The file, as the user named it.
+    columns : tuple of Column
+        Headings, left to right.
+    rows : tuple of tuple of str
+        Cells of each row, as many as there are columns.
+    lines : (n,) array of int
+        Line of the file, counted from 1, that each row stands on.
+    decimal_comma : bool
+        Whether numbers are written as ``1,5``.
+    """
+
+    path: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, ...], ...]
+    lines: NDArray[np.int64]
+    decimal_comma: bool
+
+    def headings(self) -> str:
+        """Return the headings as one readable list, for error messages."""
+        return ", ".join(repr(column.heading) for column in self.columns)
+
+    def numbers(self, column: int) -> Array:
+        """Return a column as printed, every cell a finite number, or raise `DataFileError`."""
+        heading = self.columns[column].heading
+        return np.array(
+            [self._number(row[column], heading, int(line)) for row, line in zip(self.rows, self.lines, strict=True)]
+        )
+
+    def _number(self, cell: str, heading: str, line: int) -> float:
+        text = cell.strip()
+        if not text:
+            raise DataFileError(self.path, f"the cell in column {heading!r} is empty; give a number.", line)
+        plain = text.replace(",", ".") if self.decimal_comma and "." not in text else text
+        try:
+            value = float(plain)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value) or "_" in plain:
+            raise DataFileError(self.path, f"{text!r} in column {heading!r} is not a finite number.", line)
+        return value
+
+    def values(self, column: int, unit: str) -> Array:
+        """Return a column in an SI unit.
+
+        Parameters
+        ----------
+        column : int
+            Its place, counted from 0.
+        unit : str
+            The SI unit wanted, such as ``"Pa"`` or ``"K"``.
+
+        Returns
+        -------
+        (n,) array
+
+        Raises
+        ------
+        DataFileError
+            If a cell is not a finite number, or the heading's unit is missing or of the wrong kind.
+        """
+        factor, offset = self._conversion(self.columns[column], unit)
+        return factor * self.numbers(column) + offset
+
+    def _conversion(self, column: Column, unit: str) -> tuple[float, float]:
+        example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s"}.get(unit, unit)
+        if not column.unit:
+            right = f"{column.name} ({example})"
+            raise DataFileError(self.path, f"column {column.heading!r} has no unit; write it as {right!r}.")
+        text = column.unit
+        if unit == "K":
+            text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]|℃", "", text.replace("℃", "C")).lower(), text)
+        try:
+            return conversion(text, unit, column.heading)
+        except InputError:
+            raise DataFileError(
+                self.path,
+                f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}.",
+            ) from None
+
+    def find(self, names: frozenset[str], what: str) -> int | None:
+        """Return the place of the one column whose name is among `names`, or None.
+
+        A name is looked for as printed and in small letters, with underscores read as blanks.
+
+        Raises
+        ------
+        DataFileError
+            If several columns answer to these names; `what` says what they could both be.
+        """
+        found = [
+            place
+            for place, column in enumerate(self.columns)
+            if column.name in names or (len(column.name) > 1 and column.name.lower() in names)
+        ]
+        if len(found) > 1:
+            both = " and ".join(repr(self.columns[place].heading) for place in found)
+            raise DataFileError(self.path, f"{both} could each be the {what}; keep one of them.")
+        return found[0] if found else None
+
+
+def read_table(path: str | PathLike[str]) -> Table:
+    """Read a table of numbers separated by commas, semicolons or tabs, under one row of headings.
+
+    UTF-8 and UTF-16 (with a byte-order mark) are recognised, anything else is read as Latin-1.  Blank lines
+    and lines that begin with ``#`` are passed over.
+
+    Raises
+    ------
+    DataFileError
+        If there is no such file, it is a folder, empty or binary, or its rows are not as long as its header.
+    """
+    shown = str(path)
+    lines = [
+        (number, line)
+        for number, line in enumerate(_text(shown).splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if not lines:
+        raise DataFileError(shown, "the file is empty; it must hold a header and rows of numbers.")
+    first, header = lines[0]
+    delimiter = max("\t;,", key=header.count)
+    if delimiter not in header:
+        raise DataFileError(shown, "the header has no columns separated by commas, semicolons or tabs.", first)
+    columns = tuple(_column(heading) for heading in _cells(header, delimiter))
+    rows = []
+    for number, line in lines[1:]:
+        cells = _cells(line, delimiter)
+        while len(cells) > len(columns) and not cells[-1].strip():  # delimiters that close a row
+            cells.pop()
+        if len(cells) != len(columns):
+            problem = f"the row has {len(cells)} cells where the header names {len(columns)} columns."
+            raise DataFileError(shown, problem, number)
+        rows.append(tuple(cells))
+    if not rows:
+        raise DataFileError(shown, "there is a header, but no row of numbers under it.")
+    comma = delimiter != "," and any(re.fullmatch(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*", c) for r in rows for c in r)
+    numbers = np.array([number for number, _ in lines[1:]], dtype=np.int64)
+    return Table(shown, columns, tuple(rows), numbers, comma)
+
+
+def _text(path: str) -> str:
+    file = Path(path)
+    if file.is_dir():
+        raise DataFileError(path, "is a folder, not a data file.")
+    try:
+        data = file.read_bytes()
+    except FileNotFoundError:
+        raise DataFileError(path, "no such file.") from None
+    except OSError as error:
+        raise DataFileError(path, f"cannot be opened ({error.strerror or error}).") from None
+    try:
+        text = data.decode("utf-16") if data.startswith((b"\xff\xfe", b"\xfe\xff")) else data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    # Text has no control characters but tabs and ends of lines; a workbook or an image is full of them.
+    if any(ord(character) < 32 and character not in "\t\r\n\f\v" for character in text):
+        raise DataFileError(path, "is a binary file; a text table is wanted (export it as CSV).")
+    return text
+
+
+def _cells(line: str, delimiter: str) -> list[str]:
+    return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
+
+
+def _column(heading: str) -> Column:
+    heading = heading.strip()
+    plain = re.sub(r"[’′‘`´]", "'", heading).replace("″", "''").replace("”", "''").replace('"', "''")
+    name, unit = plain, ""
+    for pattern in (_BRACKETED, _SLASHED, _UNDERSCORED):
+        match = pattern.match(plain)
+        if match:
+            name, unit = match["name"], match["unit"]
+            break
+    return Column(heading, " ".join(name.replace("_", " ").split()), unit)

@@ -1,0 +1,46 @@
+"""Figures and an HTML report, made from a study's results alone: they can be made again from the file.
+
+Nothing here is loaded before it is used: matplotlib and Jinja2 take their time.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from viscofric.report.drawing import draw_figures
+    from viscofric.report.friction_figures import plot_friction_curves, plot_friction_master_curve
+    from viscofric.report.html import write_report
+    from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_shift_factors
+
+# public name -> the module that defines it
+_HOME = {
+    "draw_figures": "viscofric.report.drawing",
+    "plot_friction_curves": "viscofric.report.friction_figures",
+    "plot_friction_master_curve": "viscofric.report.friction_figures",
+    "plot_isotherms": "viscofric.report.rubber_figures",
+    "plot_master_curve": "viscofric.report.rubber_figures",
+    "plot_shift_factors": "viscofric.report.rubber_figures",
+    "write_report": "viscofric.report.html",
+}
+
+__all__ = [
+    "draw_figures",
+    "plot_friction_curves",
+    "plot_friction_master_curve",
+    "plot_isotherms",
+    "plot_master_curve",
+    "plot_shift_factors",
+    "write_report",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        return getattr(importlib.import_module(_HOME[name]), name)
+    raise AttributeError(f"module 'viscofric.report' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,0 +1,165 @@
+"""What was checked in a study, with its verdict and the numbers behind it, in words."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.report.numbers import percent, significant
+from viscofric.report.results import group, number, sentences, values
+from viscofric.units import to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import xarray as xr
+
+# What still counts as sound
+_OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
+_FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
+_WLF = 0.1  # decades of α, rms
+_COMPLEMENTARITY = 1e-6  # over the indentation
+_CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
+_SMALL_STRAIN = 0.3  # contact half-width over ball radius
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check: its name, whether it passed, and a sentence with the numbers."""
+
+    name: str
+    verdict: Literal["passed", "noted", "look at this", "failed"]
+    words: str
+
+
+def all_checks(tree: xr.DataTree) -> list[Check]:
+    """Return every check that the results allow, in the order of the calculation."""
+    return [*_superposition(tree), *_spectrum(tree), *_contact(tree), *_measurement(tree), *_cases(tree)]
+
+
+def _check(name: str, sound: bool, words: str) -> Check:
+    return Check(name, "passed" if sound else "look at this", words)
+
+
+def _decades(rms: float) -> str:
+    """Say an rms of log10 as a percentage."""
+    return percent(10.0**rms - 1.0)
+
+
+def _superposition(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield _check(
+            "Overlap of the isotherms",
+            max(storage, loss) <= _OVERLAP,
+            f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
+            f"{_decades(loss)} in the loss modulus (rms; up to {_decades(_OVERLAP)} counts as sound).",
+        )
+    rms = number(factors.attrs, "wlf_rms")
+    if math.isfinite(rms):
+        far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the WLF law"
+        if str(factors.attrs.get("shift_used", "measured")) == "wlf":
+            words = f"{far} that the prediction uses (up to {_WLF:g} counts as sound)."
+            yield _check("WLF law", rms <= _WLF, words)
+        else:
+            words = f"{far}; the prediction uses the measured shift factors, not this law."
+            yield Check("WLF law", "noted", words)
+
+
+def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
+    curve = group(tree, "master_curve")
+    if curve is None:
+        return
+    storage, loss = (number(curve.attrs, f"rms_log10_{name}") for name in ("storage", "loss"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield _check(
+            "Fit of the spectrum",
+            max(storage, loss) <= _FIT,
+            f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
+            f"measured loss modulus (rms; up to {_decades(_FIT)} counts as sound).",
+        )
+
+
+def _contact(tree: xr.DataTree) -> Iterator[Check]:
+    parts = [part for name in ("prediction", "prediction_master") if (part := group(tree, name)) is not None]
+    if not parts:
+        return
+
+    def largest(name: str) -> float:
+        sizes = np.abs(np.concatenate([values(part, name) for part in parts]))
+        sizes = sizes[np.isfinite(sizes)]
+        return float(sizes.max()) if sizes.size else math.nan
+
+    accuracy = number(tree.attrs, "accuracy")
+    energy = largest("energy_balance")
+    if math.isfinite(energy):
+        limit = accuracy if math.isfinite(accuracy) else 1e-3
+        yield _check(
+            "Energy balance",
+            energy <= limit * (1.0 + 1e-9),
+            "Friction from the pressure and friction from the energy dissipated, two independent paths, "
+            f"differ by {percent(energy)} at most (up to {percent(limit)}, the accuracy asked, is sound).",
+        )
+    violation = largest("complementarity")
+    if math.isfinite(violation):
+        yield _check(
+            "Contact conditions",
+            violation <= _COMPLEMENTARITY,
+            f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of "
+            f"the indentation at most (up to {significant(_COMPLEMENTARITY, 1)} counts as sound).",
+        )
+    ratio = largest("half_width") / _ball_radius(str(tree.attrs.get("indenter", "")))
+    if math.isfinite(ratio):
+        yield _check(
+            "Small strain",
+            ratio <= _SMALL_STRAIN,
+            f"The contact's half-width reaches {significant(ratio, 2)} of the ball's radius; above "
+            f"{_SMALL_STRAIN:g} the linear, half-space description of the contact is doubtful.",
+        )
+
+
+def _ball_radius(sentence: str) -> float:
+    """Return the radius (m) from a sentence such as 'ball of radius 9.525 mm', nan if it names none."""
+    _, found, text = sentence.partition("radius ")
+    try:
+        return to_si(" ".join(text.split()[:2]), "m", "radius") if found else math.nan
+    except InputError:
+        return math.nan
+
+
+def _measurement(tree: xr.DataTree) -> Iterator[Check]:
+    measurement = group(tree, "measurement")
+    if measurement is None:
+        return
+    left_over, error = values(measurement, "consistency"), values(measurement, "consistency_error")
+    known = np.isfinite(left_over) & np.isfinite(error)
+    if not known.any():
+        return
+    sound = int(np.sum(np.abs(left_over[known]) <= 2.0 * error[known]))
+    yield _check(
+        "Consistency of the four configurations",
+        sound >= _CONSISTENT * known.sum(),
+        "The combination of the four sign configurations that should vanish does so within twice its "
+        f"standard error at {sound} of {known.sum()} points; it reaches "
+        f"{significant(float(np.max(np.abs(left_over[known]))), 2)} of the load.",
+    )
+
+
+def _cases(tree: xr.DataTree) -> Iterator[Check]:
+    failures = sentences(tree.attrs, "failures")
+    if failures:
+        many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
+        yield Check("All cases solved", "failed", f"{many} could not be solved: see above.")
+    else:
+        yield Check(
+            "All cases solved",
+            "passed",
+            "Every case was solved to the accuracy asked for.",
+        )

@@ -1,0 +1,107 @@
+"""The report: one HTML page that needs nothing else, made from a study's results."""
+
+from __future__ import annotations
+
+import base64
+import re
+import shlex
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from viscofric.report.checks import all_checks
+from viscofric.report.drawing import figure_images
+from viscofric.report.results import group, is_synthetic, sentences, table
+from viscofric.report.tables import agreement_table, detail_tables, friction_at_a_glance
+from viscofric.report.words import captions, key_numbers, what_was_asked
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_HERE = Path(__file__).parent
+
+
+def write_report(tree: xr.DataTree, folder: str | Path) -> Path:
+    """Write the report of a study as one HTML file that loads nothing from elsewhere.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Results of a study; the same results give the same bytes.
+    folder : str or Path
+        Where ``report.html`` goes; made if need be.  A report that is there is replaced.
+
+    Returns
+    -------
+    Path
+        The file written.
+    """
+    import jinja2
+
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_HERE),
+        autoescape=True,
+        finalize=_printable,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    page = environment.get_template("report.html").render(_content(tree))
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8", newline="\n")
+    return path
+
+
+def _content(tree: xr.DataTree) -> dict[str, Any]:
+    """Gather what the page shows, as texts."""
+    attrs = {name: str(value) for name, value in tree.attrs.items()}
+    said = captions(tree)
+    images = figure_images(tree, ("svg",))
+    spectrum = group(tree, "spectrum")
+    return {
+        "title": attrs.get("title") or "Viscoelastic friction",
+        "synthetic": is_synthetic(tree),
+        "created": _moment(attrs.get("created", "")),
+        "version": attrs.get("viscofric_version", ""),
+        "asked": what_was_asked(tree),
+        "key_numbers": key_numbers(tree),
+        "glance": friction_at_a_glance(tree),
+        "agreement": agreement_table(tree),
+        "statements": [] if spectrum is None else sentences(spectrum.attrs, "statements"),
+        "checks": all_checks(tree),
+        "figures": [
+            {"name": name, "caption": caption, "source": _as_data(images[name]["svg"])}
+            for name, caption in said.items()
+            if name in images
+        ],
+        "tables": detail_tables(tree),
+        "failures": sentences(tree.attrs, "failures"),
+        "warnings": sentences(tree.attrs, "warnings"),
+        "notes": sentences(tree.attrs, "notes"),
+        "command": f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
+        "study_text": attrs.get("study_text", ""),
+        "software": table(tree.attrs, "software"),
+        "hashes": table(tree.attrs, "input_hashes"),
+        "style": (_HERE / "report.css").read_text(encoding="utf-8"),
+    }
+
+
+def _as_data(svg: bytes) -> str:
+    """Return an image as an address that carries it; shown as an image, its names and styles stay its own."""
+    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode("ascii")
+
+
+def _moment(text: str) -> str:
+    """Return a time in ISO format as readers write it."""
+    try:
+        moment = datetime.fromisoformat(text)
+    except ValueError:
+        return text
+    return moment.strftime("%Y-%m-%d %H:%M") + (" UTC" if moment.utcoffset() == timedelta(0) else "")
+
+
+def _printable(value: Any) -> Any:
+    """Leave out control characters, which HTML forbids, of what is not yet markup."""
+    return re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]", "", value) if type(value) is str else value

@@ -1,0 +1,65 @@
+"""Numbers as readers want them: a few significant digits, a true minus sign, a dash where there is none."""
+
+from __future__ import annotations
+
+import math
+
+ABSENT = "–"
+_SPACE = "\N{NO-BREAK SPACE}"
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """Return a number with so many significant digits; very large and very small ones as 1.23 × 10⁻⁵."""
+    if not math.isfinite(value):
+        return ABSENT
+    if value == 0.0:
+        return "0"
+    mantissa, power = f"{value:.{digits - 1}e}".split("e")
+    exponent = int(power)
+    if -4 <= exponent < 6:
+        plain = f"{float(f'{value:.{digits - 1}e}'):.{max(0, digits - 1 - exponent)}f}"
+        return plain.replace("-", "−")
+    return f"{mantissa}{_SPACE}×{_SPACE}10{str(exponent).translate(_RAISED)}".replace("-", "−")
+
+
+def short(value: float, digits: int = 4) -> str:
+    """Return a number for running text: at most so many digits, no zeros at the end."""
+    text = significant(value, digits)
+    return text.rstrip("0").rstrip(".") if "." in text and "×" not in text else text
+
+
+def percent(share: float, digits: int = 2) -> str:
+    """Return a share as a percentage."""
+    return ABSENT if not math.isfinite(share) else f"{significant(100.0 * share, digits)}{_SPACE}%"
+
+
+def signed_percent(share: float) -> str:
+    """Return a relative difference as a percentage with its sign and one decimal."""
+    if not math.isfinite(share):
+        return ABSENT
+    return f"{100.0 * share:+.1f}{_SPACE}%".replace("-", "−")
+
+
+def with_error(value: float, error: float) -> str:
+    """Return a value to the digits that its error leaves: 10.04 ± 0.05."""
+    if not math.isfinite(value):
+        return ABSENT
+    if not math.isfinite(error) or error <= 0.0:
+        return significant(value, 4)
+    decimals = max(0, 1 - math.floor(math.log10(error)))
+    if decimals > 9:
+        return f"{significant(value, 6)} ± {significant(error, 2)}"
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
+
+
+def megapascals(pascals: float, digits: int = 3) -> str:
+    """Return a modulus or pressure with its unit: MPa, or GPa from a thousand of them on."""
+    if abs(pascals) >= 1e9:
+        return f"{significant(pascals / 1e9, digits)}{_SPACE}GPa"
+    return f"{significant(pascals / 1e6, digits)}{_SPACE}MPa"
+
+
+def several(texts: list[str]) -> str:
+    """Join texts in words: a, b and c."""
+    return " and ".join([", ".join(texts[:-1]), texts[-1]]) if len(texts) > 1 else "".join(texts)

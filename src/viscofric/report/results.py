@@ -1,0 +1,97 @@
+"""Reading a study's results: groups that may be absent, attributes that a netCDF file stores as text."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+#: Temperatures closer than this are one nominal temperature, K.
+SAME_TEMPERATURE = 0.5
+
+
+def group(tree: xr.DataTree, name: str) -> xr.Dataset | None:
+    """Return a group of the results, or None if it is absent or holds no values."""
+    child = tree.children.get(name)
+    if child is None:
+        return None
+    dataset = child.to_dataset()
+    empty = not dataset.data_vars or any(size == 0 for size in dataset.sizes.values())
+    return None if empty else dataset
+
+
+def number(attributes: Mapping[Any, Any], name: str) -> float:
+    """Return an attribute as a float, nan if it is absent or not a number."""
+    try:
+        return float(attributes.get(name, math.nan))
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def sentences(attributes: Mapping[Any, Any], name: str) -> list[str]:
+    """Return an attribute that is a list of sentences, written as JSON or as a list."""
+    found = _from_json(attributes.get(name, []))
+    if isinstance(found, str):
+        return [found] if found else []
+    return [str(sentence) for sentence in found]
+
+
+def table(attributes: Mapping[Any, Any], name: str) -> dict[str, str]:
+    """Return an attribute that is a mapping of texts, written as JSON or as a dict."""
+    found = _from_json(attributes.get(name, {}))
+    return {str(key): str(value) for key, value in found.items()} if isinstance(found, dict) else {}
+
+
+def _from_json(value: Any) -> Any:
+    if not isinstance(value, str):
+        return value
+    try:
+        return json.loads(value)
+    except ValueError:
+        return value
+
+
+def is_synthetic(tree: xr.DataTree) -> bool:
+    """Whether the results rest on synthetic data; what does not say that it was measured is not believed."""
+    return str(tree.attrs.get("data_origin", "synthetic")) != "measured"
+
+
+def values(dataset: xr.Dataset, name: str) -> Array:
+    """Return a variable as floats, nan throughout if it is absent."""
+    if name in dataset.variables:
+        return np.asarray(dataset[name].values, dtype=float)
+    return np.full(next(iter(dataset.sizes.values())), np.nan)
+
+
+def nominal_temperatures(*temperatures: Array) -> Array:
+    """Return the different temperatures among columns, K, ascending: means of those that are close."""
+    together: Array = np.sort(np.concatenate([np.ravel(column) for column in temperatures]))
+    together = together[np.isfinite(together)]
+    if together.size == 0:
+        return together
+    parts = np.split(together, np.flatnonzero(np.diff(together) > SAME_TEMPERATURE) + 1)
+    means: Array = np.array([part.mean() for part in parts])
+    return means
+
+
+def nearest(nominal: Array, temperature: Array) -> NDArray[np.int64]:
+    """Return, for each temperature, the index of the nominal one nearest to it."""
+    index: NDArray[np.int64] = np.abs(np.asarray(temperature)[:, None] - nominal[None, :]).argmin(axis=1)
+    return index
+
+
+def reference_temperature(tree: xr.DataTree) -> float | None:
+    """Temperature at which the shift factor is one, K, or None if the results do not say."""
+    factors = group(tree, "shift_factors")
+    found = math.nan if factors is None else number(factors.attrs, "reference_temperature")
+    return found if math.isfinite(found) else None

@@ -1,0 +1,119 @@
+"""A rubber: its retardation spectrum, how temperature shifts it, and its Poisson ratio."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from viscofric.errors import InputError
+from viscofric.rheology.shift_laws import ShiftLaw
+from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.units import positive, to_si
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.units import Quantity
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """A linear viscoelastic, incompressible or nearly incompressible rubber.
+
+    E(ω, T) = E(α(T) ω, reference) (paper, Eq. 4); the Poisson ratio is constant.
+
+    Parameters
+    ----------
+    spectrum : RetardationSpectrum
+        At the shift's reference temperature.
+    shift : ShiftLaw or ShiftFactors, optional
+        α(T).  Without it the material is what it is, and cannot be asked for a temperature.
+    poisson_ratio : float
+        0 to 0.5.
+    name : str
+        Shown in reports.
+
+    Raises
+    ------
+    InputError
+        If the Poisson ratio is out of range, or spectrum or shift are not what they should be.
+    """
+
+    spectrum: RetardationSpectrum
+    shift: ShiftLaw | None = None
+    poisson_ratio: float = 0.5
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.spectrum, RetardationSpectrum):
+            raise InputError(
+                f"spectrum of a material must be a RetardationSpectrum, not {type(self.spectrum).__name__}."
+            )
+        if not (self.shift is None or isinstance(self.shift, ShiftLaw)):
+            raise InputError(f"shift of a material must be a law or ShiftFactors, not {type(self.shift).__name__}.")
+        ratio = to_si(self.poisson_ratio, "dimensionless", "poisson_ratio")
+        if not 0.0 <= ratio <= 0.5:
+            raise InputError(f"poisson_ratio = {ratio:g}: must lie between 0 and 0.5.")
+        object.__setattr__(self, "poisson_ratio", ratio)
+
+    @classmethod
+    def standard_linear_solid(
+        cls, E0: Quantity, E_inf: Quantity, tau: Quantity, poisson_ratio: float = 0.5
+    ) -> Material:
+        """Return the rubber with one mode, C = 1/E0 − 1/E_inf.
+
+        Parameters
+        ----------
+        E0, E_inf : float or quantity
+            Rubber and glass modulus, E0 below E_inf, Pa.
+        tau : float or quantity
+            **Retardation** time, s; the relaxation time is tau E0/E_inf.
+        poisson_ratio : float
+            0 to 0.5.
+
+        Raises
+        ------
+        InputError
+            If a value is not above zero, or E0 is not below E_inf.
+        """
+        rubber, glass = positive(E0, "Pa", "E0"), positive(E_inf, "Pa", "E_inf")
+        if not rubber < glass:
+            raise InputError(f"E0 = {rubber:g} Pa must be below E_inf = {glass:g} Pa.")
+        time = positive(tau, "s", "tau")
+        spectrum = RetardationSpectrum(rubber, glass, [1.0 / rubber - 1.0 / glass], [time])
+        return cls(spectrum, poisson_ratio=poisson_ratio, name="standard linear solid")
+
+    @property
+    def reference(self) -> float | None:
+        """Temperature at which `spectrum` holds, K; None where no shift says it."""
+        return None if self.shift is None else float(self.shift.reference)
+
+    def at(self, temperature: Quantity | None = None) -> RetardationSpectrum:
+        """Return the spectrum at a temperature.
+
+        Parameters
+        ----------
+        temperature : float or quantity, optional
+            K, or text such as ``"60 degC"``; None stands for the reference.
+
+        Raises
+        ------
+        InputError
+            If a temperature is asked of a material without a shift, or one where its shift has no meaning.
+        """
+        if temperature is None:
+            return self.spectrum
+        if self.shift is None:
+            raise InputError(
+                f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be "
+                "chosen; give Material(spectrum, shift=WLF(…)) or leave the temperature out."
+            )
+        alpha = float(self.shift(positive(temperature, "K", "temperature")))
+        return self.spectrum if alpha == 1.0 else self.spectrum.shifted(alpha)
+
+    def complex_modulus(
+        self, angular_frequency: ArrayLike, temperature: Quantity | None = None
+    ) -> NDArray[np.complex128]:
+        """Return E(ω, T) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
+        return self.at(temperature).complex_modulus(angular_frequency)

@@ -1,0 +1,149 @@
+"""Overlap of neighbouring isotherms: where two sweeps join, and how well a set of shifts joins all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import Isotherm
+
+    Array = NDArray[np.float64]
+
+#: Sweeps are slid along each other in steps of this many decades …
+STEP = 0.02
+#: … while at least this part of the shorter one lies over the other.
+SMALLEST_OVERLAP = 0.1
+#: Steps that differ by more than this and join equally well show a plateau.
+FLAT = 0.5  # decades
+#: Neighbours that disagree by so many times what is typical do not superpose; see `failures`.
+FAILURE = 5.0
+#: … and by this at least, which interpolation between sparse points or the grid of steps cannot make.
+SMALLEST_FAILURE = 0.03  # decades
+SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
+
+
+@dataclass(frozen=True, eq=False)
+class LogSweep:
+    """One isotherm in logarithms: frequency (n,), and moduli (n, 2), storage and loss."""
+
+    frequency: Array
+    moduli: Array
+
+    @classmethod
+    def of(cls, isotherm: Isotherm) -> LogSweep:
+        """Take base-10 logarithms of an isotherm in rad/s and Pa."""
+        moduli = np.stack([isotherm.storage_modulus, isotherm.loss_modulus], axis=1)
+        return cls(np.log10(isotherm.angular_frequency), np.log10(moduli))
+
+    def __len__(self) -> int:
+        return len(self.frequency)
+
+    def at(self, frequency: Array) -> Array:
+        """Interpolate log moduli linearly in log frequency; returns the shape of `frequency` and (2,)."""
+        return np.stack([np.interp(frequency, self.frequency, column) for column in self.moduli.T], axis=-1)
+
+    def covers(self, frequency: Array) -> NDArray[np.bool_]:
+        """Say which frequencies lie within the sweep."""
+        inside: NDArray[np.bool_] = (frequency >= self.frequency[0]) & (frequency <= self.frequency[-1])
+        return inside
+
+
+@dataclass(frozen=True)
+class Join:
+    """Best joint overlap of two sweeps.
+
+    Parameters
+    ----------
+    step : float
+        log10 α of the colder less that of the warmer.
+    misfit : float
+        Joint rms √((ΔE'² + ΔE''²)/2) of the log moduli where they overlap, decades.
+    uncertainty : float
+        Standard error of the step if that misfit were noise; large on a plateau.
+    """
+
+    step: float
+    misfit: float
+    uncertainty: float
+
+
+def join(colder: LogSweep, warmer: LogSweep) -> Join:
+    """Slide one sweep along the other and find where E' and E'' overlap best, jointly.
+
+    The colder one is compared at its own points, as in `OverlapQuality`.  Where the data cannot tell (a
+    plateau), the smallest of the equally good steps is taken.
+    """
+    span = min(np.ptp(colder.frequency), np.ptp(warmer.frequency))
+    margin = SMALLEST_OVERLAP * span
+    lowest = warmer.frequency[0] - colder.frequency[-1] + margin
+    highest = warmer.frequency[-1] - colder.frequency[0] - margin
+    steps = np.linspace(lowest, highest, max(3, int((highest - lowest) / STEP)))
+    frequency = colder.frequency + steps[:, None]
+    inside = warmer.covers(frequency)
+    count = 2 * np.sum(inside, axis=1)
+    differences = inside[..., None] * (warmer.at(frequency) - colder.moduli)
+    misfit = np.sqrt(np.sum(differences**2, axis=(1, 2)) / np.maximum(count, 1))
+    misfit[count < 4] = np.inf  # two points of each modulus are the least that show a curve
+    best = int(np.argmin(misfit))
+    as_good = steps[misfit <= 1.05 * misfit[best] + 1e-4]
+    if np.ptp(as_good) > FLAT:
+        best = int(np.argmin(np.abs(steps - as_good[np.argmin(np.abs(as_good))])))
+    slope = np.gradient(colder.moduli, colder.frequency, axis=0)[inside[best]]
+    uncertainty = misfit[best] / max(float(np.linalg.norm(slope)), 1e-6)
+    return Join(float(steps[best]), float(misfit[best]), float(uncertainty))
+
+
+def typical_noise(joins: list[Join]) -> float:
+    """Return the median misfit of neighbours, decades: the noise, where superposition holds."""
+    return float(np.median([found.misfit for found in joins])) + SMALLEST_NOISE
+
+
+def failures(joins: list[Join]) -> list[int]:
+    """Return the places of joins where superposition itself fails: misfits many times the typical one."""
+    limit = max(FAILURE * typical_noise(joins), SMALLEST_FAILURE)
+    return [place for place, found in enumerate(joins) if found.misfit > limit]
+
+
+@dataclass(frozen=True)
+class OverlapQuality:
+    """How well shifted isotherms overlap with their neighbours.
+
+    Each isotherm, shifted, is compared at its own points with the next warmer one where their reduced
+    frequencies overlap (linear interpolation in log–log).
+
+    Parameters
+    ----------
+    storage, loss : float
+        Root mean square of the difference of log10 E', and of log10 E'', over all neighbours; decades.
+    points : int
+        Number of points compared.
+    """
+
+    storage: float
+    loss: float
+    points: int
+
+    @property
+    def joint(self) -> float:
+        """√((storage² + loss²)/2), decades."""
+        return float(np.sqrt(0.5 * (self.storage**2 + self.loss**2)))
+
+
+def overlap_quality(sweeps: list[LogSweep], log10_shifts: Array) -> OverlapQuality:
+    """Compare every shifted isotherm with its warmer neighbour; see `OverlapQuality`."""
+    differences = [np.empty((0, 2))]
+    for index in range(len(sweeps) - 1):
+        colder, warmer = sweeps[index], sweeps[index + 1]
+        frequency = colder.frequency + log10_shifts[index] - log10_shifts[index + 1]
+        inside = warmer.covers(frequency)
+        differences.append(warmer.at(frequency[inside]) - colder.moduli[inside])
+    every = np.concatenate(differences)
+    if not len(every):
+        return OverlapQuality(0.0, 0.0, 0)
+    storage, loss = np.sqrt(np.mean(every**2, axis=0))
+    return OverlapQuality(float(storage), float(loss), len(every))

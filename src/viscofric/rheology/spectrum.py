@@ -1,0 +1,163 @@
+"""The retardation spectrum: one rubber's compliance, modulus and creep at one temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.units import positive, to_si
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+    Complex = NDArray[np.complex128]
+
+#: How exactly 1/E_inf + ΣC must meet 1/E0, relative to 1/E0.
+BALANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class SpectrumFit:
+    """How well a spectrum describes the master curve that it was fitted to.
+
+    Parameters
+    ----------
+    rms_storage, rms_loss : float
+        Root mean square of the difference of log10 E', and of log10 E''; decades.
+    E0_extrapolated : bool
+        Whether the rubber plateau lies outside the measurement: E' at the lowest measured frequency exceeds
+        E0 by more than 5 %, or the measured loss tangent there is above 0.1.
+    E_inf_extrapolated : bool
+        Likewise the glass: E_inf exceeds E' at the highest frequency by more than 5 %, or the loss tangent
+        there is above 0.1.
+    frequency_range : tuple of float
+        Lowest and highest reduced angular frequency measured, rad/s; beyond them the spectrum extrapolates.
+    notes : tuple of str
+        The same in sentences.
+    """
+
+    rms_storage: float
+    rms_loss: float
+    E0_extrapolated: bool
+    E_inf_extrapolated: bool
+    frequency_range: tuple[float, float]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class RetardationSpectrum:
+    """Retardation modes of a rubber at one temperature.
+
+    Creep compliance and complex compliance are (paper, Eqs. 5 and 3; convention e^{+iωt})::
+
+        J(t) = 1/E0 − Σ C_k exp(−t/τ_k)
+        S(ω) = 1/E(ω) = 1/E_inf + Σ C_k / (1 + iωτ_k),    1/E_inf = 1/E0 − Σ C_k
+
+    Parameters
+    ----------
+    E0 : float or quantity
+        Rubber modulus E(0), above zero, Pa.
+    E_inf : float or quantity
+        Glass modulus E(∞), Pa.
+    C : (n,) array
+        Compliance of each mode, not below zero, 1/Pa.
+    tau : (n,) array
+        Retardation times, above zero, s.
+    fit : SpectrumFit, optional
+        How it was found, where it was fitted.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range, the arrays differ in length, E0 is zero (a liquid has no rubber
+        plateau), or 1/E_inf + ΣC differs from 1/E0 by more than a millionth.
+    """
+
+    E0: float
+    E_inf: float
+    C: Array
+    tau: Array
+    fit: SpectrumFit | None = field(default=None, repr=False)
+
+    def __init__(
+        self, E0: Quantity, E_inf: Quantity, C: ArrayLike, tau: ArrayLike, fit: SpectrumFit | None = None
+    ) -> None:
+        if to_si(E0, "Pa", "E0") == 0.0:
+            raise InputError("E0 = 0: a liquid has no rubber plateau; a spectrum needs E0 above zero.")
+        object.__setattr__(self, "E0", positive(E0, "Pa", "E0"))
+        object.__setattr__(self, "E_inf", positive(E_inf, "Pa", "E_inf"))
+        object.__setattr__(self, "C", _modes(C, "C", "1/Pa"))
+        object.__setattr__(self, "tau", _modes(tau, "tau", "s"))
+        object.__setattr__(self, "fit", fit)
+        if self.C.shape != self.tau.shape:
+            raise InputError(f"C and tau must be as many: there are {len(self.C)} and {len(self.tau)}.")
+        if np.any(self.C < 0.0) or np.any(self.tau <= 0.0):
+            raise InputError("C must not be below zero and tau must be above zero in every mode.")
+        glass = 1.0 / self.E0 - float(np.sum(self.C))
+        if abs(glass - 1.0 / self.E_inf) > BALANCE / self.E0:
+            raise InputError(
+                f"the modes do not join E0 to E_inf: 1/E0 − ΣC = {glass:.6g} 1/Pa, but 1/E_inf = "
+                f"{1.0 / self.E_inf:.6g} 1/Pa; give C with ΣC = 1/E0 − 1/E_inf."
+            )
+
+    def __len__(self) -> int:
+        return len(self.C)
+
+    def compliance(self, angular_frequency: ArrayLike) -> Complex:
+        """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
+        omega = np.asarray(angular_frequency, dtype=float)
+        # Mode by mode: a grid of a million frequencies would not fit into memory forty times.
+        total = np.full(omega.shape, 1.0 / self.E_inf, dtype=complex)
+        for compliance, time in zip(self.C, self.tau, strict=True):
+            total += compliance / (1.0 + 1j * omega * time)
+        return total
+
+    def complex_modulus(self, angular_frequency: ArrayLike) -> Complex:
+        """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
+        return np.asarray(1.0 / self.compliance(angular_frequency))
+
+    def storage_modulus(self, angular_frequency: ArrayLike) -> Array:
+        """Return E'(ω), Pa."""
+        return np.asarray(self.complex_modulus(angular_frequency).real)
+
+    def loss_modulus(self, angular_frequency: ArrayLike) -> Array:
+        """Return E''(ω), Pa."""
+        return np.asarray(self.complex_modulus(angular_frequency).imag)
+
+    def loss_tangent(self, angular_frequency: ArrayLike) -> Array:
+        """Return tan δ = E''/E'."""
+        modulus = self.complex_modulus(angular_frequency)
+        return np.asarray(modulus.imag / modulus.real)
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """Return J(t), 1/Pa, in the shape of `time` (s, not below zero)."""
+        seconds = np.asarray(time, dtype=float)
+        if np.any(seconds < 0.0):
+            raise InputError("time of a creep compliance must not be below zero.")
+        total = np.full(seconds.shape, 1.0 / self.E_inf)
+        for compliance, retardation in zip(self.C, self.tau, strict=True):
+            total -= compliance * np.expm1(-seconds / retardation)
+        return total
+
+    def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
+        """Return the spectrum at a temperature with shift factor α (and vertical shift b).
+
+        From E(ω, T) = b E(αω, T0) (paper, Eq. 4): every τ becomes ατ, every modulus b times what it was.
+        """
+        if not (np.isfinite(alpha) and alpha > 0.0 and np.isfinite(b) and b > 0.0):
+            raise InputError(f"alpha = {alpha!r}, b = {b!r}: shifts must be above zero and finite.")
+        return RetardationSpectrum(b * self.E0, b * self.E_inf, self.C / b, alpha * self.tau, self.fit)
+
+
+def _modes(values: Any, name: str, unit: str) -> Array:
+    column = np.atleast_1d(np.array(values, dtype=float))
+    if column.ndim != 1 or not np.all(np.isfinite(column)):
+        raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.")
+    column.flags.writeable = False
+    return column

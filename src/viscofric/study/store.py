@@ -1,0 +1,126 @@
+"""Finished cases on disk, one small file each: an interrupted study takes up where it stopped."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import tempfile
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from viscofric.errors import DataFileError
+
+if TYPE_CHECKING:
+    from viscofric.contact.solution import ContactSolution
+
+# Raise when the solver changes its answers, so that stored cases of an older one are not taken for new.
+SOLVER_VERSION = 1
+
+
+@dataclass(frozen=True)
+class CaseRecord:
+    """The numbers of one solved contact, all SI; see `ContactSolution` and `Diagnostics`."""
+
+    speed: float
+    temperature: float
+    load: float
+    friction_coefficient: float
+    friction_error: float
+    indentation: float
+    contact_area: float
+    front: float
+    rear: float
+    half_width: float
+    max_pressure: float
+    energy_balance: float
+    complementarity: float
+    cells: int
+    products: int
+    warnings: tuple[str, ...]
+
+    @classmethod
+    def of(cls, solution: ContactSolution, temperature: float) -> CaseRecord:
+        """Take the numbers out of a solution."""
+        diagnostics = solution.diagnostics
+        return cls(
+            speed=solution.speed,
+            temperature=temperature,
+            load=solution.load,
+            friction_coefficient=solution.friction_coefficient,
+            friction_error=diagnostics.friction_error,
+            indentation=solution.indentation,
+            contact_area=solution.contact_area,
+            front=solution.front,
+            rear=solution.rear,
+            half_width=solution.half_width,
+            max_pressure=solution.max_pressure,
+            energy_balance=diagnostics.energy,
+            complementarity=diagnostics.complementarity,
+            cells=max(diagnostics.shape),
+            products=diagnostics.products,
+            warnings=solution.warnings,
+        )
+
+
+def case_key(description: dict[str, object]) -> str:
+    """Return a name for a case that changes with anything that could change its answer."""
+    text = json.dumps({"solver": SOLVER_VERSION, **description}, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+@dataclass(frozen=True)
+class CaseStore:
+    """A folder of finished cases.
+
+    Parameters
+    ----------
+    folder : Path
+        Made when the first case is put into it.
+    """
+
+    folder: Path
+
+    def get(self, key: str) -> CaseRecord | None:
+        """Return a finished case, or None if there is none (or its file was cut off by a crash)."""
+        try:
+            values = json.loads(self._path(key).read_text(encoding="utf-8"))
+            return CaseRecord(**{**values, "warnings": tuple(values["warnings"])})
+        except (FileNotFoundError, json.JSONDecodeError, UnicodeDecodeError, TypeError, KeyError):
+            return None
+
+    def put(self, key: str, record: CaseRecord) -> None:
+        """Store a finished case; it is either there whole or not at all."""
+        write_atomically(self._path(key), json.dumps(asdict(record)).encode())
+
+    def _path(self, key: str) -> Path:
+        return self.folder / f"{key}.json"
+
+
+NUMBERS = tuple(field.name for field in fields(CaseRecord) if field.name != "warnings")
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Write a file by way of a temporary one beside it, moved into place when it is complete.
+
+    Raises
+    ------
+    DataFileError
+        If the folder or the file cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        temporary = Path(name)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            temporary.replace(path)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error

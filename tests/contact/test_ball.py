@@ -1,0 +1,437 @@
+"""A ball in steady motion: known answers, energy balance, limits, similarities, refusals."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gallery import (
+    BALL_RADIUS,
+    BALL_REFERENCES,
+    HERTZ_RADIUS,
+    LOAD,
+    POISSON_RATIO,
+    RUBBER_MODULUS,
+    SPEED,
+    BallProblem,
+    BallReference,
+    ball_problem,
+    broad_spectrum_25,
+    high_speed_friction,
+    in_hertz_units,
+    low_speed_friction,
+    standard_linear_solid,
+)
+from viscofric.contact.complementarity import solve_complementarity
+from viscofric.contact.grids import Window
+from viscofric.contact.indenters import Ball
+from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.reference import hertz_ball
+from viscofric.contact.steady import solve_steady
+from viscofric.errors import ConvergenceError, InputError
+from viscofric.rheology.material import Material
+from viscofric.rheology.shift_laws import WLF
+from viscofric.rheology.spectrum import RetardationSpectrum
+
+if TYPE_CHECKING:
+    from viscofric.contact.solution import ContactSolution
+
+SLS = standard_linear_solid(10.0, 1.0)
+
+
+# --- elastic limits -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("speed", "modulus_ratio"), [(0.0, 1.0), (math.inf, 10.0)], ids=["v = 0", "v = ∞"])
+def test_limits_of_speed_are_hertz_contacts(speed: float, modulus_ratio: float) -> None:
+    hertz = hertz_ball(LOAD, BALL_RADIUS, modulus_ratio * RUBBER_MODULUS, POISSON_RATIO)
+    solution = solve_steady(SLS.material, SLS.ball, speed=speed, load=LOAD)
+    # The friction of an elastic contact is zero on every grid, so the solver stops at the first refinement:
+    # about 50 cells across the contact. One percent is a quarter of such a cell at the edge.
+    assert solution.indentation == pytest.approx(hertz.indentation, rel=0.001)
+    assert solution.max_pressure == pytest.approx(hertz.max_pressure, rel=0.005)
+    for edge in (solution.front, solution.rear, solution.half_width):
+        assert edge == pytest.approx(hertz.radius, rel=0.01)
+    # Cells are counted: a fringe of a fraction of a cell, 2/50 of the area per cell.
+    assert solution.contact_area == pytest.approx(math.pi * hertz.radius**2, rel=0.03)
+    # Symmetric about a corner of cells: round-off only.
+    assert abs(solution.friction_coefficient) < 1e-12
+    assert solution.energy_friction_coefficient == 0.0
+
+
+@pytest.mark.parametrize(("memory_length", "modulus_ratio"), [(1e-7, 1.0), (1e9, 10.0)], ids=["slow", "fast"])
+def test_extreme_speeds_approach_hertz(memory_length: float, modulus_ratio: float) -> None:
+    problem = standard_linear_solid(10.0, memory_length)
+    hertz = hertz_ball(LOAD, BALL_RADIUS, modulus_ratio * RUBBER_MODULUS, POISSON_RATIO)
+    solution = problem.solve(accuracy=0.1)
+    # On a grid of 64 or 128 cells, as above; memory adds about 1e-7, or ln(l)/l = 2e-8.
+    assert solution.indentation == pytest.approx(hertz.indentation, rel=0.002)
+    assert solution.front == pytest.approx(hertz.radius, rel=0.01)
+    assert abs(solution.friction_coefficient) < 1e-6
+
+
+def hertz_on_grid(cells: int) -> tuple[float, float, float]:
+    """Errors of indentation, contact radius and largest pressure of Hertz's contact on one grid."""
+    window = Window.around(1.3, 1.3, 1.3, cells)
+    x, y = window.x[:, None], window.y
+    operator = HalfSpaceOperator(window, SteadyMaterial(1.0, np.empty(0), np.empty(0)))
+    load = 4.0 / 3.0 / window.cell_area
+    guess = np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
+    solution = solve_complementarity(operator, 0.5 * (x**2 + y**2), load, guess)
+    radius = math.sqrt(np.count_nonzero(solution.pressure) * window.cell_area / math.pi)
+    return (
+        abs(solution.indentation - 1.0),
+        abs(radius - 1.0),
+        abs(solution.pressure.max() * math.pi / 2.0 - 1.0),
+    )
+
+
+def test_hertz_contact_converges_with_the_grid() -> None:
+    errors = np.array([hertz_on_grid(cells) for cells in (32, 128, 512)])
+    assert np.all(errors[1] < 0.005)  # half a percent on 128 × 128 cells
+    orders = 0.5 * np.log2(errors[:-1, 0] / errors[1:, 0])
+    assert np.all(orders > 0.9)  # the square-root edge allows no less than first order
+    assert np.all(errors[2] < errors[0])
+
+
+# --- viscoelastic reference values ----------------------------------------------------------------
+
+
+def test_friction_of_a_standard_linear_solid() -> None:
+    result = in_hertz_units(SLS, SLS.solve())
+    # Independent dense solution: 0.395623 and 0.863992; the default accuracy of 1e-3 is 4e-4 of the friction.
+    assert result.friction == pytest.approx(0.3956, abs=5e-4)
+    assert result.indentation == pytest.approx(0.8640, abs=5e-4)
+
+
+SLOW_REFERENCES = ("k = 10, vτ/a0 = 0.1", "25 modes, k = 10, vτ_max/a0 = 1", "25 modes", "37 modes")
+
+
+@pytest.mark.parametrize(
+    "reference",
+    [
+        pytest.param(
+            one,
+            id=one.problem.name,
+            marks=[pytest.mark.slow] if any(slow in one.problem.name for slow in SLOW_REFERENCES) else [],
+        )
+        for one in BALL_REFERENCES
+    ],
+)
+def test_reference_values(reference: BallReference) -> None:
+    accuracy = 1e-4
+    solution = reference.problem.solve(accuracy=accuracy)
+    result = in_hertz_units(reference.problem, solution)
+    # The reference's own error bar, and three times the accuracy asked for.
+    for found, known in (
+        (result.friction, reference.friction),
+        (result.indentation, reference.indentation),
+        (result.max_pressure, reference.max_pressure),
+    ):
+        assert found == pytest.approx(known.value, abs=known.error + 3.0 * accuracy * known.value)
+    assert result.energy_friction == pytest.approx(result.friction, rel=accuracy)
+    # A contact on a grid ends within a cell.
+    for found, known in (
+        (result.front, reference.front),
+        (result.rear, reference.rear),
+        (result.side, reference.side),
+    ):
+        assert found == pytest.approx(known.value, abs=result.cell + known.error)
+    # Its circumference, 2πr, times half a cell.
+    area_error = result.side * result.cell + reference.area.error
+    assert result.area == pytest.approx(reference.area.value, abs=area_error)
+
+
+# --- errors and their estimates -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("problem", [SLS, standard_linear_solid(1000.0, 100.0)], ids=lambda p: p.name)
+def test_friction_converges_with_the_grid(problem: BallProblem) -> None:
+    solution = problem.solve(accuracy=3e-5)
+    cells, friction, indentation = (np.array(level) for level in zip(*solution.diagnostics.levels, strict=True))
+    assert np.all(cells[1:] >= 2 * cells[:-1] - 2)
+    for values in (friction, indentation):
+        changes = np.abs(np.diff(values))
+        # First order at least, from the first to the last step (single steps jump as cells cross the edge).
+        assert changes[-1] < changes[0] * 0.5 ** (len(changes) - 1)
+
+
+@pytest.mark.parametrize("accuracy", [1e-2, 1e-3, 1e-4])
+def test_true_error_is_within_the_estimate(accuracy: float) -> None:
+    for reference in (BALL_REFERENCES[0], BALL_REFERENCES[2], BALL_REFERENCES[3]):
+        solution = reference.problem.solve(accuracy=accuracy)
+        result = in_hertz_units(reference.problem, solution)
+        assert result.friction_error <= accuracy * result.friction
+        # The last change is a fair estimate of what is left, not a bound: twice it.
+        error = abs(result.friction - reference.friction.value)
+        assert error <= 2.0 * result.friction_error + reference.friction.error
+
+
+def test_two_ways_to_friction_agree_better_on_finer_grids() -> None:
+    def disagreement(accuracy: float) -> float:
+        result = in_hertz_units(SLS, SLS.solve(accuracy=accuracy))
+        return abs(result.friction - result.energy_friction)
+
+    # From 64 to 256 or more cells: first order at least gives a quarter; a half allows for single-grid luck.
+    assert disagreement(3e-5) < 0.5 * disagreement(1e-2)
+
+
+def test_diagnostics_tell_the_work_and_the_residuals() -> None:
+    diagnostics = SLS.solve(tolerance=1e-9).diagnostics
+    assert diagnostics.complementarity <= 1e-9
+    assert diagnostics.load < 1e-12  # scaled to the load: round-off
+    assert diagnostics.products >= diagnostics.linear_iterations > 0
+    assert diagnostics.ffts > 2 * diagnostics.products - 1
+    assert diagnostics.levels[-1][1] == pytest.approx(SLS.solve(tolerance=1e-9).friction_coefficient, rel=1e-12)
+
+
+# --- limits of speed, direction -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("problem", "accuracy"),
+    [
+        (standard_linear_solid(10.0, 1e-3), 0.05),
+        (ball_problem("three short memories", 10.0, [1.0, 2.0, 3.0], [1e-3, 5e-4, 1e-4]), 0.05),
+        pytest.param(standard_linear_solid(10.0, 1e-3), 0.01, marks=pytest.mark.slow),
+    ],
+    ids=lambda value: getattr(value, "name", str(value)),
+)
+def test_friction_at_low_speed(problem: BallProblem, accuracy: float) -> None:
+    solution = problem.solve(accuracy=accuracy)
+    # The error of low-speed friction is of first order in the cell, so the last change is as large as the
+    # error left; the law's own next term is about l = 1e-3.
+    assert solution.friction_coefficient == pytest.approx(low_speed_friction(problem), rel=accuracy + 2e-3)
+    assert solution.energy_friction_coefficient == pytest.approx(low_speed_friction(problem), rel=accuracy + 2e-3)
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        standard_linear_solid(10.0, 1e4),
+        standard_linear_solid(1000.0, 1e6),
+        ball_problem("three long memories", 100.0, [1.0, 2.0, 3.0], [1e7, 1e5, 1e6]),
+    ],
+    ids=lambda p: p.name,
+)
+def test_friction_at_high_speed(problem: BallProblem) -> None:
+    solution = problem.solve(accuracy=4e-3)
+    # The accuracy asked for, and 1e-3 for the law, whose next term is k/l = 1e-3 at most.
+    assert solution.friction_coefficient == pytest.approx(high_speed_friction(problem), rel=5e-3)
+
+
+def test_pressure_leans_to_the_leading_edge() -> None:
+    solution = SLS.solve()
+    assert solution.friction_coefficient > 0.0
+    assert solution.front > solution.rear
+    peak = solution.x[np.argmax(solution.pressure.max(axis=1))]
+    assert peak > 0.0
+    np.testing.assert_allclose(solution.pressure, solution.pressure[:, ::-1], atol=1e-6 * solution.max_pressure)
+
+
+def test_gap_opens_behind_the_ball() -> None:
+    solution = SLS.solve()
+    height = SLS.ball.height(solution.x[:, None], solution.y)
+    gap = solution.displacement - (solution.indentation - height)
+    assert gap.min() > -1.1e-8 * solution.indentation  # the tolerance of the complementarity
+    assert np.all(np.abs(gap[solution.pressure > 0.0]) < 1.1e-8 * solution.indentation)
+    centre = len(solution.y) // 2
+    just_behind = np.searchsorted(solution.x, -solution.rear) - 2
+    just_ahead = np.searchsorted(solution.x, solution.front) + 1
+    assert gap[just_behind, centre] > 0.0
+    assert gap[just_ahead, centre] > 0.0
+
+
+def test_reversing_the_motion_mirrors_the_contact() -> None:
+    forward = SLS.solve()
+    backward = solve_steady(SLS.material, SLS.ball, speed=-SPEED, load=LOAD)
+    # The same numbers in another order: nothing is rounded anew.
+    assert backward.friction_coefficient == -forward.friction_coefficient
+    assert backward.energy_friction_coefficient == -forward.energy_friction_coefficient
+    assert (backward.front, backward.rear) == (forward.front, forward.rear)
+    np.testing.assert_array_equal(backward.x, -forward.x[::-1])
+    np.testing.assert_array_equal(backward.pressure, forward.pressure[::-1])
+    np.testing.assert_array_equal(backward.displacement, forward.displacement[::-1])
+    loads = backward.pressure.sum() * backward.diagnostics.spacing**2
+    lean = backward.x @ backward.pressure.sum(axis=1) * backward.diagnostics.spacing**2
+    assert loads == pytest.approx(LOAD, rel=1e-12)
+    assert lean / (BALL_RADIUS * LOAD) == pytest.approx(backward.friction_coefficient, rel=1e-10)  # round-off
+
+
+# --- similarities ---------------------------------------------------------------------------------
+
+
+def pure_numbers(solution: ContactSolution, length: float, ball_radius: float) -> np.ndarray:
+    return np.array(
+        [
+            solution.friction_coefficient * ball_radius / length,
+            solution.energy_friction_coefficient * ball_radius / length,
+            solution.indentation * ball_radius / length**2,
+            solution.front / length,
+            solution.rear / length,
+            solution.half_width / length,
+            solution.contact_area / length**2,
+        ]
+    )
+
+
+def test_units_do_not_matter() -> None:
+    moduli, lengths, times = 1e6, 1e-3, 1e9
+    spectrum = broad_spectrum_25(1e6).material.spectrum
+    scaled = RetardationSpectrum(
+        E0=moduli * spectrum.E0,
+        E_inf=moduli * spectrum.E_inf,
+        C=spectrum.C / moduli,
+        tau=times * spectrum.tau,
+    )
+    here = solve_steady(Material(spectrum), Ball(radius=BALL_RADIUS), speed=SPEED, load=LOAD)
+    there = solve_steady(
+        Material(scaled),
+        Ball(radius=lengths * BALL_RADIUS),
+        speed=SPEED * lengths / times,
+        load=LOAD * moduli * lengths**2,
+    )
+    # Rounding of the inputs, 1e-16, through one and the same sequence of steps.
+    np.testing.assert_allclose(
+        pure_numbers(there, lengths * HERTZ_RADIUS, lengths * BALL_RADIUS),
+        pure_numbers(here, HERTZ_RADIUS, BALL_RADIUS),
+        rtol=1e-9,
+    )
+    assert there.max_pressure == pytest.approx(moduli * here.max_pressure, rel=1e-9)
+    np.testing.assert_allclose(there.pressure / moduli, here.pressure, atol=1e-7 * here.max_pressure)
+
+
+def test_load_and_radius_only_rescale_the_contact() -> None:
+    """μ = (a0/R) Φ(v/a0)."""
+    load, radius = 20.0 * LOAD, 0.3 * BALL_RADIUS
+    length = hertz_ball(load, radius, RUBBER_MODULUS, POISSON_RATIO).radius
+    other = solve_steady(SLS.material, Ball(radius=radius), speed=SPEED * length / HERTZ_RADIUS, load=load)
+    here = SLS.solve()
+    # The same problem in its own units, so round-off as above.
+    np.testing.assert_allclose(
+        pure_numbers(other, length, radius), pure_numbers(here, HERTZ_RADIUS, BALL_RADIUS), rtol=1e-9
+    )
+
+
+def test_poisson_ratio_only_rescales_the_load() -> None:
+    compressible = Material(SLS.material.spectrum, poisson_ratio=0.3)
+    load = LOAD * (1.0 - POISSON_RATIO**2) / (1.0 - 0.3**2)
+    other = solve_steady(compressible, SLS.ball, speed=SPEED, load=load)
+    # The same F (1 − ν²): the same problem, round-off as above.
+    np.testing.assert_allclose(pure_numbers(other, 1.0, 1.0), pure_numbers(SLS.solve(), 1.0, 1.0), rtol=1e-9)
+
+
+def test_temperature_acts_like_speed() -> None:
+    """μ(v, T) = μ(α(T) v, T0), Eq. 10."""
+    law = WLF(C1=10.0, C2=90.0, reference="20 degC")
+    material = Material(SLS.material.spectrum, shift=law)
+    alpha = float(law(273.15 + 24.0))
+    assert alpha < 0.5
+    warm = solve_steady(material, SLS.ball, speed=SPEED, load=LOAD, temperature="24 degC")
+    slow = solve_steady(material, SLS.ball, speed=alpha * SPEED, load=LOAD, temperature="20 degC")
+    # τ α v or τ v α: round-off as above.
+    np.testing.assert_allclose(pure_numbers(warm, 1.0, 1.0), pure_numbers(slow, 1.0, 1.0), rtol=1e-9)
+    assert warm.temperature == pytest.approx(297.15)
+
+
+def test_splitting_a_mode_changes_nothing() -> None:
+    whole = SLS.solve(tolerance=1e-10)
+    for shares, lengths in (([0.3, 0.7], [1.0, 1.0]), ([0.5, 0.25, 0.25], [1.0, 1.0, 1.0])):
+        split = ball_problem("split", 10.0, shares, lengths).solve(tolerance=1e-10)
+        # Sums in another order, then a hundred times the tolerance of the solver for its own path.
+        np.testing.assert_allclose(pure_numbers(split, 1.0, 1.0), pure_numbers(whole, 1.0, 1.0), rtol=1e-8)
+
+
+def test_mode_without_compliance_changes_nothing() -> None:
+    alone = SLS.solve(tolerance=1e-10)
+    joined = ball_problem("idle modes", 10.0, [0.0, 1.0, 0.0], [1e-9, 1.0, 1e9]).solve(tolerance=1e-10)
+    # As for split modes.
+    np.testing.assert_allclose(pure_numbers(joined, 1.0, 1.0), pure_numbers(alone, 1.0, 1.0), rtol=1e-8)
+
+
+# --- any spectrum ---------------------------------------------------------------------------------
+
+
+@given(
+    modulus_ratio=st.floats(0.05, 2.0).map(lambda decades: 10.0**decades),
+    modes=st.lists(st.tuples(st.floats(0.1, 1.0), st.floats(-3.0, 0.0)), min_size=3, max_size=6),
+    speed_decade=st.floats(-2.0, 6.0),
+)
+@settings(max_examples=25, deadline=None, derandomize=True)
+def test_any_broad_spectrum_gives_a_sound_contact(
+    modulus_ratio: float, modes: list[tuple[float, float]], speed_decade: float
+) -> None:
+    shares = [share for share, _ in modes]
+    lengths = [10.0 ** (speed_decade + decade) for _, decade in modes]
+    problem = ball_problem("random", modulus_ratio, shares, lengths)
+    accuracy, tolerance = 0.03, 1e-8
+    solution = problem.solve(accuracy=accuracy, tolerance=tolerance)
+    assert solution.diagnostics.complementarity <= tolerance
+    assert solution.pressure.min() >= 0.0
+    load = solution.pressure.sum() * solution.diagnostics.spacing**2
+    assert load == pytest.approx(problem.load, rel=1e-12)  # scaled to the load: round-off
+    assert 0.0 < solution.friction_coefficient < 0.6 * HERTZ_RADIUS / BALL_RADIUS
+    assert abs(solution.diagnostics.energy) <= accuracy
+    assert solution.indentation <= HERTZ_RADIUS**2 / BALL_RADIUS * 1.001  # never deeper than fully relaxed
+
+
+# --- what is refused ------------------------------------------------------------------------------
+
+
+def test_unreachable_accuracy_raises() -> None:
+    with pytest.raises(ConvergenceError, match="64 cells"):
+        SLS.solve(accuracy=1e-7, finest=64)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"load": 0.0}, "load"),
+        ({"load": -1.0}, "load"),
+        ({"load": "5 mm"}, "load"),
+        ({"load": "25"}, "load"),
+        ({"load": math.nan}, "load"),
+        ({"speed": "3 N"}, "speed"),
+        ({"speed": math.nan}, "speed"),
+        ({"accuracy": 0.0}, "accuracy"),
+        ({"accuracy": 1.0}, "accuracy"),
+        ({"accuracy": -1e-3}, "accuracy"),
+        ({"accuracy": math.nan}, "accuracy"),
+        ({"temperature": "30 degC"}, "temperature"),
+        ({"load": 1e6, "speed": 0.0}, "wider than the ball"),
+    ],
+    ids=str,
+)
+def test_unusable_input_is_refused_in_one_sentence(change: dict[str, float | str], told: str) -> None:
+    arguments: dict[str, float | str] = {"speed": SPEED, "load": LOAD, **change}
+    with pytest.raises(InputError, match=told) as caught:
+        solve_steady(SLS.material, SLS.ball, **arguments)  # type: ignore[arg-type]
+    message = str(caught.value)
+    assert "\n" not in message
+    assert message.endswith(".")
+
+
+@pytest.mark.parametrize("radius", [0.0, -1.0, "3 s", "9.525", math.inf])
+def test_ball_without_a_size_is_refused(radius: float | str) -> None:
+    with pytest.raises(InputError, match="radius"):
+        Ball(radius=radius)
+
+
+def test_large_strain_is_a_warning() -> None:
+    load = LOAD * (0.4 * BALL_RADIUS / HERTZ_RADIUS) ** 3  # a0/R = 0.4
+    deep = solve_steady(SLS.material, SLS.ball, speed=0.0, load=load)
+    assert len(deep.warnings) == 1
+    assert "0.4" in deep.warnings[0]
+    assert SLS.solve().warnings == ()
+
+
+def test_units_at_the_edge() -> None:
+    plain = SLS.solve()
+    dressed = solve_steady(SLS.material, Ball(radius="10 mm"), speed="100 mm/s", load=f"{1e3 * LOAD!r} mN")
+    # Unit conversion rounds in the last digit.
+    assert dressed.friction_coefficient == pytest.approx(plain.friction_coefficient, rel=1e-9)

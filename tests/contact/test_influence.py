@@ -1,0 +1,164 @@
+"""Influence coefficients of one cell against brute-force quadrature, closed forms and limits."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from viscofric.contact.influence import cell_potential, cell_potential_xx, memory_influence
+
+WINDOW = (32, 24)
+# Where the loaded cell lies: under the point, just behind and ahead of it, beside it, near and far.
+OFFSETS = [
+    (0, 0), (-1, 0), (1, 0), (0, 1), (-1, 1), (-2, 0), (4, 3), (-31, 0), (-20, 16), (31, 23),
+]  # fmt: skip
+MEMORY_LENGTHS = [1e-8, 1e-3, 0.03, 0.4, 3.0, 100.0, 1e6, 1e10]
+
+
+def potential_of_square(x: float, y: float) -> float:
+    """∫∫ 1/r over the unit square by nested elementary integrals; a 6 × 6 Gauss rule far away."""
+    if math.hypot(x, y) > 12.0:
+        points, weights = np.polynomial.legendre.leggauss(6)
+        distance = np.hypot(x - 0.5 * points[:, None], y - 0.5 * points)
+        return float(0.25 * weights @ (1.0 / distance) @ weights)
+    total = 0.0
+    for a, b, sign in (
+        (x + 0.5, y + 0.5, 1.0), (x + 0.5, y - 0.5, -1.0), (x - 0.5, y + 0.5, -1.0), (x - 0.5, y - 0.5, 1.0),
+    ):  # fmt: skip
+        for first, second in ((a, b), (b, a)):
+            if first != 0.0:
+                total += sign * first * math.asinh(second / abs(first))
+    return total
+
+
+def remembered_potential(x: float, y: float, memory_length: float) -> float:
+    """∫_0^∞ e^(−z) L(x + λz, y) dz by adaptive quadrature, graded to every singular point."""
+    end = 40.0 * memory_length  # the rest is 4e-18 of the whole
+    decades = 10.0 ** np.arange(-10.0, 12.0)
+    points = {0.0, end, *decades, *(memory_length * np.array([0.01, 0.1, 1.0, 4.0, 12.0]))}
+    for edge in (-x - 0.5, -x + 0.5):
+        points |= {edge, *(edge + decades), *(edge - decades)}
+    inside = sorted(point for point in points if 0.0 <= point <= end)
+    pieces = [
+        quad(
+            lambda s: math.exp(-s / memory_length) / memory_length * potential_of_square(x + s, y),
+            start,
+            stop,
+            epsabs=0.0,
+            epsrel=1e-12,
+        )[0]
+        for start, stop in pairwise(inside)
+    ]
+    return math.fsum(pieces)
+
+
+@pytest.mark.filterwarnings("ignore::scipy.integrate.IntegrationWarning")  # pieces at round-off level
+@pytest.mark.parametrize("memory_length", MEMORY_LENGTHS)
+def test_memory_agrees_with_adaptive_quadrature(memory_length: float) -> None:
+    nx, ny = WINDOW
+    influence = memory_influence(WINDOW, np.ones((1, 1)), np.array([memory_length]))[0]
+    computed = np.array([influence[i + nx - 1, j] for i, j in OFFSETS])
+    expected = np.array([remembered_potential(i, j, memory_length) for i, j in OFFSETS])
+    # The module promises 1e-11 of the largest value; 1e-9 of each value leaves room for the smallest of them.
+    np.testing.assert_allclose(computed, expected, rtol=1e-9)
+    assert influence.shape == (2 * nx - 1, ny)
+
+
+def test_rows_with_coarser_rules_agree_with_adaptive_quadrature() -> None:
+    # The rules change at rows 3, 16 and 64: look on both sides of each.
+    shape = (4, 70)
+    memory_lengths = np.array([0.05, 1.0, 300.0])
+    for m, memory_length in enumerate(memory_lengths):
+        influence = memory_influence(shape, np.eye(3), memory_lengths)[m]
+        for i, j in ((0, 2), (-3, 3), (1, 15), (1, 16), (-2, 63), (-2, 64)):
+            expected = remembered_potential(i, j, memory_length)
+            # As above: 1e-11 promised, two digits in hand.
+            assert influence[i + 3, j] == pytest.approx(expected, rel=1e-9)
+
+
+def test_far_series_joins_the_closed_form() -> None:
+    angle = np.linspace(0.0, 0.5 * np.pi, 181)
+    inside, outside = 20.0 * (1.0 - 1e-12), 20.0 * (1.0 + 1e-12)
+    closed_form = cell_potential(inside * np.cos(angle), inside * np.sin(angle))
+    series = cell_potential(outside * np.cos(angle), outside * np.sin(angle))
+    # The first term left out is of the order of (1/2)⁶/20⁶ ≈ 2e-10 times its small coefficient.
+    np.testing.assert_allclose(series, closed_form, rtol=1e-10)
+
+
+def test_potential_at_the_centre_of_a_square() -> None:
+    centre = cell_potential(np.zeros(1), np.zeros(1))[0]
+    assert centre == pytest.approx(4.0 * math.log(1.0 + math.sqrt(2.0)), rel=1e-15)  # round-off only
+
+
+def test_potential_falls_off_like_a_point_load() -> None:
+    x = np.array([1e3, 1e6, 1e12])
+    # The square's second moment leaves 1/(24 r²) = 4e-8 at the nearest point.
+    np.testing.assert_allclose(cell_potential(x, np.zeros(3)) * x, 1.0, rtol=5e-8)
+
+
+@pytest.mark.parametrize("x", [0.0, 1.0, -1.0, 3.0, 7.0])
+@pytest.mark.parametrize("y", [0.0, 1.0, 4.0])
+def test_second_derivative_of_the_potential(x: float, y: float) -> None:
+    step = 0.01
+    shifts = step * np.arange(-3.0, 4.0)
+    sixth_order = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / (180.0 * step**2)
+    difference = sixth_order @ cell_potential(x + shifts, np.full(7, y))
+    derivative = cell_potential_xx(np.array([x]), np.array([y]))[0]
+    # Truncation (step/distance)⁶ ≈ 6e-11 of the value near the cell; round-off 1e-15/step² ≈ 1e-11.
+    assert derivative == pytest.approx(difference, rel=2e-8, abs=1e-10)
+
+
+def test_split_mode_is_one_mode() -> None:
+    whole = memory_influence((12, 12), np.array([[3.0]]), np.array([2.0]))
+    split = memory_influence((12, 12), np.array([[1.0, 0.5, 1.5]]), np.full(3, 2.0))
+    np.testing.assert_allclose(split, whole, rtol=1e-14)  # the same sum in another order
+
+
+def test_mode_without_compliance_changes_nothing() -> None:
+    alone = memory_influence((12, 12), np.array([[1.0]]), np.array([2.0]))
+    # A long companion mode lengthens the common tail, which is added in another order.
+    joined = memory_influence((12, 12), np.array([[1.0, 0.0, 0.0]]), np.array([2.0, 1e-6, 1e6]))
+    np.testing.assert_allclose(joined, alone, rtol=1e-13)
+
+
+def test_mixtures_are_linear_in_the_modes() -> None:
+    memory_lengths = np.array([0.1, 5.0, 1e4])
+    single = memory_influence((10, 9), np.eye(3), memory_lengths)
+    mixed = memory_influence((10, 9), np.array([[1.0, 2.0, 3.0], [0.5, 0.0, -1.0]]), memory_lengths)
+    np.testing.assert_allclose(mixed[0], single[0] + 2.0 * single[1] + 3.0 * single[2], rtol=1e-14)
+    np.testing.assert_allclose(mixed[1], 0.5 * single[0] - single[2], rtol=1e-13)  # one digit cancels
+
+
+def test_slow_motion_is_relaxed() -> None:
+    nx, ny = WINDOW
+    elastic = cell_potential(np.arange(-(nx - 1.0), nx)[:, None], np.arange(float(ny)))
+    slow = memory_influence(WINDOW, np.ones((1, 1)), np.array([1e-8]))[0]
+    # K − L = λ ∂L/∂x + …, and |∂L/∂x| < 2.7 L at cell centres: 1e-8 of memory, a little more.
+    np.testing.assert_allclose(slow, elastic, rtol=3e-8)
+
+
+def test_fast_motion_has_no_time_to_creep() -> None:
+    memory_length = 1e10
+    fast = memory_influence(WINDOW, np.ones((1, 1)), np.array([memory_length]))[0]
+    # From far ahead comes ∫_{1/λ} e^(−z) dz/(λz) ≈ ln(λ)/λ; the cell itself adds a few times 1/λ.
+    assert fast.max() < 2.0 * math.log(memory_length) / memory_length
+    assert fast.min() > 0.0
+
+
+def test_memory_lies_ahead() -> None:
+    nx, _ = WINDOW
+    influence = memory_influence(WINDOW, np.ones((1, 1)), np.array([3.0]))[0]
+    behind, ahead = influence[: nx - 1][::-1], influence[nx:]
+    # A point behind the loaded cell has felt it pass, a point ahead has not felt it yet.
+    assert np.all(behind > ahead)
+
+
+def test_recursion_from_cell_to_cell_loses_nothing_to_the_window() -> None:
+    small = memory_influence((6, 5), np.ones((1, 1)), np.array([25.0]))[0]
+    large = memory_influence((40, 30), np.ones((1, 1)), np.array([25.0]))[0]
+    # Two starts of the recursion, six and forty cells ahead, each right to 1e-11.
+    np.testing.assert_allclose(large[40 - 6 : 40 + 5, :5], small, rtol=1e-10)

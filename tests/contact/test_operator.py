@@ -1,0 +1,180 @@
+"""The influence operator: FFT products, sign and direction of memory, dissipated energy, preconditioner."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contact.dense_reference import displacement_coefficients, displacement_matrix
+from viscofric.contact.grids import Window
+from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+
+WINDOW = Window(spacing=0.25, behind=6, ahead=5, beside=4)
+ONE_MODE = SteadyMaterial(0.1, np.array([0.9]), np.array([0.7]))
+SIX_MODES = SteadyMaterial(0.01, np.array([0.3, 0.2, 0.2, 0.1, 0.1, 0.09]), np.array([1e-5, 1e-3, 0.1, 1.0, 30.0, 1e4]))
+
+
+@pytest.mark.parametrize("material", [ONE_MODE, SIX_MODES], ids=["one mode", "six modes"])
+def test_product_is_the_direct_sum(material: SteadyMaterial) -> None:
+    nx, ny = WINDOW.shape
+    coefficients = displacement_coefficients(
+        nx, ny, WINDOW.spacing, material.glassy, material.compliances, material.memory_lengths
+    )
+    pressure = np.random.default_rng(1).random(WINDOW.shape)
+    direct = displacement_matrix(coefficients, nx, ny) @ pressure.ravel()
+    product = HalfSpaceOperator(WINDOW, material)(pressure).ravel()
+    # Both kernels are right to about 1e-11 of the largest coefficient.
+    np.testing.assert_allclose(product, direct, rtol=1e-9)
+
+
+@pytest.mark.parametrize("material", [ONE_MODE, SIX_MODES], ids=["one mode", "six modes"])
+def test_every_pressure_does_positive_work(material: SteadyMaterial) -> None:
+    operator = HalfSpaceOperator(WINDOW, material)
+    generator = np.random.default_rng(2)
+    nx, ny = WINDOW.shape
+    checkerboard = (-1.0) ** (np.arange(nx)[:, None] + np.arange(ny))
+    for pressure in (checkerboard, *generator.standard_normal((20, nx, ny))):
+        assert np.vdot(pressure, operator(pressure)) > 0.0
+
+
+@pytest.mark.parametrize("memory_length", [1e-6, 1e-3, 0.1, 1.0, 100.0])
+def test_every_pressure_dissipates(memory_length: float) -> None:
+    operator = HalfSpaceOperator(WINDOW, SteadyMaterial(0.1, np.array([0.9]), np.array([memory_length])))
+    for pressure in np.random.default_rng(3).random((5, *WINDOW.shape)):
+        assert operator.dissipated_force(pressure) > 0.0
+
+
+def test_displacement_is_greater_behind_the_load() -> None:
+    window = Window(0.1, 10, 10, 5)
+    pressure = np.zeros(window.shape)
+    pressure[9:11, 4:6] = 1.0
+    displacement = HalfSpaceOperator(window, ONE_MODE)(pressure)
+    behind, ahead = displacement[:9], displacement[11:][::-1]
+    assert np.all(behind > ahead)
+    np.testing.assert_allclose(displacement, displacement[:, ::-1], rtol=1e-12)  # even across, to round-off
+
+
+def test_memory_at_a_point_comes_from_the_load_ahead() -> None:
+    """Just one load, far ahead: the displacement of a mode is Eq. 8 for a point load, u(ξ) from ξ + vτz."""
+    window = Window(1.0, 50, 50, 1)
+    length = 20.0
+    operator = HalfSpaceOperator(window, SteadyMaterial(0.0, np.array([1.0]), np.array([length])))
+    pressure = np.zeros(window.shape)
+    pressure[90, 1] = 1.0
+    z = np.linspace(0.0, 40.0, 400_001)
+    for cell in (10, 60):
+        distance = np.hypot(window.x[cell] + length * z - window.x[90], 1.0)
+        expected = np.trapezoid(np.exp(-z) / distance, z) / np.pi
+        # The load is seen from one cell to the side at the nearest: its shape matters by a few percent.
+        assert operator(pressure)[cell, 0] == pytest.approx(expected, rel=0.03)
+
+
+def test_elastic_solid_does_not_dissipate() -> None:
+    operator = HalfSpaceOperator(WINDOW, SteadyMaterial(1.0, np.empty(0), np.empty(0)))
+    pressure = np.random.default_rng(4).random(WINDOW.shape)
+    assert operator.dissipated_force(pressure) == 0.0
+
+
+def graded_panels(end: float, smallest: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points and weights of a composite Gauss rule on 0 … end, its panels halving towards zero."""
+    points, weights = np.polynomial.legendre.leggauss(20)
+    count = int(np.ceil(np.log2(end / smallest)))
+    edges = np.concatenate([[0.0], end * 0.5 ** np.arange(count, -1.0, -1.0)])
+    half = 0.5 * np.diff(edges)[:, None]
+    return (edges[:-1, None] + half * (1.0 + points)).ravel(), (half * weights).ravel()
+
+
+def loss_weight(material: SteadyMaterial, qx: np.ndarray, qy: np.ndarray) -> np.ndarray:
+    """2 q_x (−Im S(−q_x v)) of DESIGN's energy integral, with the passage from cells to their centres.
+
+    A cell's pressure is spread over its square and the answer looked up at its centre: sinc times sinc.
+    """
+    loss = sum(
+        c * qx * length / (1.0 + (qx * length) ** 2)
+        for c, length in zip(material.compliances, material.memory_lengths, strict=True)
+    )
+    return 2.0 * qx * loss
+
+
+def spread(qx: np.ndarray, qy: np.ndarray, spacing: float) -> np.ndarray:
+    """Fourier transform of a cell of unit pressure per unit of area, h² left out."""
+    return np.sinc(qx * spacing / (2.0 * np.pi)) * np.sinc(qy * spacing / (2.0 * np.pi))
+
+
+def energy_integral(material: SteadyMaterial, spacing: float = 0.0) -> float:
+    """∫ d²q/(4π²) 2 q_x (−Im S)/|q| |p̂|² for the Gaussian pressure exp(−r²/2), in polar coordinates.
+
+    With a spacing, for the Gaussian's values spread over cells, wavenumbers near zero only.
+    """
+    q, q_weight = graded_panels(9.0, 1e-12)
+    theta, theta_weight = graded_panels(0.5 * np.pi, 1e-12)
+    q, q_weight = q[:, None], q_weight[:, None]
+    qx, qy = q * np.sin(theta), q * np.cos(theta)  # graded towards q_x = 0, where long memories act
+    transform = 2.0 * np.pi * np.exp(-0.5 * q**2)
+    integrand = loss_weight(material, qx, qy) * transform**2 * spread(qx, qy, spacing)  # d²q/|q| = dq dθ
+    return 4.0 * float(np.sum(q_weight * theta_weight * integrand)) / (4.0 * np.pi**2)
+
+
+def aliased_energy(material: SteadyMaterial, spacing: float, reach: int = 40) -> float:
+    """Return what the cells' edges add to the energy integral: all other points of the reciprocal lattice."""
+    points, weights = np.polynomial.legendre.leggauss(24)
+    k, weight = 6.0 * points, 6.0 * weights
+    transform = 4.0 * np.pi**2 * np.exp(-(k[:, None] ** 2) - k**2) * weight[:, None] * weight
+    lattice = 2.0 * np.pi / spacing * np.arange(-reach, reach + 1.0)
+    total = 0.0
+    for gx in lattice:
+        for gy in lattice[lattice >= 0.0]:
+            if gx == gy == 0.0:
+                continue
+            qx, qy = (gx + k)[:, None], gy + k
+            twice = 1.0 if gy == 0.0 else 2.0
+            density = loss_weight(material, qx, qy) / np.hypot(qx, qy) * spread(qx, qy, spacing)
+            total += twice * float(np.sum(density * transform))
+    return total / (4.0 * np.pi**2)
+
+
+def gaussian_energy(material: SteadyMaterial, spacing: float) -> float:
+    cells = round(8.0 / spacing)
+    window = Window(spacing, cells, cells, cells)
+    pressure = np.exp(-0.5 * (window.x[:, None] ** 2 + window.y**2))
+    return HalfSpaceOperator(window, material).dissipated_force(pressure)
+
+
+ENERGY_CASES = [
+    *(SteadyMaterial(0.1, np.array([0.9]), np.array([length])) for length in (1e-6, 0.02, 0.1)),
+    *(SteadyMaterial(0.1, np.array([0.9]), np.array([length])) for length in (1.0, 30.0, 1e8)),
+    SIX_MODES,
+]
+
+
+@pytest.mark.parametrize("material", ENERGY_CASES, ids=lambda m: f"{len(m.compliances)}-{m.memory_lengths[0]:g}")
+def test_dissipated_energy_is_the_fourier_integral(material: SteadyMaterial) -> None:
+    spacing = 0.25
+    expected = energy_integral(material, spacing) + aliased_energy(material, spacing)
+    # The Gaussian is 1e-14 at the window's edge.  The lattice sum ends at its 40th neighbours, which leaves
+    # about 1e-3 of an aliased part of at most 2e-2.
+    assert gaussian_energy(material, spacing) == pytest.approx(expected, rel=2e-5)
+
+
+def test_dissipated_energy_of_a_smooth_pressure_converges() -> None:
+    material = ENERGY_CASES[3]  # memory as long as the Gaussian is wide
+    exact = energy_integral(material)
+    errors = [abs(gaussian_energy(material, spacing) / exact - 1.0) for spacing in (0.5, 0.25, 0.125)]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    # A cell spreads its pressure over its square: (q h)²/24 of the result, second order.
+    assert np.all(orders > 1.5)
+    assert errors[-1] < 1e-3
+
+
+def test_dissipated_energy_of_short_memories_is_proportional_to_them() -> None:
+    # Memories of 1e-6 to 1.2e-3 cells, on both sides of the switch to the leading term.
+    lengths = 0.25 * np.array([1e-6, 1e-4, 0.99e-3, 1.01e-3, 1.2e-3])
+    forces = [gaussian_energy(SteadyMaterial(0.1, np.array([1.0]), np.array([one])), 0.25) for one in lengths]
+    # Of the order of the memory in cells: that is what a finite memory takes from its leading term.
+    np.testing.assert_allclose(forces / lengths, forces[0] / lengths[0], rtol=1e-3)
+
+
+def test_products_are_counted() -> None:
+    operator = HalfSpaceOperator(WINDOW, ONE_MODE)
+    operator.dissipated_force(operator(np.ones(WINDOW.shape)))
+    assert operator.products == 1

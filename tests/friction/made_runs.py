@@ -1,0 +1,99 @@
+"""Traction runs made from planted coefficients, and friction curves made from a planted master curve."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.data import TractionRuns
+from viscofric.friction.curves import FrictionCurves
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+#: (sgn u_disc, sgn(u_disc − u_ball)) of the four configurations I, II, III, IV of the paper.
+FOUR = ((-1, 1), (-1, -1), (1, -1), (1, 1))
+
+
+def traction_runs(
+    *,
+    viscoelastic: Callable[[float, float], float],
+    coulomb: float = 0.05,
+    offset: float = 0.3,
+    speeds: Sequence[float] = (0.02, 0.1, 0.2),
+    temperatures: Sequence[float] = (303.15, 333.15),
+    slip_ratio: float = 0.2,
+    configurations: Sequence[tuple[int, int]] = FOUR,
+    replicates: int = 2,
+    load: float = 25.0,
+    load_jitter: float = 0.01,
+    speed_jitter: float = 0.0,
+    temperature_jitter: float = 0.0,
+    noise: float = 0.0,
+    seed: int = 1,
+) -> TractionRuns:
+    """Make forces O + F_N [μ_c sgn(u_disc − u_ball) + μ_v sgn(u_disc)], own loads, plus noise (N)."""
+    random = np.random.default_rng(seed)
+    rows = []
+    for temperature, speed, (disc_sign, slip_sign), replicate in product(
+        temperatures, speeds, configurations, range(1, replicates + 1)
+    ):
+        normal = load * (1.0 + load_jitter * random.standard_normal())
+        force = offset + normal * (coulomb * slip_sign + viscoelastic(speed, temperature) * disc_sign)
+        disc = disc_sign * speed
+        ball = disc - slip_sign * slip_ratio * speed
+        rows.append(
+            (
+                disc * (1.0 + speed_jitter * random.standard_normal()),
+                ball * (1.0 + speed_jitter * random.standard_normal()),
+                force + noise * random.standard_normal(),
+                normal,
+                temperature + temperature_jitter * random.standard_normal(),
+                replicate,
+            )
+        )
+    return runs_from(np.array(rows))
+
+
+def runs_from(rows: Array) -> TractionRuns:
+    """Rows of disc speed, ball speed, force, load, temperature and replicate."""
+    return TractionRuns(*(rows[:, column] for column in range(5)), replicate=rows[:, 5].astype(int))
+
+
+def rows_of(runs: TractionRuns) -> Array:
+    return np.column_stack(
+        [
+            runs.disc_speed,
+            runs.ball_speed,
+            runs.traction_force,
+            runs.load,
+            runs.temperature,
+            runs.replicate,
+        ]
+    )
+
+
+def friction_curves(
+    speed: Array,
+    temperature: Array,
+    viscoelastic: Array,
+    *,
+    error: float | Array = 0.0,
+    load: float | Array = 25.0,
+) -> FrictionCurves:
+    count = len(speed)
+    return FrictionCurves(
+        speed=speed,
+        temperature=temperature,
+        load=np.broadcast_to(load, (count,)),
+        viscoelastic=viscoelastic,
+        viscoelastic_error=np.broadcast_to(error, (count,)),
+        viscoelastic_scatter=np.zeros(count),
+        replicates=np.ones(count, dtype=int),
+    )

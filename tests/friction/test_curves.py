@@ -1,0 +1,151 @@
+"""Friction curves: predicted by solving contacts, picked by temperature and load, labelled."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from friction.made_runs import friction_curves, traction_runs
+from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves, predict_friction
+from viscofric.friction.tribometry import separate
+
+ACCURACY = 1e-2
+BALL = vf.Ball(radius="10 mm")
+
+
+@pytest.fixture(scope="module")
+def rubber() -> vf.Material:
+    """One retardation time, 5:1, and a WLF shift."""
+    solid = vf.Material.standard_linear_solid(E0="2 MPa", E_inf="10 MPa", tau="5 ms")
+    return replace(solid, shift=vf.WLF(C1=8.86, C2=101.6, reference="50 degC"))
+
+
+@pytest.fixture(scope="module")
+def predicted(rubber: vf.Material) -> FrictionCurves:
+    return predict_friction(
+        rubber,
+        BALL,
+        speeds=["50 mm/s", "200 mm/s"],
+        temperatures=["45 degC", "60 degC"],
+        load="2 N",
+        accuracy=ACCURACY,
+    )
+
+
+def test_friction_is_shifted_like_the_modulus(rubber: vf.Material, predicted: FrictionCurves) -> None:
+    """Eq. 10: μ(v, T) at the load equals μ(α(T) v, T0); only rounding of the memory lengths v τ α differs."""
+    assert rubber.shift is not None
+    for row in range(len(predicted)):
+        alpha = float(rubber.shift(float(predicted.temperature[row])))
+        at_reference = predict_friction(
+            rubber,
+            BALL,
+            speeds=alpha * predicted.speed[row],
+            temperatures="50 degC",
+            load="2 N",
+            accuracy=ACCURACY,
+        )
+        # The same equations on the same grids: the solver's tolerance of 1e-8 with room for its propagation.
+        np.testing.assert_allclose(at_reference.viscoelastic, predicted.viscoelastic[row], rtol=1e-6)
+
+
+def test_prediction_covers_every_speed_and_temperature(predicted: FrictionCurves) -> None:
+    np.testing.assert_allclose(predicted.speed, [0.05, 0.2, 0.05, 0.2])
+    np.testing.assert_allclose(predicted.temperature, np.repeat([318.15, 333.15], 2))
+    assert np.all(predicted.load == 2.0)
+    assert np.all(predicted.viscoelastic > 0)
+    assert np.all(predicted.viscoelastic_error <= ACCURACY * predicted.viscoelastic)
+    assert np.all(predicted.viscoelastic_error > 0)
+    assert predicted.coulomb is None
+
+
+def test_progress_is_reported(rubber: vf.Material) -> None:
+    calls: list[tuple[int, int]] = []
+    predict_friction(
+        rubber,
+        BALL,
+        speeds=[0.1, 0.2],
+        temperatures="50 degC",
+        load=2.0,
+        accuracy=0.1,
+        progress=lambda done, total: calls.append((done, total)),
+    )
+    assert calls == [(0, 2), (1, 2), (2, 2)]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"speeds": [0.1, 0.0]}, "speeds must be above zero"),
+        ({"speeds": ["100 mm/s", "-1 mm/s"]}, "speeds must be above zero"),
+        ({"speeds": []}, "speeds must hold at least one"),
+        ({"speeds": "100 mm"}, "speeds = '100 mm': has the wrong kind of unit"),
+        ({"temperatures": 0.0}, "temperatures must be above zero"),
+        ({"load": "-1 N"}, "load = '-1 N': must be above zero"),
+    ],
+)
+def test_senseless_conditions_are_refused(rubber: vf.Material, change: dict[str, object], message: str) -> None:
+    wanted = {"speeds": 0.1, "temperatures": "50 degC", "load": "2 N", **change}
+    with pytest.raises(InputError, match=message):
+        predict_friction(rubber, BALL, **wanted)  # type: ignore[arg-type]
+
+
+def test_solutions_moving_either_way_give_the_same_curve(rubber: vf.Material) -> None:
+    """A mirrored contact drags as much; warnings of the contacts become one note."""
+    forth, back = (
+        vf.solve_steady(rubber, BALL, speed=speed, load="60 N", temperature="50 degC", accuracy=0.1)
+        for speed in (0.1, -0.1)
+    )
+    curves = FrictionCurves.from_solutions([forth, back])
+    assert curves.viscoelastic[0] == curves.viscoelastic[1] > 0
+    np.testing.assert_array_equal(curves.speed, [0.1, 0.1])
+    assert forth.warnings
+    assert len(curves.notes) == 1
+    assert "2 of 2 contacts" in curves.notes[0]
+    with pytest.raises(InputError, match="temperature of a contact solution is missing"):
+        FrictionCurves.from_solutions([replace(forth, temperature=None)])
+    with pytest.raises(InputError, match="must be finite and not zero"):
+        FrictionCurves.from_solutions([replace(forth, speed=0.0)])
+
+
+def test_one_temperature_is_picked_in_ascending_speed() -> None:
+    curves = friction_curves(np.array([0.2, 0.1, 0.3]), np.array([303.2, 303.2, 333.2]), np.array([2.0, 1.0, 3.0]))
+    warm = curves.at_temperature("30 degC")
+    np.testing.assert_array_equal(warm.speed, [0.1, 0.2])
+    np.testing.assert_array_equal(warm.viscoelastic, [1.0, 2.0])
+    with pytest.raises(InputError, match=r"temperature = 40\.0 °C: .*at 30\.1, 60\.1 °C"):
+        curves.at_temperature("40 degC")
+    with pytest.raises(InputError, match="no entry is within 5 %"):
+        curves.at_load(10.0)
+
+
+def test_data_set_is_labelled() -> None:
+    """Units and names on every column, notes in the attributes, and nothing that netCDF cannot hold."""
+    curves = separate(traction_runs(viscoelastic=lambda v, T: -0.03, replicates=3, noise=0.01))
+    data = curves.to_dataset()
+    assert dict(data.sizes) == {"point": 6}
+    assert set(data.coords) == {"speed", "temperature", "load", "slip"}
+    for name in (*data.coords, *data.data_vars):
+        assert data[name].attrs["units"]
+        assert data[name].attrs["long_name"]
+    assert data["temperature"].attrs["units"] == "K"
+    np.testing.assert_array_equal(data["coulomb"], curves.coulomb)  # type: ignore[arg-type]
+    assert "negative" in data.attrs["notes"]
+
+
+def test_columns_are_checked_and_frozen() -> None:
+    curves = friction_curves(np.array([0.1]), np.array([303.15]), np.array([0.03]))
+    with pytest.raises(ValueError, match="read-only"):
+        curves.viscoelastic[0] = 1.0
+    for name, value, message in (
+        ("speed", [0.0], "speed of friction curves must be above zero"),
+        ("viscoelastic", [np.nan], "viscoelastic of friction curves must be finite"),
+        ("viscoelastic_error", [np.nan], "viscoelastic_error of friction curves must be zero or above"),
+        ("coulomb", [1.0, 2.0], "coulomb of friction curves must hold one value"),
+    ):
+        with pytest.raises(InputError, match=message):
+            replace(curves, **{name: np.array(value)})

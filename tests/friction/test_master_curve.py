@@ -1,0 +1,190 @@
+"""Friction at several temperatures collapses onto one curve, which gives it at any speed and temperature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+from friction.made_runs import friction_curves
+from viscofric.errors import InputError
+from viscofric.friction.master_curve import shift_friction
+from viscofric.rheology.shift_laws import WLF, Arrhenius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+
+    Array = NDArray[np.float64]
+
+LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
+# 20 to 200 mm/s in 10 steps; at 44, 50 and 56 °C neighbours overlap by half a decade.
+SPEEDS = np.geomspace(0.02, 0.2, 10)
+TEMPERATURES = np.array([317.15, 323.15, 329.15])
+
+
+def friction(reduced_speed: Array) -> Array:
+    """Bend by 1 per decade on a log-log plot, as the friction of a broad spectrum does at most."""
+    return np.asarray(0.03 * 10.0 ** (-0.5 * np.log10(reduced_speed / 0.1) ** 2))
+
+
+def peak(reduced_speed: Array) -> Array:
+    """Rise and fall like the loss of one retardation time."""
+    return np.asarray(0.06 / (reduced_speed / 0.1 + 0.1 / reduced_speed))
+
+
+def shifted_curves(temperatures: Array = TEMPERATURES, noise: float = 0.0, seed: int = 1) -> FrictionCurves:
+    speed, temperature = np.tile(SPEEDS, len(temperatures)), np.repeat(temperatures, len(SPEEDS))
+    exact = friction(np.asarray(LAW(temperature)) * speed)
+    random = np.random.default_rng(seed).standard_normal(exact.size)
+    return friction_curves(speed, temperature, exact * (1.0 + noise * random), error=noise * exact)
+
+
+def test_shifted_friction_collapses_onto_one_curve() -> None:
+    """Eq. 10: every point of μ(v, T) = f(α(T) v) lies on f at its reduced speed, to rounding."""
+    master = shift_friction(shifted_curves(), shift=LAW)
+    np.testing.assert_allclose(master.friction, friction(master.reduced_speed), rtol=1e-12)
+    assert np.all(np.diff(master.reduced_speed) > 0)
+    assert master.reference == 323.15
+    warmest = master.temperature == 329.15
+    np.testing.assert_allclose(master.reduced_speed[warmest], LAW(329.15) * SPEEDS, rtol=1e-12)
+
+
+def test_another_reference_slides_the_curve() -> None:
+    """α about T1 is α(T)/α(T1): the same friction at a speed and temperature."""
+    here = shift_friction(shifted_curves(), shift=LAW)
+    there = shift_friction(shifted_curves(), shift=LAW, reference="44 degC")
+    np.testing.assert_allclose(there.reduced_speed * LAW(317.15), here.reduced_speed, rtol=1e-12)
+    # The same regression on the same abscissae, but for rounding of them.
+    assert there("100 mm/s", "47 degC") == pytest.approx(here("100 mm/s", "47 degC"), rel=1e-9)
+
+
+@pytest.mark.parametrize(("curve", "accuracy"), [(friction, 0.005), (peak, 0.01)])
+def test_a_single_smooth_curve_is_read_to_the_accuracy_stated(curve: object, accuracy: float) -> None:
+    """As the docstring of FrictionMasterCurve states it, for 10 points per decade."""
+    speed = np.geomspace(0.02, 0.2, 11)
+    assert callable(curve)
+    master = shift_friction(friction_curves(speed, np.full(11, 323.15), curve(speed)), shift=LAW)
+    between = np.geomspace(0.02, 0.2, 301)
+    np.testing.assert_allclose(master(between), curve(between), rtol=accuracy)
+
+
+def test_friction_at_any_speed_and_temperature_comes_from_the_reduced_speed() -> None:
+    master = shift_friction(shifted_curves(), shift=LAW)
+    speeds, kelvin = np.array([0.05, 0.3, 0.01]), np.array([320.0, 328.0, 318.0])
+    found = master(speeds, kelvin)
+    np.testing.assert_allclose(found, friction(np.asarray(LAW(kelvin)) * speeds), rtol=0.005)
+    assert found.shape == (3,)
+    assert isinstance(master("50 mm/s", "47 degC"), float)
+    assert master("50 mm/s") == pytest.approx(float(friction(np.array(0.05))), rel=0.005)
+    assert master(speeds[:, None], kelvin[None, :1]).shape == (3, 1)
+    assert master(["20 mm/s", "30 mm/s"]).shape == (2,)
+
+
+def test_smoothing_averages_noise_and_says_how_well() -> None:
+    """Over many noisy tests the value at one place scatters by the standard error that is given there."""
+    values, errors = [], []
+    for seed in range(200):
+        master = shift_friction(shifted_curves(noise=0.03, seed=seed), shift=LAW)
+        values.append(master("0.1 m/s", "50 degC"))
+        errors.append(master.standard_error("0.1 m/s", "50 degC"))
+    # The standard deviation of 200 values is known to 5 %; three times that.
+    assert np.std(values) == pytest.approx(np.mean(errors), rel=0.15)
+    assert np.mean(errors) < 0.03 * 0.03
+    assert np.mean(values) == pytest.approx(0.03, rel=0.005)
+
+
+def test_overlap_is_exact_without_noise_and_tells_noise() -> None:
+    exact = shift_friction(shifted_curves(), shift=LAW)
+    # A cubic spline through 9 intervals of a decade; h⁴/384 of the fourth derivative, more at the ends.
+    assert exact.overlap_rms == pytest.approx(0.0, abs=1e-3)
+    noisy = shift_friction(shifted_curves(noise=0.02), shift=LAW)
+    # Of some 20 points, and the spline averages a little: within 40 %.
+    assert noisy.overlap_rms == pytest.approx(0.02 * np.sqrt(2), rel=0.4)
+    assert noisy.overlap_error == pytest.approx(0.02 * np.sqrt(2), rel=0.05)
+    assert "coincide to" in noisy.overlap_sentence
+    assert f"{noisy.overlap_points} points" in noisy.overlap_sentence
+
+
+def test_overlap_reveals_wrong_shift_factors() -> None:
+    right = shift_friction(shifted_curves(noise=0.01), shift=LAW)
+    wrong = shift_friction(shifted_curves(noise=0.01), shift=Arrhenius("60 kJ/mol", "50 degC"))
+    assert right.overlap_rms is not None
+    assert wrong.overlap_rms is not None
+    assert wrong.overlap_rms > 5 * right.overlap_rms
+
+
+def test_without_overlap_it_says_so_and_bridges_no_gap() -> None:
+    """The paper's temperatures are so far apart that a decade of speed leaves gaps between the curves."""
+    master = shift_friction(shifted_curves(np.array([313.15, 338.15])), shift=LAW)
+    assert master.overlap_rms is None
+    assert master.overlap_points == 0
+    assert "do not overlap" in master.overlap_sentence
+    assert len(master.stretches) == 2
+    low, high = master.stretches[0][1], master.stretches[1][0]
+    with pytest.raises(InputError, match=r"is not covered: friction is known for .* and .* m/s"):
+        master(np.sqrt(low * high))
+    inside = [end for stretch in master.stretches for end in stretch]
+    # At the ends of stretches, on a flank of slope −1.8: the regression is true to 1 %.
+    np.testing.assert_allclose(master(np.array(inside)), friction(np.array(inside)), rtol=0.01)
+
+
+def test_beyond_the_range_it_refuses() -> None:
+    master = shift_friction(shifted_curves(), shift=LAW)
+    low, high = master.reduced_range
+    assert np.all(np.isfinite(master(np.array([low, high]))))
+    for reduced in (0.99 * low, 1.01 * high):
+        with pytest.raises(InputError, match=r"reduced speed α\(T\)·v = .* at 50\.0 °C is not covered"):
+            master(reduced)
+
+
+def test_few_points_are_joined_by_what_they_allow() -> None:
+    """Two points make a line in log v, one a constant; three make a line too, not an unchecked parabola."""
+    for count in (1, 2, 3):
+        speed = SPEEDS[:count]
+        master = shift_friction(
+            friction_curves(speed, np.full(count, 323.15), 0.03 + 0.01 * np.log10(speed)), shift=LAW
+        )
+        place = float(np.sqrt(speed[0] * speed[-1]))
+        # Three points weigh differently, but they lie on one line.
+        assert master(place) == pytest.approx(0.03 + 0.01 * np.log10(place), rel=1e-9)
+
+
+def test_unknown_errors_give_no_nan() -> None:
+    curves = shifted_curves()
+    error = np.full(len(curves), np.inf)
+    master = shift_friction(
+        friction_curves(curves.speed, curves.temperature, curves.viscoelastic, error=error), shift=LAW
+    )
+    assert master("0.1 m/s") == pytest.approx(0.03, rel=0.005)
+    assert master.standard_error("0.1 m/s") == np.inf
+    assert master.overlap_error == np.inf
+    assert "unknown" in master.overlap_sentence
+
+
+def test_different_loads_are_not_mixed() -> None:
+    curves = friction_curves(SPEEDS, np.full(10, 323.15), np.full(10, 0.03), load=np.repeat([10.0, 25.0], 5))
+    with pytest.raises(InputError, match=r"10 to 25 N, but a master curve holds at one load"):
+        shift_friction(curves, shift=LAW)
+    assert len(shift_friction(curves.at_load("25 N"), shift=LAW)) == 5
+
+
+@pytest.mark.parametrize(
+    ("speed", "temperature", "message"),
+    [
+        (-1.0, None, "above zero"),
+        ("1 kg", None, "wrong kind of unit"),
+        ([0.1, 0.2], [320.0] * 3, "must be as many"),
+    ],
+)
+def test_senseless_places_are_refused(speed: object, temperature: object, message: str) -> None:
+    master = shift_friction(shifted_curves(), shift=LAW)
+    with pytest.raises(InputError, match=message):
+        master(speed, temperature)  # type: ignore[arg-type]
+
+
+def test_a_shift_is_needed() -> None:
+    with pytest.raises(InputError, match="shift of friction curves must be a law"):
+        shift_friction(shifted_curves(), shift=None)  # type: ignore[arg-type]

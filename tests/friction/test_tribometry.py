@@ -1,0 +1,347 @@
+"""Signed traction runs come apart into zero, viscoelastic and Coulomb friction, with honest errors."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.special import stdtrit
+from scipy.stats import binom
+
+from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
+from viscofric.errors import InputError
+from viscofric.friction.tribometry import separate
+
+# The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
+ROUNDING = 1e-12
+
+coefficients = st.floats(0.0, 1.0)
+
+
+@given(
+    viscoelastic=coefficients,
+    coulomb=coefficients,
+    offset=st.floats(-5.0, 5.0),
+    load=st.floats(0.5, 75.0),
+    speed=st.floats(1e-4, 4.0),
+    slip_ratio=st.floats(0.06, 1.9),
+    replicates=st.integers(1, 3),
+    seed=st.integers(0, 2**32 - 1),
+)
+@settings(deadline=None, max_examples=60, derandomize=True)
+def test_four_runs_give_back_what_was_planted(
+    viscoelastic: float,
+    coulomb: float,
+    offset: float,
+    load: float,
+    speed: float,
+    slip_ratio: float,
+    replicates: int,
+    seed: int,
+) -> None:
+    """Exactly, in whatever order the rows come, with each reading's own load, and nothing is left over."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: viscoelastic,
+        coulomb=coulomb,
+        offset=offset,
+        load=load,
+        speeds=(speed, 2.0 * speed),
+        slip_ratio=slip_ratio,
+        replicates=replicates,
+        seed=seed,
+    )
+    shuffled = runs_from(np.random.default_rng(seed).permutation(rows_of(runs)))
+    curves = separate(shuffled)
+    scale = coulomb + viscoelastic + abs(offset) / load + 1e-3
+    assert len(curves) == 4
+    assert curves.coulomb is not None
+    assert curves.consistency is not None
+    assert curves.offset is not None
+    np.testing.assert_allclose(curves.viscoelastic, viscoelastic, rtol=0, atol=ROUNDING * scale)
+    np.testing.assert_allclose(curves.coulomb, coulomb, rtol=0, atol=ROUNDING * scale)
+    np.testing.assert_allclose(curves.offset / load, offset / load, rtol=0, atol=ROUNDING * scale)
+    np.testing.assert_allclose(curves.consistency, 0.0, rtol=0, atol=ROUNDING * scale)
+    np.testing.assert_allclose(curves.speed, [speed, 2 * speed] * 2, rtol=1e-12)
+    assert curves.slip is not None
+    np.testing.assert_allclose(curves.slip, slip_ratio * curves.speed, rtol=1e-12)
+    assert curves.notes == ()
+
+
+def test_the_papers_formulae_hold_for_four_forces() -> None:
+    """Eqs. 9a–d by their w = |u_disc| − |u_ball|, with forces that do not fit together."""
+    one, two, three, four = 0.7, -1.1, -0.5, 1.9
+    load = 20.0
+    rows = np.array(
+        [
+            (-0.1, -0.12, one, load, 303.15, 1),  # I: u < 0, w < 0
+            (-0.1, -0.08, two, load, 303.15, 1),  # II: u < 0, w > 0
+            (0.1, 0.12, three, load, 303.15, 1),  # III: u > 0, w < 0
+            (0.1, 0.08, four, load, 303.15, 1),  # IV: u > 0, w > 0
+        ]
+    )
+    curves = separate(runs_from(rows))
+    expected = {
+        "offset": (one + two + three + four) / 4,
+        "viscoelastic": (three + four - one - two) / 4 / load,
+        "coulomb": (one - two - three + four) / 4 / load,
+        "consistency": (one - two + three - four) / 4 / load,
+    }
+    for name, value in expected.items():
+        assert getattr(curves, name) == pytest.approx([value], abs=ROUNDING), name
+    # One replicate of four runs: one degree of freedom, the leftover, is behind the errors.
+    assert curves.viscoelastic_error == pytest.approx(abs(curves.consistency), rel=1e-9)
+    assert np.isinf(curves.consistency_error).all()  # type: ignore[arg-type]
+
+
+def test_mirroring_all_velocities_and_forces_changes_nothing() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, noise=0.02, offset=0.2, replicates=4)
+    rows = rows_of(runs)
+    mirrored = rows * [-1, -1, -1, 1, 1, 1]
+    here, there = separate(runs), separate(runs_from(mirrored))
+    for name in ("viscoelastic", "viscoelastic_error", "coulomb", "coulomb_error", "speed", "slip"):
+        np.testing.assert_allclose(getattr(there, name), getattr(here, name), rtol=1e-9)
+    np.testing.assert_allclose(there.offset, -here.offset, rtol=1e-9)  # type: ignore[operator,arg-type]
+    np.testing.assert_allclose(there.consistency, -here.consistency, rtol=1e-6)  # type: ignore[operator,arg-type]
+
+
+def test_a_known_zero_makes_two_reversed_slips_enough() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: v, offset=0.1, configurations=FOUR[2:])
+    curves = separate(runs, zero="0.1 N")
+    np.testing.assert_allclose(curves.viscoelastic, curves.speed, rtol=ROUNDING)
+    np.testing.assert_allclose(curves.coulomb, 0.05, rtol=ROUNDING)  # type: ignore[arg-type]
+    assert curves.consistency is None
+    np.testing.assert_array_equal(curves.offset, 0.1)  # type: ignore[arg-type]
+
+
+def test_two_reversed_slips_without_a_zero_are_refused() -> None:
+    """Zero and viscoelastic friction cannot be told apart, though jittering loads make the fit regular."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[2:], temperatures=[303.15], speeds=[0.1])
+    with pytest.raises(InputError, match=r"At 30\.0 °C and 100 mm/s .*u_disc < 0 with u_disc − u_ball < 0.*zero="):
+        separate(runs)
+
+
+def test_one_direction_of_slip_is_refused_even_with_a_zero() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[3:])
+    with pytest.raises(InputError, match=r"6 conditions, the first being .*viscoelastic and Coulomb friction apart"):
+        separate(runs, zero=0.0)
+
+
+def test_three_configurations_suffice_without_a_check() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[:3])
+    curves = separate(runs)
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    assert curves.consistency is None
+
+
+def test_pure_rolling_needs_no_coulomb_friction() -> None:
+    """Both directions of a rolling ball: slip has no sign, however the speeds jitter."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03,
+        slip_ratio=0.0,
+        configurations=[(-1, 1), (1, 1)],
+        coulomb=0.0,
+        replicates=4,
+        speed_jitter=0.002,
+    )
+    curves = separate(runs)
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    assert curves.coulomb is None
+    assert "pure rolling" in curves.notes[0]
+
+
+def test_rolling_and_sliding_are_conditions_of_their_own() -> None:
+    sliding = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=2)
+    rolling = traction_runs(
+        viscoelastic=lambda v, T: 0.03, slip_ratio=0.0, configurations=[(-1, 0), (1, 0)], replicates=2
+    )
+    curves = separate(runs_from(np.concatenate([rows_of(sliding), rows_of(rolling)])))
+    assert len(curves) == 12
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    rolls = curves.slip == 0.0
+    assert np.count_nonzero(rolls) == 6
+    assert curves.coulomb_error is not None
+    assert np.all(np.isinf(curves.coulomb_error) == rolls)
+
+
+def test_standard_errors_are_honest() -> None:
+    """Intervals of 95 % by Student's t, n − 1 degrees of freedom, hold the truth in 95 % of noisy tests."""
+    replicates, temperatures = 8, tuple(290.0 + 5.0 * np.arange(100))
+    truth = {"viscoelastic": 0.03, "coulomb": 0.05, "consistency": 0.0}
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03,
+        speeds=[0.05, 0.1, 0.2],
+        temperatures=temperatures,
+        replicates=replicates,
+        noise=0.05,
+        seed=5,
+    )
+    curves = separate(runs)
+    assert len(curves) == 300
+    quantile = stdtrit(replicates - 1, 0.975)
+    # Limits that chance leaves once in a million times.
+    low, high = binom.interval(1 - 1e-6, 300, 0.95)
+    for name, value in truth.items():
+        error = getattr(curves, f"{name}_error")
+        held = np.count_nonzero(np.abs(getattr(curves, name) - value) <= quantile * error)
+        assert low <= held <= high, name
+    # 32 readings per entry: 0.05 N / √32 / 25 N; from 2100 degrees of freedom known to 1.5 %, thrice that.
+    assert np.sqrt(np.mean(curves.viscoelastic_error**2)) == pytest.approx(0.05 / np.sqrt(32) / 25, rel=0.045)
+    np.testing.assert_allclose(curves.viscoelastic_scatter, np.sqrt(replicates) * curves.viscoelastic_error)
+
+
+def test_standard_errors_are_honest_where_replicates_are_incomplete() -> None:
+    """All readings are fitted together, which is said; intervals use the residuals' degrees of freedom."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03,
+        temperatures=tuple(290.0 + 5.0 * np.arange(100)),
+        replicates=3,
+        noise=0.05,
+        seed=6,
+    )
+    rows = rows_of(runs)
+    incomplete = rows[~((rows[:, 5] == 3) & (rows[:, 0] < 0) & (rows[:, 0] > rows[:, 1]))]
+    curves = separate(runs_from(incomplete))
+    assert len(incomplete) == 300 * 11
+    assert any("not every replicate" in note for note in curves.notes)
+    held = np.count_nonzero(np.abs(curves.viscoelastic - 0.03) <= stdtrit(11 - 3, 0.975) * curves.viscoelastic_error)
+    low, high = binom.interval(1 - 1e-6, 300, 0.95)
+    assert low <= held <= high
+    assert np.all(curves.replicates == 3)
+
+
+def test_drift_of_the_zero_between_replicates_does_not_reach_friction() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=5)
+    rows = rows_of(runs)
+    rows[:, 2] += 0.4 * rows[:, 5]
+    curves = separate(runs_from(rows))
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    assert np.all(curves.viscoelastic_error < ROUNDING)
+
+
+def test_jittering_speeds_loads_and_temperatures_group_properly() -> None:
+    """Speeds jitter by 1 %, loads by 1 %, temperatures by 0.2 K; conditions are those that were set."""
+    speeds, temperatures = np.geomspace(0.02, 0.2, 10), (303.15, 333.15, 363.15)
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.05 * v**0.2,
+        speeds=tuple(speeds),
+        temperatures=temperatures,
+        replicates=8,
+        speed_jitter=0.01,
+        temperature_jitter=0.2,
+        slip_ratio=0.1,
+        seed=7,
+    )
+    curves = separate(runs)
+    assert len(curves) == 30
+    assert np.all(curves.replicates == 8)
+    assert curves.temperatures.size == 3
+    assert curves.speeds.size == 10
+    # Means over 96 and 320 readings; five standard errors.
+    np.testing.assert_allclose(curves.speeds, speeds, rtol=5 * 0.01 / np.sqrt(96))
+    np.testing.assert_allclose(curves.temperatures, temperatures, atol=5 * 0.2 / np.sqrt(320))
+    np.testing.assert_allclose(curves.viscoelastic, np.tile(0.05 * speeds**0.2, 3), rtol=ROUNDING)
+
+
+def test_loads_and_slips_are_kept_apart() -> None:
+    parts = [
+        rows_of(traction_runs(viscoelastic=lambda v, T, mu=mu: mu, load=load, slip_ratio=slip))  # type: ignore[misc]
+        for mu, load, slip in ((0.02, 10.0, 0.1), (0.03, 10.0, 0.5), (0.04, 25.0, 0.1), (0.05, 25.0, 0.5))
+    ]
+    curves = separate(runs_from(np.concatenate(parts)))
+    assert len(curves) == 4 * 6
+    np.testing.assert_allclose(np.sort(curves.viscoelastic), np.repeat([0.02, 0.03, 0.04, 0.05], 6), rtol=ROUNDING)
+    np.testing.assert_allclose(curves.at_load("10 N").viscoelastic.max(), 0.03, rtol=ROUNDING)
+
+
+def test_speeds_without_gaps_are_refused_unless_the_tolerance_is_small() -> None:
+    speeds = 0.02 * 1.03 ** np.arange(12)
+    runs = traction_runs(viscoelastic=lambda v, T: v, speeds=tuple(speeds), temperatures=[303.15])
+    with pytest.raises(InputError, match=r"disc_speed from 20 to 27\.68 mm/s has no gap"):
+        separate(runs)
+    np.testing.assert_allclose(separate(runs, speed_tolerance=0.01).viscoelastic, speeds, rtol=ROUNDING)
+
+
+def test_a_broken_test_is_noted_by_its_consistency() -> None:
+    """The zero moves when the disc reverses its slip: the four configurations no longer fit the model."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=8, noise=0.01)
+    rows = rows_of(runs)
+    broken = rows.copy()
+    crossed = np.sign(rows[:, 0]) * np.sign(rows[:, 0] - rows[:, 1])
+    broken[:, 2] -= 0.25 * crossed
+    curves = separate(runs_from(broken))
+    # 0.25 N over 25 N; five standard errors of 0.01 N / √32 / 25 N.
+    np.testing.assert_allclose(curves.consistency, 0.01, atol=1e-4)  # type: ignore[arg-type]
+    assert any("do not fit together" in note and "6 of 6 conditions" in note for note in curves.notes)
+    assert separate(runs).notes == ()
+
+
+def test_reversed_signs_are_noted() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=3, noise=0.01)
+    reversed_force = runs_from(rows_of(runs) * [1, 1, -1, 1, 1, 1])
+    notes = separate(reversed_force).notes
+    assert sum("friction coefficient is negative" in note for note in notes) == 2
+    assert "viscoelastic" in notes[0]
+    assert "probably reversed" in notes[0]
+
+
+def test_an_outlier_is_noted_and_kept() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=8, noise=0.01, speeds=[0.1], temperatures=[303.15])
+    rows = rows_of(runs)
+    rows[5, 2] += 0.5
+    curves = separate(runs_from(rows))
+    (note,) = (note for note in curves.notes if "kept" in note)
+    assert note.startswith("One reading deviates")
+    assert "replicate 6" in note
+    # Kept: it moves the mean by 0.5 N / 32 / 25 N = 6.3e-4; noise has a standard error of 7e-5.
+    assert abs(curves.viscoelastic[0] - 0.03) > 3e-4
+
+
+@pytest.mark.parametrize("slip_ratio", [0.01, 0.03, 1.5])
+def test_small_slips_have_signs_where_speeds_are_steady(slip_ratio: float) -> None:
+    """What slip can be told from rolling follows from the measured jitter of the speeds, here 0.1 %."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, speed_jitter=0.001, slip_ratio=slip_ratio, replicates=8)
+    curves = separate(runs)
+    assert len(curves) == 6
+    np.testing.assert_allclose(curves.coulomb, 0.05, rtol=ROUNDING)  # type: ignore[arg-type]
+
+
+def test_gaussian_noise_is_seldom_called_an_outlier() -> None:
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03,
+        temperatures=tuple(290.0 + 5.0 * np.arange(100)),
+        replicates=8,
+        noise=0.05,
+        seed=8,
+    )
+    (note,) = [note for note in separate(runs).notes if "kept" in note] or ["0 readings"]
+    count = 1 if note.startswith("One") else int(note.split()[0])
+    # 9600 readings; their common scale is known to 1 %, and 5 σ is passed once in two million times.
+    assert count == 0
+
+
+def test_readings_at_rest_are_left_out_and_said() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03)
+    rest = np.array([[0.0, 0.0, 0.3, 25.0, 303.15, 1]])
+    curves = separate(runs_from(np.concatenate([rows_of(runs), rest])))
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    assert curves.notes == ("1 of 49 readings were taken with the disc at rest and left out.",)
+
+
+def test_unknown_errors_are_infinite_and_said() -> None:
+    """Three readings for three unknowns leave nothing to tell the scatter from."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[:3], replicates=1)
+    curves = separate(runs)
+    assert np.all(np.isinf(curves.viscoelastic_error))
+    assert any("too few readings" in note for note in curves.notes)
+
+
+def test_no_readings_are_an_error() -> None:
+    with pytest.raises(InputError, match="nothing to separate"):
+        separate(runs_from(np.empty((0, 6))))
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 1.0, -1.0])
+def test_tolerance_must_be_a_fraction(tolerance: float) -> None:
+    with pytest.raises(InputError, match="between 0 and 1"):
+        separate(traction_runs(viscoelastic=lambda v, T: 0.03), speed_tolerance=tolerance)

@@ -1,0 +1,203 @@
+"""DMA tables as people write them: read alike whatever their dress, refused clearly where wrong."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers import read_dma, read_mtm
+
+HEADER = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
+ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
+
+
+def write(tmp_path, *lines, encoding="utf-8", name="sweeps.csv"):
+    path = tmp_path / name
+    path.write_bytes("\n".join(lines).encode(encoding))
+    return path
+
+
+def assert_is_the_table(sweeps):
+    # Unit conversion is exact to rounding.
+    assert sweeps.temperatures == pytest.approx([293.15, 303.15], rel=1e-12)
+    for isotherm in sweeps.isotherms:
+        assert isotherm.angular_frequency == pytest.approx([2 * math.pi, 20 * math.pi], rel=1e-12)
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6], rel=1e-12)
+    assert sweeps.isotherms[1].loss_modulus == pytest.approx([4e5, 6e5], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        HEADER,
+        "T_C,f_Hz,storage_MPa,loss_MPa",
+        "T [degC],f [Hz],E' [MPa],E'' [MPa]",
+        "T / °C,f / Hz,E' / MPa,E\" / MPa",
+        "Temperature (°C),Frequency (Hz),Storage Modulus (MPa),Loss Modulus (MPa)",
+        "temperature (C),freq (1/s),E′ (N/mm²),E″ (N/mm²)",
+    ],
+)
+def test_headers_are_read_in_many_spellings(tmp_path, header):
+    assert_is_the_table(read_dma(write(tmp_path, "# a comment", header, "", *ROWS)))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+def test_encoding_and_delimiter_do_not_matter(tmp_path, encoding, delimiter):
+    lines = [line.replace(",", delimiter) for line in ["T (°C),f (Hz),E' (MPa),E'' (MPa)", *ROWS]]
+    assert_is_the_table(read_dma(write(tmp_path, *lines, encoding=encoding)))
+
+
+@pytest.mark.parametrize("delimiter", [";", "\t"])
+def test_decimal_commas_are_read_where_the_comma_is_free(tmp_path, delimiter):
+    lines = [line.replace(",", delimiter).replace(".", ",") for line in [HEADER, *ROWS]]
+    assert_is_the_table(read_dma(write(tmp_path, *lines)))
+
+
+def test_angular_frequency_is_not_taken_for_hertz(tmp_path):
+    rows = ["20,1,5,0.5", "20,10,6,0.7"]
+    for heading in ("angular frequency (rad/s)", "omega (1/s)", "frequency (rad/s)"):
+        sweeps = read_dma(write(tmp_path, HEADER.replace("frequency (Hz)", heading), *rows))
+        assert sweeps.isotherms[0].angular_frequency == pytest.approx([1.0, 10.0], rel=1e-12)
+    with pytest.raises(DataFileError, match="rad/s"):
+        read_dma(write(tmp_path, HEADER.replace("frequency (Hz)", "angular frequency (Hz)"), *rows))
+
+
+def test_kelvin_and_fahrenheit_are_absolute_temperatures(tmp_path):
+    for heading, value in (("T (K)", "293.15"), ("T (°F)", "68"), ("T (F)", "68")):
+        lines = [HEADER.replace("temperature (degC)", heading), f"{value},1,5,0.5", f"{value},2,6,0.6"]
+        # 68 °F is 20 °C; only rounding is left
+        assert read_dma(write(tmp_path, *lines)).temperatures == pytest.approx([293.15], rel=1e-12)
+
+
+def test_order_and_repeats_of_rows_do_not_matter_and_are_noted(tmp_path):
+    plain = read_dma(write(tmp_path, HEADER, *ROWS))
+    shuffled = read_dma(write(tmp_path, HEADER, ROWS[3], ROWS[2], ROWS[1], ROWS[0], ROWS[0]))
+    assert_is_the_table(plain)
+    assert_is_the_table(shuffled)
+    text = " ".join(shuffled.notes)
+    assert "sorted by frequency" in text
+    assert "sorted by temperature" in text
+    assert "1 repeated frequencies at 20.0 °C were averaged" in text
+
+
+def test_repeated_readings_are_averaged(tmp_path):
+    sweeps = read_dma(write(tmp_path, HEADER, "20,1,4,0.4", "20,1,6,0.8", "20,2,7,0.9"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 7e6])
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([6e5, 9e5])
+
+
+def test_isotherms_are_told_by_gaps_in_measured_temperature(tmp_path):
+    sweeps = read_dma(write(tmp_path, HEADER, "19.8,1,5,1", "20.3,2,5,1", "24.9,1,4,1", "25.2,2,4,1"))
+    assert sweeps.temperatures - 273.15 == pytest.approx([20.05, 25.05])  # their means
+
+
+def test_a_temperature_ramp_is_refused(tmp_path):
+    ramp = [f"{temperature},1,5,0.5" for temperature in np.arange(0.0, 50.0, 0.5)]
+    with pytest.raises(DataFileError, match="not a temperature ramp"):
+        read_dma(write(tmp_path, HEADER, *ramp))
+
+
+def test_a_loss_modulus_below_zero_is_left_out_and_named(tmp_path):
+    sweeps = read_dma(write(tmp_path, HEADER, *ROWS, "30,20,7,-0.1", "30,30,7,0"))
+    assert_is_the_table(sweeps)
+    named = [note for note in sweeps.notes if "left out" in note]
+    assert len(named) == 2
+    assert "Line 6" in named[0]
+    assert "30.0 °C" in named[0]
+    assert "20 Hz" in named[0]
+
+
+def test_the_header_says_tension_or_shear(tmp_path):
+    shear = HEADER.replace("storage modulus", "G'").replace("loss modulus", "G''")
+    assert read_dma(write(tmp_path, shear, *ROWS)).deformation == "shear"
+    assert read_dma(write(tmp_path, shear.replace("G", "E"), *ROWS)).deformation == "tension"
+    with pytest.raises(DataFileError, match="the header says shear"):
+        read_dma(write(tmp_path, shear, *ROWS), deformation="tension")
+    with pytest.raises(DataFileError, match="the other as shear"):
+        read_dma(write(tmp_path, shear.replace("G''", "E''"), *ROWS))
+
+
+def test_without_a_word_in_the_header_the_caller_says_it_or_a_note_does(tmp_path):
+    path = write(tmp_path, HEADER, *ROWS)
+    assert read_dma(path, deformation="shear").deformation == "shear"
+    assumed = read_dma(path)
+    assert assumed.deformation == "tension"
+    assert any("taken as tensile" in note for note in assumed.notes)
+    with pytest.raises(InputError, match="must be 'tension' or 'shear'"):
+        read_dma(path, deformation="bending")
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        (
+            [HEADER, "20,1,nan,0.5"],
+            r"line 2: 'nan' in column 'storage modulus \(MPa\)' is not a finite number",
+        ),
+        ([HEADER, "20,1,5,0.5", "20,inf,5,0.5"], "line 3: 'inf'"),
+        ([HEADER, "20,1,,0.5"], "line 2: the cell in column 'storage modulus .* is empty"),
+        ([HEADER, "20,1,1_000,0.5"], "'1_000'"),
+        ([HEADER, "20,1,five,0.5"], "'five'"),
+        ([HEADER, "20,1,0,0.5"], r"line 2: 0 in column 'storage modulus \(MPa\)' must be above zero"),
+        ([HEADER, "20,-1,5,0.5"], "line 2: -1 in column 'frequency"),
+        ([HEADER, "-300,1,5,0.5"], "above absolute zero"),
+        ([HEADER, "20,1,5,-0.5"], "no row has a loss modulus above zero"),
+        ([HEADER, "20,1,5"], "line 2: the row has 3 cells where the header names 4 columns"),
+        ([HEADER], "no row of numbers"),
+        ([HEADER.replace("MPa", "mm"), *ROWS], r"'storage modulus \(mm\)' has the unit 'mm'; .* 'MPa'"),
+        (
+            [HEADER.replace(" (MPa)", ""), *ROWS],
+            r"'storage modulus' has no unit; write it as 'storage modulus \(MPa\)'",
+        ),
+        ([HEADER.replace("(Hz)", "(kg)"), *ROWS], r"has the unit 'kg'; it must be 'Hz' or 'rad/s'"),
+        ([HEADER.replace("degC", "Pa"), *ROWS], r"'temperature \(Pa\)' has the unit 'Pa'"),
+        (
+            [HEADER.replace("loss modulus", "tan delta"), *ROWS],
+            "no column for loss modulus.*this one has .*tan delta",
+        ),
+        ([HEADER.replace("loss", "storage"), *ROWS], "could each be the storage modulus"),
+        (["just text"], "no columns separated"),
+        ([""], "the file is empty"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_sentence(tmp_path, lines, says):
+    path = write(tmp_path, *lines)
+    with pytest.raises(DataFileError, match=says) as caught:
+        read_dma(path)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_missing_file_folder_and_binary_are_told_apart(tmp_path):
+    with pytest.raises(DataFileError, match="no such file"):
+        read_dma(tmp_path / "absent.csv")
+    with pytest.raises(DataFileError, match="is a folder"):
+        read_dma(tmp_path)
+    (tmp_path / "image.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(range(256)))
+    with pytest.raises(DataFileError, match="binary"):
+        read_dma(tmp_path / "image.png")
+
+
+def test_the_two_kinds_of_table_are_not_mistaken_for_each_other(tmp_path):
+    dma = write(tmp_path, HEADER, *ROWS)
+    mtm = write(
+        tmp_path,
+        "temperature (degC),replicate,disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)",
+        "30,1,100,90,25,0.4",
+        name="mtm.csv",
+    )
+    with pytest.raises(DataFileError, match="use read_mtm"):
+        read_dma(mtm)
+    with pytest.raises(DataFileError, match="use read_dma"):
+        read_mtm(dma)
+
+
+def test_real_sweeps_are_read_with_the_bad_point_named(real_data):
+    sweeps = read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
+    assert len(sweeps) == 20
+    assert sum(map(len, sweeps.isotherms)) == 339
+    assert sum("left out" in note and "-40.0 °C, 20 Hz" in note for note in sweeps.notes) == 1

@@ -1,0 +1,92 @@
+"""Traction tables: signed speeds and forces in SI units, replicates told apart, nonsense refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers import read_mtm
+
+HEADER = "temperature (degC),replicate,disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)"
+ROW = "30,1,-100,90,25,-0.4"
+WITHOUT = HEADER.replace("replicate,", "")
+
+
+def write(tmp_path, *lines, name="runs.csv"):
+    path = tmp_path / name
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return path
+
+
+def test_signs_and_units_survive(tmp_path):
+    runs = read_mtm(write(tmp_path, HEADER, ROW))
+    assert runs.disc_speed == pytest.approx([-0.1])
+    assert runs.ball_speed == pytest.approx([0.09])
+    assert runs.traction_force == pytest.approx([-0.4])
+    assert runs.load == pytest.approx([25.0])
+    assert runs.temperature == pytest.approx([303.15])
+    assert list(runs.replicate) == [1]
+    assert runs.notes == ()
+
+
+def test_metres_per_second_and_other_order_of_columns(tmp_path):
+    runs = read_mtm(write(tmp_path, "load (kN),T (K),ball_speed (m/s),disc_speed (m/s),traction (mN)", "1,300,2,3,4"))
+    assert runs.load == pytest.approx([1000.0])
+    assert runs.disc_speed == pytest.approx([3.0])
+    assert runs.traction_force == pytest.approx([0.004])
+
+
+def test_several_files_follow_each_other(tmp_path):
+    first = write(tmp_path, HEADER, ROW, name="one.csv")
+    second = write(tmp_path, HEADER, ROW.replace("30,1", "60,2"), name="two.csv")
+    runs = read_mtm(first, second)
+    assert list(runs.replicate) == [1, 2]
+    assert runs.temperature == pytest.approx([303.15, 333.15])
+    assert "one.csv" in runs.source
+    assert "two.csv" in runs.source
+
+
+def test_equal_conditions_are_numbered_though_readings_scatter(tmp_path):
+    rows = [
+        "30.4,100,90,25,0.4",
+        "30.6,99.4,90.3,25,0.5",
+        "30.5,120,90,25,0.4",
+        "60,100,90,25,0.4",
+        "30.1,-100,-90,25,0",
+    ]
+    runs = read_mtm(write(tmp_path, WITHOUT, *rows))
+    assert list(runs.replicate) == [1, 2, 1, 1, 1]
+    assert "numbered in their order" in runs.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        ([HEADER, ROW.replace("25", "0")], r"line 2: 0 in column 'load \(N\)' must be above zero"),
+        ([HEADER, ROW.replace("25", "-25")], "line 2: -25 in column 'load"),
+        ([HEADER, ROW.replace("30,1", "30,1.5")], "must be a whole number"),
+        ([HEADER, ROW.replace("-0.4", "nan")], "line 2: 'nan' in column 'traction force"),
+        ([HEADER, ROW.replace("30,", "-300,")], "above absolute zero"),
+        ([HEADER.replace("ball speed", "slip"), ROW], "no column for ball speed.*this one has .*slip"),
+        ([HEADER.replace("mm/s", "mm"), ROW], r"'disc speed \(mm\)' has the unit 'mm'"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_sentence(tmp_path, lines, says):
+    with pytest.raises(DataFileError, match=says):
+        read_mtm(write(tmp_path, *lines))
+
+
+def test_mixed_replicate_columns_and_no_file_at_all_are_refused(tmp_path):
+    first = write(tmp_path, HEADER, ROW, name="one.csv")
+    second = write(tmp_path, WITHOUT, ROW.replace("30,1", "30"), name="two.csv")
+    with pytest.raises(DataFileError, match=r"two\.csv: has no replicate column"):
+        read_mtm(first, second)
+    with pytest.raises(InputError, match="at least one file"):
+        read_mtm()
+
+
+def test_readings_cannot_be_changed_afterwards(tmp_path):
+    runs = read_mtm(write(tmp_path, HEADER, ROW))
+    with pytest.raises(ValueError, match="read-only"):
+        runs.load[0] = np.pi

@@ -1,0 +1,222 @@
+"""A study's results made of plain formulas, no solver involved: what the report is tested on."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+REFERENCE = 303.15  # K
+C1, C2 = 10.04, 89.6  # WLF at the reference; K
+ZERO = 273.15
+RUN_FILE = 'title = "A rubber of formulas"\ndata_origin = "synthetic"\n[material]\ndma = "sweeps.csv"\n'
+
+
+def log10_alpha(temperature: Any) -> Any:
+    above = np.asarray(temperature) - REFERENCE
+    return -C1 * above / (C2 + above)
+
+
+def modulus(frequency: Any) -> Any:
+    """Complex modulus of formulas, Pa: a plateau, a glass and a power law between."""
+    return 3e6 * (1 + (1j * frequency / 10) ** 0.2) + 1.5e9 / (1 + 5e6 / (1j * frequency) ** 0.9)
+
+
+def dataset(dim: str, columns: dict[str, tuple[Any, str, str]], attrs: dict[str, Any] | None = None) -> xr.Dataset:
+    data = {
+        name: (dim, np.atleast_1d(np.asarray(value)), {"units": unit, "long_name": long_name})
+        for name, (value, unit, long_name) in columns.items()
+    }
+    return xr.Dataset(data, attrs=attrs)
+
+
+def _dma() -> dict[str, xr.Dataset]:
+    temperature, frequency = np.meshgrid(np.arange(-30.0, 101.0, 10.0) + ZERO, np.geomspace(0.63, 63, 9), indexing="ij")
+    temperature, frequency = temperature.ravel(), frequency.ravel()
+    rng = np.random.default_rng(1)
+    E = modulus(10 ** log10_alpha(temperature) * frequency)
+    storage, loss = E.real * rng.normal(1, 0.01, E.shape), E.imag * rng.normal(1, 0.01, E.shape)
+    steps = np.unique(temperature)
+    reduced = np.sort(10 ** log10_alpha(temperature) * frequency)
+    order = np.argsort(10 ** log10_alpha(temperature) * frequency)
+    wide = np.geomspace(reduced[0] / 30, reduced[-1] * 30, 200)
+    moduli = {
+        "storage_modulus": (storage, "Pa", "storage modulus"),
+        "loss_modulus": (loss, "Pa", "loss modulus"),
+    }
+    moduli_in_order = {name: (value[order], unit, text) for name, (value, unit, text) in moduli.items()}
+    factors = dataset(
+        "temperature",
+        {
+            "log10_shift_factor": (
+                np.where(steps < 250, 0.8, 1) * log10_alpha(steps),
+                "1",
+                "decadic logarithm of the shift factor",
+            ),
+            "standard_error": (0.002 * np.abs(steps - REFERENCE), "1", "standard error of log10 α"),
+        },
+        {
+            "reference_temperature": REFERENCE,
+            "wlf_C1": C1,
+            "wlf_C2": C2,
+            "wlf_C1_error": 0.05,
+            "wlf_C2_error": 0.6,
+            "shift_used": "measured",
+            "overlap_rms_log10_storage": 0.0061,
+            "overlap_rms_log10_loss": 0.0083,
+            "wlf_rms": 0.31,
+        },
+    ).assign_coords(temperature=("temperature", steps, {"units": "K", "long_name": "temperature"}))
+    return {
+        "isotherms": dataset(
+            "reading",
+            {
+                "temperature": (temperature, "K", "temperature"),
+                "angular_frequency": (frequency, "rad/s", "angular frequency"),
+                **moduli,
+            },
+        ),
+        "shift_factors": factors,
+        "master_curve": dataset(
+            "reading",
+            {
+                "angular_frequency": (reduced, "rad/s", "reduced angular frequency"),
+                **moduli_in_order,
+                "temperature": (temperature[order], "K", "temperature of origin"),
+                "fitted_storage_modulus": (modulus(reduced).real, "Pa", "fitted storage modulus"),
+                "fitted_loss_modulus": (modulus(reduced).imag, "Pa", "fitted loss modulus"),
+            },
+            {"rms_log10_storage": 0.0052, "rms_log10_loss": 0.0071},
+        ),
+        "spectrum_curve": dataset(
+            "angular_frequency",
+            {
+                "storage_modulus": (modulus(wide).real, "Pa", "storage modulus"),
+                "loss_modulus": (modulus(wide).imag, "Pa", "loss modulus"),
+            },
+        ).assign_coords(angular_frequency=("angular_frequency", wide, {"units": "rad/s"})),
+        "spectrum": dataset(
+            "mode",
+            {
+                "retardation_time": (np.exp(np.arange(-8.0, 9.0)), "s", "retardation time"),
+                "creep_coefficient": (1.37e-8 / (1 + np.arange(-8.0, 9.0) ** 2), "1/Pa", "creep coefficient"),
+            },
+            {
+                "E0": 3.021e6,
+                "E_inf": 1.507e9,
+                "E0_extrapolated": 1,
+                "E_inf_extrapolated": 0,
+                "statements": json.dumps(["E0 lies below what the sweeps reach & is extrapolated."]),
+            },
+        ),
+    }
+
+
+def friction(reduced_speed: Any) -> Any:
+    return 0.005 + 0.03 / (1 + (np.log10(reduced_speed) + 4) ** 2)
+
+
+def prediction(speed: Any, temperature: Any, mu: Any) -> xr.Dataset:
+    size = np.shape(speed)
+    return dataset(
+        "case",
+        {
+            "speed": (speed, "m/s", "speed"),
+            "temperature": (temperature, "K", "temperature"),
+            "load": (np.full(size, 25.0), "N", "normal load"),
+            "friction_coefficient": (mu, "1", "viscoelastic friction coefficient"),
+            "friction_error": (4e-4 * mu, "1", "numerical error"),
+            "indentation": (0.61e-3 + 0.1 * mu * 1e-3, "m", "indentation"),
+            "contact_area": (np.full(size, 1.57e-5), "m2", "contact area"),
+            "front": (np.full(size, 2.31e-3), "m", "front"),
+            "rear": (np.full(size, 2.12e-3), "m", "rear"),
+            "half_width": (np.full(size, 2.24e-3), "m", "half width"),
+            "max_pressure": (2.3e6 + 1e6 * mu, "Pa", "largest pressure"),
+            "energy_balance": (-3.1e-4 * np.ones(size), "1", "energy balance"),
+            "complementarity": (4.2e-10 * np.ones(size), "1", "complementarity"),
+            "cells": (np.full(size, 256), "1", "cells"),
+            "products": (np.full(size, 83), "1", "products"),
+        },
+    )
+
+
+def _measured() -> dict[str, xr.Dataset]:
+    temperature, speed = np.meshgrid(np.array([30.0, 60.0, 90.0]) + ZERO, np.geomspace(0.02, 0.2, 6), indexing="ij")
+    temperature, speed = temperature.ravel(), speed.ravel()
+    reduced = 10 ** log10_alpha(temperature) * speed
+    mu = friction(reduced)
+    found = mu * np.random.default_rng(2).normal(1, 0.03, mu.shape)
+    flat = np.ones(mu.shape)
+    measurement = dataset(
+        "point",
+        {
+            "speed": (speed, "m/s", "speed"),
+            "temperature": (temperature, "K", "temperature"),
+            "load": (25.03 * flat, "N", "load"),
+            "replicates": (np.full(mu.shape, 8), "1", "replicates"),
+            "viscoelastic": (found, "1", "viscoelastic friction"),
+            "viscoelastic_error": (0.05 * mu / 8**0.5, "1", "standard error"),
+            "viscoelastic_scatter": (0.05 * mu, "1", "scatter"),
+            "coulomb": (0.42 * flat, "1", "Coulomb friction"),
+            "coulomb_error": (0.002 * flat, "1", "standard error"),
+            "coulomb_scatter": (0.006 * flat, "1", "scatter"),
+            "consistency": (1.1e-4 * flat, "1", "consistency"),
+            "consistency_error": (2e-4 * flat, "1", "its error"),
+            "reduced_speed": (reduced, "m/s", "reduced speed"),
+            "predicted": (mu, "1", "predicted"),
+            "predicted_error": (4e-4 * mu, "1", "error"),
+        },
+    )
+    agreement = dataset(
+        "temperature",
+        {
+            "bias": ([0.011, -0.012, 0.013], "1", "mean relative difference, measured less predicted"),
+            "rms": ([0.031, 0.032, 0.033], "1", "root mean square relative difference"),
+            "share_within_scatter": ([1.0, 0.8333, 0.6667], "1", "share of points within the scatter"),
+            "points": ([6, 6, 6], "1", "points"),
+        },
+        {"bias": 0.0041, "rms": 0.0322, "share_within_scatter": 0.8333, "points": 18},
+    ).assign_coords(temperature=("temperature", np.array([30.0, 60.0, 90.0]) + ZERO, {"units": "K"}))
+    return {"measurement": measurement, "agreement": agreement}
+
+
+@pytest.fixture
+def make_tree() -> Callable[..., xr.DataTree]:
+    """Return a maker of results: with or without measurement, of any size, with any root attributes."""
+
+    def make(measurement: bool = True, speeds: int = 7, temperatures: int = 3, **attrs: Any) -> xr.DataTree:
+        temperature, speed = np.meshgrid(
+            np.linspace(30.0, 90.0, temperatures) + ZERO, np.geomspace(0.02, 0.2, speeds), indexing="ij"
+        )
+        temperature, speed = temperature.ravel(), speed.ravel()
+        groups = _dma()
+        groups["prediction"] = prediction(speed, temperature, friction(10 ** log10_alpha(temperature) * speed))
+        reduced = np.geomspace(1e-7, 1.0, 41)
+        groups["prediction_master"] = prediction(reduced, np.full(41, REFERENCE), friction(reduced))
+        if measurement:
+            groups |= _measured()
+        root = {
+            "title": "A rubber of formulas", "data_origin": "synthetic", "viscofric_version": "0.1.0",
+            "created": "2026-11-21T12:00:00+00:00", "study_file": "study.toml", "study_text": RUN_FILE,
+            "input_hashes": json.dumps({"sweeps.csv": "ab" * 32, "runs.csv": "cd" * 32}),
+            "software": json.dumps({"python": "3.11.2", "numpy": "2.1.0"}),
+            "notes": json.dumps(["sweeps.csv: 2 rows with a temperature of −999 °C were left out."]),
+            "warnings": json.dumps(["The contact's half-width is 0.31 of the ball's radius."]),
+            "failures": "[]", "deformation": "tension", "poisson_ratio": 0.5,
+            "indenter": "ball of radius 9.525 mm", "load": 25.0, "accuracy": 1e-3, **attrs,
+        }  # fmt: skip
+        return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **groups})
+
+    return make
+
+
+@pytest.fixture
+def tree(make_tree: Callable[..., xr.DataTree]) -> xr.DataTree:
+    """Return the usual results: three temperatures, with a measurement."""
+    return make_tree()

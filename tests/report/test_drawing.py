@@ -1,0 +1,102 @@
+"""Figures as files: the right ones, valid, the same every time, and honest about synthetic data."""
+
+from __future__ import annotations
+
+import struct
+import xml.etree.ElementTree as ET
+from typing import TYPE_CHECKING
+
+import matplotlib
+import numpy as np
+import pytest
+
+from viscofric import report
+from viscofric.report import drawing
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    import xarray as xr
+
+NAMES = ["isotherms", "shift_factors", "master_curve", "friction_against_speed", "friction_master_curve"]
+
+
+def png_size(content: bytes) -> tuple[int, int]:
+    assert content.startswith(b"\x89PNG\r\n\x1a\n")
+    assert content.endswith(b"IEND\xaeB`\x82")
+    width, height = struct.unpack(">II", content[16:24])
+    return width, height
+
+
+def test_every_figure_is_written_as_png_and_svg(tree: xr.DataTree, tmp_path: Path) -> None:
+    paths = report.draw_figures(tree, tmp_path / "new" / "figures")
+    assert [path.name for path in paths] == [f"{name}.{form}" for name in NAMES for form in ("png", "svg")]
+    for path in paths:
+        if path.suffix == ".png":
+            width, height = png_size(path.read_bytes())
+            assert width > 1000
+            assert height > 700
+        else:
+            assert ET.fromstring(path.read_text("utf-8")).tag == "{http://www.w3.org/2000/svg}svg"
+
+
+def test_same_results_give_the_same_bytes(
+    make_tree: Callable[..., xr.DataTree], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name = "friction_against_speed"
+    monkeypatch.setattr(drawing, "FIGURES", {name: drawing.FIGURES[name]})
+    first, second = (drawing.figure_images(make_tree()) for _ in range(2))
+    assert list(first) == [name]
+    assert first == second
+
+
+def test_drawing_leaves_matplotlibs_settings_alone(tree: xr.DataTree) -> None:
+    before = dict(matplotlib.rcParams)
+    drawing.figure_images(tree, ("svg",))
+    assert dict(matplotlib.rcParams) == before
+
+
+@pytest.mark.parametrize(("origin", "said"), [("synthetic", True), ("measured", False)])
+def test_figures_of_synthetic_data_say_so(
+    make_tree: Callable[..., xr.DataTree], monkeypatch: pytest.MonkeyPatch, origin: str, said: bool
+) -> None:
+    seen = []
+
+    def words(figure: object, form: str) -> bytes:
+        seen.append([text.get_text() for axes in figure.axes for text in axes.texts])  # type: ignore[attr-defined]
+        return b""
+
+    monkeypatch.setattr(drawing, "_image", words)
+    drawing.figure_images(make_tree(data_origin=origin), ("svg",))
+    assert len(seen) == len(NAMES)
+    assert all(("synthetic data" in texts) == said for texts in seen)
+
+
+def test_results_without_an_origin_count_as_synthetic(tree: xr.DataTree) -> None:
+    del tree.attrs["data_origin"]
+    assert drawing.is_synthetic(tree)
+
+
+def test_figures_that_the_results_lack_are_left_out(tree: xr.DataTree, tmp_path: Path) -> None:
+    for name in ("isotherms", "prediction_master", "measurement"):
+        del tree[name]
+    names = {path.stem for path in report.draw_figures(tree, tmp_path)}
+    assert names == {"shift_factors", "master_curve", "friction_against_speed"}
+
+
+def test_figures_survive_the_round_trip_through_a_file(tree: xr.DataTree, tmp_path: Path) -> None:
+    import xarray as xr
+
+    tree.to_netcdf(tmp_path / "results.nc", engine="h5netcdf")
+    with xr.open_datatree(tmp_path / "results.nc", engine="h5netcdf") as stored:
+        again = stored.load()
+    assert drawing.figure_images(again, ("svg",)) == drawing.figure_images(tree, ("svg",))
+
+
+def test_all_cases_failed_is_still_drawn(tree: xr.DataTree) -> None:
+    for name in ("prediction", "prediction_master"):
+        part = tree[name].to_dataset()
+        part["friction_coefficient"] = part["friction_coefficient"] * np.nan
+        tree[name].dataset = part
+    assert set(drawing.figure_images(tree, ("svg",))) == set(NAMES)

@@ -1,0 +1,70 @@
+"""Materials: temperature acts on time alone, and the built-in rubber is the one that was designed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import InputError
+
+
+def test_standard_linear_solid_relaxes_in_tau_times_E0_over_E_inf():
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    relaxation = 1e-3 * 1e6 / 1e7
+    omega = np.logspace(0, 6, 13)
+    maxwell = 1e6 + 9e6 * 1j * omega * relaxation / (1 + 1j * omega * relaxation)
+    assert rubber.complex_modulus(omega) == pytest.approx(maxwell, rel=1e-12)
+    assert rubber.reference is None
+    with pytest.raises(InputError, match="must be below E_inf"):
+        vf.Material.standard_linear_solid(E0=2e7, E_inf=1e7, tau=1.0)
+
+
+def test_temperature_shifts_the_frequency():
+    solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    law = vf.WLF(C1=9.0, C2=100.0, reference="30 degC")
+    rubber = vf.Material(solid.spectrum, shift=law)
+    omega = np.logspace(-2, 6, 9)
+    expected = rubber.complex_modulus(law("60 degC") * omega, "30 degC")
+    assert rubber.complex_modulus(omega, "60 degC") == pytest.approx(expected, rel=1e-12)
+    assert rubber.at("30 degC") is rubber.spectrum
+    assert rubber.reference == pytest.approx(303.15)
+
+
+def test_without_a_shift_no_temperature_can_be_chosen():
+    solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    assert solid.at() is solid.spectrum
+    with pytest.raises(InputError, match="has no shift"):
+        solid.at("60 degC")
+
+
+@pytest.mark.parametrize("ratio", [-0.1, 0.51, np.nan])
+def test_impossible_poisson_ratios_are_refused(ratio):
+    with pytest.raises(InputError, match="poisson_ratio"):
+        vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1.0, poisson_ratio=ratio)
+
+
+def test_wrong_parts_are_refused():
+    solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1.0)
+    with pytest.raises(InputError, match="must be a RetardationSpectrum"):
+        vf.Material(solid)
+    with pytest.raises(InputError, match="must be a law"):
+        vf.Material(solid.spectrum, shift=1.0)
+
+
+def test_synthetic_fluoroelastomer_is_as_designed():
+    rubber = vf.synthetic_fluoroelastomer()
+    spectrum = rubber.at("30 degC")
+    assert "synthetic" in rubber.name
+    assert pytest.approx(3e6, rel=1e-12) == spectrum.E0
+    assert spectrum.E_inf == pytest.approx(1.5e9, rel=1e-12)
+    assert len(spectrum) < 60
+    assert np.diff(np.log(spectrum.tau)) == pytest.approx(1.0)
+    omega = np.logspace(4, 9, 1001)
+    tangent = spectrum.loss_tangent(omega)
+    assert tangent.max() == pytest.approx(1.33, abs=0.01)  # as printed in the design, two decimals
+    assert omega[tangent.argmax()] == pytest.approx(5e6, rel=0.1)  # "near"
+    friction_window = spectrum.loss_modulus(np.array([1e-2, 1.0, 10.0, 1e2]))
+    assert np.all(np.diff(friction_window) < 0)
+    law = rubber.shift.above.at_reference("20 degC")
+    assert pytest.approx((10.04, 89.6), abs=0.005) == (law.C1, law.C2)

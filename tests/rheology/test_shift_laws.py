@@ -1,0 +1,148 @@
+"""Shift laws: what they say about temperature, whatever reference and units they are written in."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from viscofric.errors import InputError
+from viscofric.rheology import WLF, Arrhenius, ShiftFactors, WLFArrhenius
+
+LAWS = [
+    WLF(C1=17.44, C2=51.6, reference="-18 degC"),
+    Arrhenius(activation_energy="120 kJ/mol", reference="20 degC"),
+    WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-18 degC", reference="30 degC"),
+    ShiftFactors(["0 degC", "30 degC", "60 degC", "100 degC"], [3.0, 0.5, -1.0, -2.0], "30 degC"),
+]
+by_name = pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+ROUNDING = 1e-11  # sums of terms of order ten in double precision
+
+
+@by_name
+def test_shift_factor_is_one_at_the_reference_and_falls_as_temperature_rises(law):
+    assert law.log10(law.reference) == pytest.approx(0.0, abs=ROUNDING)
+    assert law(law.reference) == pytest.approx(1.0, abs=10 * ROUNDING)
+    temperatures = np.linspace(273.15, 373.15, 101)
+    assert np.all(np.diff(law.log10(temperatures)) < 0)
+
+
+@by_name
+@given(reference=st.floats(275.0, 370.0), temperature=st.floats(275.0, 370.0))
+def test_another_reference_only_moves_the_law(law, reference, temperature):
+    moved = law.at_reference(reference)
+    assert moved.reference == reference
+    assert moved.log10(temperature) == pytest.approx(law.log10(temperature) - law.log10(reference), abs=ROUNDING)
+
+
+def test_wlf_keeps_its_invariants_when_the_reference_moves():
+    law = WLF(C1=17.44, C2=51.6, reference="-18 degC")
+    moved = law.at_reference("20 degC")
+    assert pytest.approx(law.C1 * law.C2, rel=1e-13) == moved.C1 * moved.C2
+    assert moved.pole == pytest.approx(law.pole, rel=1e-13)
+    assert pytest.approx((10.04, 89.6), abs=0.005) == (moved.C1, moved.C2)  # as printed, two decimals
+
+
+def test_wlf_is_refused_at_its_pole():
+    with pytest.raises(InputError, match=r"diverges at -69\.6 °C"):
+        LAWS[0]("-70 degC")
+    with pytest.raises(InputError, match="diverges"):
+        LAWS[0].at_reference("-80 degC")
+
+
+def test_wlf_and_arrhenius_join_with_one_slope_at_the_glass_transition():
+    law = LAWS[2]
+    transition, step = law.glass_transition, 1e-4  # K: differences are then good to about 1e-6
+    below = (law.log10(transition) - law.log10(transition - step)) / step
+    above = (law.log10(transition + step) - law.log10(transition)) / step
+    assert below == pytest.approx(above, rel=1e-5)
+    assert below == pytest.approx(-law.C1 / law.C2, rel=1e-5)
+    arrhenius = Arrhenius(law.activation_energy, transition)
+    assert law.log10("-60 degC") - law.log10(transition) == pytest.approx(arrhenius.log10("-60 degC"), rel=1e-12)
+    assert law.log10("90 degC") == pytest.approx(law.above.at_reference("30 degC").log10("90 degC"), rel=1e-12)
+
+
+def test_arrhenius_slope_is_the_activation_energy():
+    law = Arrhenius("120 kJ/mol", "20 degC")
+    slope = law.log10(1 / (1 / 293.15 + 1e-5)) / 1e-5
+    assert slope == pytest.approx(120e3 / (8.314462618 * math.log(10)), rel=1e-9)
+
+
+def test_text_numbers_and_lists_mean_the_same():
+    law = LAWS[0]
+    assert law("30 degC") == law(303.15)
+    assert law(["30 degC", "50 degC"]) == pytest.approx(law(np.array([303.15, 323.15])))
+    assert isinstance(law(300.0), float)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: WLF(C1=-1, C2=50, reference=300),
+        lambda: WLF(C1=10, C2=0, reference=300),
+        lambda: WLF(C1=10, C2=50, reference="30 MPa"),
+        lambda: Arrhenius("-3 kJ/mol", 300),
+        lambda: ShiftFactors([300.0], [0.0], 300.0),
+        lambda: ShiftFactors([300.0, 290.0], [0.0, 1.0], 300.0),
+        lambda: ShiftFactors([290.0, 300.0], [1.0, np.nan], 300.0),
+        lambda: ShiftFactors([290.0, 300.0], [1.0, 0.0], 310.0),
+    ],
+)
+def test_meaningless_constants_are_refused(make):
+    with pytest.raises(InputError):
+        make()
+
+
+def test_measured_shift_factors_are_exact_at_their_nodes_and_silent_outside():
+    table = LAWS[3]
+    assert table.log10(table.temperatures) == pytest.approx([2.5, 0.0, -1.5, -2.5], abs=ROUNDING)
+    with pytest.raises(InputError, match="use a law"):
+        table("120 degC")
+
+
+@pytest.mark.parametrize("kind", ["wlf", "arrhenius", "wlf+arrhenius"])
+def test_an_exact_table_gives_its_law_back(kind):
+    law = {"wlf": LAWS[0].at_reference("30 degC"), "arrhenius": LAWS[1], "wlf+arrhenius": LAWS[2]}[kind]
+    start = -60.0 if kind == "wlf+arrhenius" else 0.0
+    temperatures = np.arange(start, 121.0, 10.0) + 273.15
+    fitted = ShiftFactors(temperatures, law.log10(temperatures), law.reference).law(kind)
+    # The fit stops at a relative change of 1e-8; the joined law has three constants and loses some digits.
+    assert fitted.log10(temperatures) == pytest.approx(law.log10(temperatures), abs=1e-5)
+    assert fitted.reference == law.reference
+
+
+def test_law_constants_lie_within_their_standard_errors():
+    truth = WLF(C1=9.0, C2=100.0, reference="30 degC")
+    temperatures = np.arange(0.0, 121.0, 10.0) + 273.15
+    random = np.random.default_rng(5)
+    errors = np.where(temperatures == truth.reference, 0.0, 0.01)
+    scores = []
+    for _ in range(40):
+        values = truth.log10(temperatures) + errors * random.standard_normal(temperatures.size)
+        law = ShiftFactors(temperatures, values, truth.reference, np.diag(errors**2)).law("wlf")
+        scores.append((np.array([law.C1, law.C2]) - [9.0, 100.0]) / law.standard_errors)
+    # 40 draws: the mean square of a standard normal is 1 ± 0.22 (one sigma); three sigma allowed.
+    assert np.mean(np.square(scores), axis=0) == pytest.approx([1.0, 1.0], abs=0.7)
+
+
+def test_misfit_of_a_law_widens_its_standard_errors():
+    temperatures = np.arange(-60.0, 121.0, 10.0) + 273.15
+    table = ShiftFactors(temperatures, LAWS[2].log10(temperatures), LAWS[2].reference, np.eye(19) * 1e-8)
+    whole, part = table.law("wlf"), table.law("wlf", above="-18 degC")
+    assert whole.standard_errors[1] > 100 * part.standard_errors[1]  # WLF does not hold below Tg
+    assert pytest.approx((9.035, 99.6), rel=1e-3) == (part.C1, part.C2)
+
+
+def test_what_no_law_describes_is_refused():
+    temperatures = np.arange(0.0, 101.0, 10.0) + 273.15
+    rising = ShiftFactors(temperatures, 0.01 * (temperatures - 300.0), 300.0)
+    for kind in ("wlf", "arrhenius", "wlf+arrhenius"):
+        with pytest.raises(InputError):
+            rising.law(kind)
+    with pytest.raises(InputError, match="too few"):
+        ShiftFactors([290.0, 300.0], [1.0, 0.0], 300.0).law("wlf")
+    with pytest.raises(InputError, match="must be 'wlf'"):
+        rising.law("vft")

@@ -1,0 +1,89 @@
+"""Run files: quantities with units in, every mistake told in a sentence that names the field."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from viscofric.errors import StudyError
+from viscofric.study.run_file import load_study, parse_study
+
+GOOD = """
+title = "a rubber"
+[material]
+dma = "dma.csv"
+reference_temperature = "30 degC"
+[indenter]
+radius = "9.525 mm"
+[conditions]
+load = "25 N"
+speed = { from = "20 mm/s", to = "200 mm/s", points = 3 }
+temperature = ["30 degC", "60 degC"]
+"""
+
+
+def test_quantities_become_si_and_paths_are_beside_the_run_file(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(GOOD, encoding="utf-8")
+    study = load_study(path)
+    assert study.material.dma == tmp_path / "dma.csv"
+    assert study.material.reference_temperature == pytest.approx(303.15, rel=1e-15)
+    assert study.indenter.radius == pytest.approx(9.525e-3, rel=1e-15)
+    # Three speeds over one decade, logarithmically spaced.
+    np.testing.assert_allclose(study.conditions.speeds(), [0.02, np.sqrt(0.02 * 0.2), 0.2], rtol=1e-12)
+    assert study.conditions.temperature == pytest.approx((303.15, 333.15), rel=1e-15)
+
+
+def test_one_speed_or_temperature_needs_no_list() -> None:
+    text = GOOD.replace('{ from = "20 mm/s", to = "200 mm/s", points = 3 }', '"1 m/s"')
+    study = parse_study(text.replace('["30 degC", "60 degC"]', '"30 degC"'), Path("study.toml"))
+    assert study.conditions.speeds() == (1.0,)
+    assert study.conditions.temperature == pytest.approx((303.15,), rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "told"),
+    [
+        ('load = "25 N"', 'load = "0 N"', ["conditions.load", "above zero"]),
+        ('load = "25 N"', 'load = "-3 N"', ["conditions.load", "above zero"]),
+        ('load = "25 N"', "load = 25", ["conditions.load", "no unit"]),
+        ('load = "25 N"', 'load = "25 mm"', ["conditions.load", "wrong kind of unit"]),
+        ('load = "25 N"', 'laod = "25 N"', ["conditions.laod", "did you mean 'load'?", "conditions.load: is missing"]),
+        ("[indenter]", "[indentr]", ["did you mean 'indenter'?"]),
+        ('radius = "9.525 mm"', 'radius = "big"', ["indenter.radius", "cannot be read"]),
+        ('"20 mm/s"', '"0 mm/s"', ["conditions.speed.from", "above zero"]),
+        ("points = 3", "points = 1", ["conditions.speed.points"]),
+        ("points = 3", "point = 3", ["did you mean 'points'?"]),
+        ('["30 degC", "60 degC"]', "[]", ["conditions.temperature", "empty"]),
+        ('"60 degC"', '"-300 degC"', ["conditions.temperature.1", "absolute zero"]),
+        ('dma = "dma.csv"', "", ["material.dma: is missing"]),
+        ('dma = "dma.csv"', 'dma = "dma.csv"\npoisson_ratio = 0.6', ["material.poisson_ratio", "0.5"]),
+        ('title = "a rubber"', 'title = "a rubber', ["not valid TOML"]),
+    ],
+)
+def test_each_mistake_is_told_by_its_field(good: str, bad: str, told: list[str]) -> None:
+    assert good in GOOD
+    with pytest.raises(StudyError) as caught:
+        parse_study(GOOD.replace(good, bad), Path("study.toml"))
+    message = str(caught.value)
+    assert message.startswith("study.toml: ")
+    assert "\n" not in message
+    for words in told:
+        assert words in message
+
+
+def test_all_mistakes_are_told_at_once() -> None:
+    text = GOOD.replace('"25 N"', '"25 mm"').replace("[indenter]", "[indentr]").replace("points = 3", "points = 1")
+    with pytest.raises(StudyError) as caught:
+        parse_study(text, Path("study.toml"))
+    for field in ("conditions.load", "indentr", "conditions.speed.points"):
+        assert field in str(caught.value)
+
+
+def test_missing_run_file_and_folder_are_told(tmp_path: Path) -> None:
+    with pytest.raises(StudyError, match="no such file"):
+        load_study(tmp_path / "nothing.toml")
+    with pytest.raises(StudyError, match="is a folder"):
+        load_study(tmp_path)

@@ -1,0 +1,73 @@
+"""Finished cases on disk: whole or not there, and found again by what they depend on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+
+from viscofric.errors import DataFileError
+from viscofric.study.store import CaseRecord, CaseStore, case_key, write_atomically
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+RECORD = CaseRecord(
+    speed=0.1,
+    temperature=303.15,
+    load=25.0,
+    friction_coefficient=0.1 + 0.2,  # not a short decimal: it must come back to the last bit
+    friction_error=1e-6,
+    indentation=1e-4,
+    contact_area=1e-6,
+    front=1e-3,
+    rear=0.9e-3,
+    half_width=1e-3,
+    max_pressure=1e6,
+    energy_balance=1e-4,
+    complementarity=1e-9,
+    cells=256,
+    products=90,
+    warnings=("a sentence",),
+)
+
+
+def test_a_stored_case_comes_back_to_the_last_bit(tmp_path: Path) -> None:
+    store = CaseStore(tmp_path / "cases")
+    assert store.get("a") is None
+    store.put("a", RECORD)
+    assert store.get("a") == RECORD
+
+
+@pytest.mark.parametrize("kept", [0, 1, 20, 200])
+def test_a_half_written_case_counts_as_not_solved(tmp_path: Path, kept: int) -> None:
+    store = CaseStore(tmp_path)
+    store.put("a", RECORD)
+    path = tmp_path / "a.json"
+    path.write_bytes(path.read_bytes()[:kept])
+    assert store.get("a") is None
+    store.put("a", replace(RECORD, cells=512))
+    assert store.get("a") == replace(RECORD, cells=512)
+
+
+def test_key_changes_with_every_input() -> None:
+    description: dict[str, object] = {"speed": 0.1, "load": 25.0, "C": [1.0, 2.0]}
+    keys = {case_key(description), *(case_key({**description, name: 7.0}) for name in description)}
+    assert len(keys) == 4
+
+
+def test_unwritable_folder_is_told_in_a_sentence(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("not a folder")
+    with pytest.raises(DataFileError, match="cannot be written"):
+        write_atomically(tmp_path / "file" / "a.json", b"{}")
+
+
+def test_nothing_is_left_behind_by_a_failed_write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full_disk(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("viscofric.study.store.os.fsync", full_disk)
+    with pytest.raises(DataFileError, match="No space left"):
+        write_atomically(tmp_path / "a.json", b"{}")
+    assert list(tmp_path.iterdir()) == []

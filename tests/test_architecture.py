@@ -1,0 +1,290 @@
+"""The plan of the house holds: who imports whom, what starts quickly, what front door and wheel carry."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import inspect
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+ROOT = Path(__file__).parents[1]
+SOURCE = ROOT / "src" / "viscofric"
+
+#: From left to right: a module may import from its own room and from those to its left.
+ROOMS = {
+    "base": ("units", "errors", "data", "threads"),
+    "readers": ("readers",),
+    "rheology": ("rheology",),
+    "contact": ("contact",),
+    "roughness": ("roughness",),
+    "friction": ("friction",),
+    "study": ("study",),
+    "report": ("report",),
+    "front door": ("",),
+    "web": ("web",),
+    "cli": ("cli", "__main__"),
+}
+ORDER = list(ROOMS)
+#: What may not be imported at run time although it lies to the left: (importer, imported, all but these).
+FORBIDDEN = [
+    ("viscofric.rheology", "viscofric.readers", ()),
+    ("viscofric.contact", "viscofric.rheology", ("viscofric.contact.steady",)),
+]
+FOLDERS_OF_FILES = {"example"}
+SLOW_TO_IMPORT = ("matplotlib", "xarray", "pint", "scipy.optimize")
+
+
+class Import(NamedTuple):
+    """One import: who, what, on which line, and whether it happens when the program runs."""
+
+    importer: str
+    imported: str
+    line: int
+    at_run_time: bool
+
+    def __str__(self) -> str:
+        return f"{self.importer}, line {self.line}, imports {self.imported}"
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {module_name(path): path for path in sorted(SOURCE.rglob("*.py"))}
+
+
+def rooms_of(module: str) -> list[str]:
+    top = [*module.split("."), ""][1]
+    return [room for room, members in ROOMS.items() if top in members]
+
+
+def belongs(module: str, package: str) -> bool:
+    return module == package or module.startswith(package + ".")
+
+
+def walk(node: ast.AST, at_run_time: bool = True) -> Iterator[tuple[ast.AST, bool]]:
+    yield node, at_run_time
+    typing_only = isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+    for field, value in ast.iter_fields(node):
+        for child in value if isinstance(value, list) else [value]:
+            if isinstance(child, ast.AST):
+                yield from walk(child, at_run_time and not (typing_only and field == "body"))
+
+
+def own_imports(module: str, text: str, is_package: bool = False) -> Iterator[Import]:
+    """Yield the imports of viscofric by viscofric, those within functions and by `import_module` too."""
+    for node, at_run_time in walk(ast.parse(text)):
+        names: list[str] = []
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            home = node.module or ""
+            if node.level:
+                parents = module.split(".")
+                keep = len(parents) - node.level + is_package
+                home = ".".join([*parents[:keep], *([home] if home else [])])
+            for alias in node.names:
+                inner = f"{home}.{alias.name}"
+                if inner != "viscofric.__version__":
+                    names.append(inner if inner in MODULES else home)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(("import_module", "__import__")):
+            names = [str(word.value) for word in node.args[:1] if isinstance(word, ast.Constant)]
+        for name in names:
+            if belongs(name, "viscofric"):
+                yield Import(module, name, getattr(node, "lineno", 0), at_run_time)
+
+
+def all_imports() -> list[Import]:
+    return [
+        found
+        for module, path in MODULES.items()
+        for found in own_imports(module, path.read_text("utf-8"), path.name == "__init__.py")
+    ]
+
+
+def goes_right(found: Import) -> bool:
+    (importer,), (imported,) = rooms_of(found.importer), rooms_of(found.imported)
+    return ORDER.index(imported) > ORDER.index(importer)
+
+
+def is_forbidden(found: Import) -> bool:
+    return found.at_run_time and any(
+        belongs(found.importer, importer) and belongs(found.imported, imported) and found.importer not in but
+        for importer, imported, but in FORBIDDEN
+    )
+
+
+def test_every_module_has_one_room() -> None:
+    homeless = [module for module in MODULES if len(rooms_of(module)) != 1]
+    assert not homeless, f"name their room in {Path(__file__).name}: {homeless}"
+
+
+def test_every_folder_with_python_is_a_package() -> None:
+    folders = {path.parent for path in MODULES.values()}
+    bare = [
+        str(folder.relative_to(ROOT))
+        for folder in folders
+        if folder.name not in FOLDERS_OF_FILES and not (folder / "__init__.py").exists()
+    ]
+    assert not bare
+
+
+def test_data_moves_left_to_right() -> None:
+    """No module imports one to its right, not even for the types of its arguments."""
+    wrong = [str(found) for found in all_imports() if goes_right(found)]
+    assert not wrong, "\n".join(["imports from right to left:", *wrong])
+
+
+def test_contact_knows_no_temperature_and_rheology_no_files() -> None:
+    """At run time only the verb `solve_steady` meets a material that depends on temperature."""
+    wrong = [str(found) for found in all_imports() if is_forbidden(found)]
+    assert not wrong, "\n".join(["imports that the plan forbids:", *wrong])
+
+
+@pytest.mark.parametrize(
+    ("module", "text", "right", "forbidden"),
+    [
+        ("viscofric.readers.trios", "from viscofric.errors import DataFileError", False, False),
+        ("viscofric.readers.trios", "def f():\n    from viscofric import study", True, False),
+        ("viscofric.rheology.sweeps", "from ..contact import steady", True, False),
+        (
+            "viscofric.rheology.sweeps",
+            "import importlib\nimportlib.import_module('viscofric.cli')",
+            True,
+            False,
+        ),
+        ("viscofric.rheology.sweeps", "import viscofric.readers.trios", False, True),
+        ("viscofric.contact.operator", "from viscofric.rheology import Material", False, True),
+        ("viscofric.contact.operator", "if TYPE_CHECKING:\n    import viscofric.rheology", False, False),
+        ("viscofric.contact.steady", "from viscofric.rheology import Material", False, False),
+        ("viscofric.friction.curves", "import viscofric as vf", True, False),
+    ],
+)
+def test_the_rule_finds_what_breaks_it(module: str, text: str, right: bool, forbidden: bool) -> None:
+    (found,) = own_imports(module, text)
+    assert (goes_right(found), is_forbidden(found)) == (right, forbidden)
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "import viscofric",
+        "import sys; sys.argv = ['viscofric', '--help']; from viscofric.cli import main; main()",
+    ],
+    ids=["import", "help"],
+)
+def test_start_loads_nothing_slow(program: str) -> None:
+    report = (
+        f"import atexit, sys; slow = {SLOW_TO_IMPORT!r}\n"
+        "atexit.register(lambda: print('loaded:', *filter(sys.modules.get, slow), file=sys.stderr))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", report + program],
+        capture_output=True,
+        text=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.splitlines()[-1].split() == ["loaded:"]
+
+
+def test_public_names_resolve_and_say_what_they_are() -> None:
+    viscofric = importlib.import_module("viscofric")
+    assert len(set(viscofric.__all__)) == len(viscofric.__all__)
+    assert set(viscofric.__all__) <= set(dir(viscofric))
+    silent = []
+    for name in viscofric.__all__:
+        thing = getattr(viscofric, name)
+        if inspect.isclass(thing) or inspect.isroutine(thing) or inspect.ismodule(thing):
+            told = inspect.getdoc(thing) or ""
+            if not told or told.startswith(f"{name}("):  # what dataclasses write by themselves
+                silent.append(name)
+    assert not silent, f"public, but without a docstring: {silent}"
+
+
+def test_unknown_public_name_is_an_attribute_error() -> None:
+    viscofric = importlib.import_module("viscofric")
+    with pytest.raises(AttributeError, match="frictoin"):
+        viscofric.frictoin  # noqa: B018
+
+
+def test_version_is_that_of_pyproject() -> None:
+    """pyproject.toml is the one place of the version, and what is installed agrees with it."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert importlib.import_module("viscofric").__version__ == project["version"]
+
+
+def tracked_files() -> list[Path]:
+    if shutil.which("git") is None or not (ROOT / ".git").exists():
+        pytest.skip("needs the git checkout, to tell the project's files from others")
+    command = ["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    names = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\0")
+    return [ROOT / name for name in names if name and (ROOT / name).is_file()]
+
+
+def test_no_file_names_a_place_on_one_machine() -> None:
+    place = re.compile(r"(?<![\w.~])/(?:work|root|home|Users)/|(?<!\w)[A-Z]:\\Users\\")
+    this_file = Path(__file__).resolve()
+    found = []
+    for path in tracked_files():
+        if path.resolve() == this_file:
+            continue
+        try:
+            lines = path.read_text("utf-8").splitlines()
+        except UnicodeDecodeError:
+            continue  # an instrument's or another binary file
+        found += [f"{path.relative_to(ROOT)}:{number}" for number, line in enumerate(lines, 1) if place.search(line)]
+    assert not found
+
+
+def test_lock_is_complete_and_names_no_index() -> None:
+    lock = (ROOT / "requirements.lock").read_text("utf-8")
+    locked = {name.lower() for name in re.findall(r"^([A-Za-z0-9._-]+)==", lock, re.MULTILINE)}
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    wanted = project["dependencies"] + project["optional-dependencies"]["dev"]
+    assert {re.split(r"[<>=!~;\[ ]", line)[0].lower() for line in wanted} <= locked, "renew it: CONTRIBUTING.md"
+    assert not re.search(r"://|^\s*-(?!-hash)", lock, re.MULTILINE)
+    assert not any(name.startswith(("torch", "nvidia", "cuda", "cupy")) for name in locked)
+
+
+def test_wheel_carries_every_file_of_the_package(tmp_path: Path) -> None:
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, tmp_path)
+    ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
+    shutil.copytree(SOURCE.parent, tmp_path / "src", ignore=ignore)
+    build = "from setuptools import build_meta; build_meta.build_wheel('wheels')"
+    environment = {**os.environ, "PYTHONWARNINGS": "default"}
+    done = subprocess.run(
+        [sys.executable, "-c", build],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    (wheel,) = (tmp_path / "wheels").glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        names = set(archive.namelist())
+        about = {Path(name).name: archive.read(name).decode() for name in names if ".dist-info/" in name}
+    source = tmp_path / "src"
+    files = {path.relative_to(source).as_posix() for path in (source / "viscofric").rglob("*") if path.is_file()}
+    assert files <= names, f"not in the wheel: {sorted(files - names)}"
+    assert "viscofric/py.typed" in names
+    assert "viscofric = viscofric.cli:main" in about["entry_points.txt"]
+    assert "License-Expression: MIT" in about["METADATA"]

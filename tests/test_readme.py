@@ -1,0 +1,127 @@
+"""What README and docs show is run: Python, commands and run files, in their order, in an empty folder."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted(path for path in [ROOT / "README.md", *ROOT.glob("docs/**/*.md")] if path.exists())
+FENCE = re.compile(r"^```([\w-]*)[^\n`]*\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
+OUTPUT = {"", "text", "mermaid"}
+SHELL = {"console", "bash", "sh", "shell"}
+FETCHES_OR_MOVES = {"git", "cd", "pip", "uv", "python3.11"}  # what gets the checkout: named, not run
+STAYS = {"web"}  # serves until it is stopped: only asked for its help
+
+
+class Block(NamedTuple):
+    """One fenced block of a page."""
+
+    language: str
+    text: str
+    line: int
+
+
+def blocks(page: str) -> list[Block]:
+    return [Block(m[1], m[2], page.count("\n", 0, m.start()) + 2) for m in FENCE.finditer(page)]
+
+
+def commands(block: Block) -> list[list[str]]:
+    """Return what is typed: the lines after a $, or in a script without one all lines but comments."""
+    lines = block.text.replace("\\\n", " ").splitlines()
+    typed = [line[2:] for line in lines if line.startswith("$ ")]
+    if not typed and block.language != "console":
+        typed = lines
+    return [words for words in (shlex.split(line, comments=True) for line in typed) if words]
+
+
+def subcommands() -> set[str]:
+    from viscofric.cli import main
+
+    return set(main.list_commands(click.Context(main)))
+
+
+def viscofric(arguments: list[str], folder: Path) -> None:
+    """Run the command line in the folder, as the installed script does."""
+    if arguments and arguments[0] in STAYS:
+        arguments = [arguments[0], "--help"]
+    script = "import sys; sys.argv[0] = 'viscofric'; from viscofric.cli import main; main()"
+    done = subprocess.run(
+        [sys.executable, "-c", script, *arguments],
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, f"viscofric {shlex.join(arguments)}\n{done.stdout}\n{done.stderr}"
+
+
+def run_command(words: list[str], folder: Path) -> None:
+    program, arguments = words[0], words[1:]
+    if program in FETCHES_OR_MOVES:
+        return
+    if program == "./run":
+        known = subcommands() | {"test", "--help", "--help-all"}
+        assert not arguments or arguments[0] in known, f"./run does not know {arguments[0]}"
+        if arguments and arguments[0] not in ("demo", "test"):
+            viscofric(arguments, folder)
+        return
+    assert Path(program).name == "viscofric", f"a command that this test cannot run: {shlex.join(words)}"
+    viscofric(arguments, folder)
+
+
+def check_study(block: Block, folder: Path) -> None:
+    """Read the run file as `viscofric run` does; it stays in the folder for the commands that follow.
+
+    It is stored under the name in its first line, where that is a comment, else as study.toml.
+    """
+    from viscofric.study import load_study
+
+    name = re.match(r"#\s*([\w-]+\.toml)\b", block.text)
+    path = folder / (name[1] if name else "study.toml")
+    path.write_text(block.text, encoding="utf-8")
+    load_study(path)
+
+
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("page", PAGES, ids=[path.relative_to(ROOT).as_posix() for path in PAGES])
+def test_what_the_page_shows_works(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    namespace: dict[str, Any] = {"__name__": "__main__"}
+    for block in blocks(page.read_text(encoding="utf-8")):
+        if block.language in {"python", "py"}:
+            code = "\n" * (block.line - 1) + block.text  # so that a traceback names the page's line
+            exec(compile(code, str(page), "exec"), namespace)
+        elif block.language in SHELL:
+            for words in commands(block):
+                run_command(words, tmp_path)
+        elif block.language == "toml":
+            if "[material]" in block.text:
+                check_study(block, tmp_path)
+        else:
+            assert block.language in OUTPUT, f"{page.name}, line {block.line}: what is {block.language!r}?"
+
+
+def test_readme_shows_the_two_commands() -> None:
+    readme = blocks((ROOT / "README.md").read_text(encoding="utf-8"))
+    typed = [" ".join(words[:2]) for block in readme if block.language in SHELL for words in commands(block)]
+    assert {"./run demo", "./run test"} <= set(typed)
+    told = subprocess.run([sys.executable, str(ROOT / "run"), "--help"], capture_output=True, text=True, check=True)
+    assert all(command in told.stdout for command in ("./run demo", "./run test"))
+
+
+def test_blocks_and_commands_are_found() -> None:
+    page = "x\n```console\n$ viscofric run \\\n  a.toml  # why\nout\n```\n```bash\n./run demo\n```\n```\n$ no\n```\n"
+    console, script, output = blocks(page)
+    assert commands(console) == [["viscofric", "run", "a.toml"]]
+    assert commands(script) == [["./run", "demo"]]
+    assert (console.line, script.line, output.language) == (3, 8, "")
