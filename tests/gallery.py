@@ -65,11 +65,12 @@ class BallProblem:
 class HertzUnits:
     """What a solution says, in pure numbers: units of the Hertz contact at E0.
 
-    `friction` is μR/a0, `energy_friction` and `friction_error` likewise; `indentation` is δR/a0²; `front`,
-    `rear`, `side` and `cell` are lengths over a0; `area` is over πa0² and `max_pressure` over p0.
+    `friction` is μR/a0, `pressure_friction`, `energy_friction` and `friction_error` likewise; `indentation` is
+    δR/a0²; `front`, `rear`, `side` and `cell` are lengths over a0; `area` is over πa0² and `max_pressure` over p0.
     """
 
     friction: float
+    pressure_friction: float
     energy_friction: float
     friction_error: float
     indentation: float
@@ -87,6 +88,7 @@ def in_hertz_units(problem: BallProblem, solution: ContactSolution) -> HertzUnit
     a0 = problem.hertz_radius
     return HertzUnits(
         friction=solution.friction_coefficient * radius / a0,
+        pressure_friction=solution.pressure_friction_coefficient * radius / a0,
         energy_friction=solution.energy_friction_coefficient * radius / a0,
         friction_error=solution.diagnostics.friction_error * radius / a0,
         indentation=solution.indentation * radius / a0**2,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -27,7 +28,8 @@ from gallery import (
     low_speed_friction,
     standard_linear_solid,
 )
-from viscofric.contact.complementarity import solve_complementarity
+from viscofric.contact import nested
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.grids import Window
 from viscofric.contact.indenters import Ball
 from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
@@ -153,9 +155,9 @@ def test_reference_values(reference: BallReference) -> None:
 @pytest.mark.parametrize("problem", [SLS, standard_linear_solid(1000.0, 100.0)], ids=lambda p: p.name)
 def test_friction_converges_with_the_grid(problem: BallProblem) -> None:
     solution = problem.solve(accuracy=3e-5)
-    cells, friction, indentation = (np.array(level) for level in zip(*solution.diagnostics.levels, strict=True))
+    cells, lean, energy, indentation = (np.array(level) for level in zip(*solution.diagnostics.levels, strict=True))
     assert np.all(cells[1:] >= 2 * cells[:-1] - 2)
-    for values in (friction, indentation):
+    for values in (lean, energy, indentation):
         changes = np.abs(np.diff(values))
         # First order at least, from the first to the last step (single steps jump as cells cross the edge).
         assert changes[-1] < changes[0] * 0.5 ** (len(changes) - 1)
@@ -167,15 +169,14 @@ def test_true_error_is_within_the_estimate(accuracy: float) -> None:
         solution = reference.problem.solve(accuracy=accuracy)
         result = in_hertz_units(reference.problem, solution)
         assert result.friction_error <= accuracy * result.friction
-        # The last change is a fair estimate of what is left, not a bound: twice it.
         error = abs(result.friction - reference.friction.value)
-        assert error <= 2.0 * result.friction_error + reference.friction.error
+        assert error <= result.friction_error + reference.friction.error
 
 
 def test_two_ways_to_friction_agree_better_on_finer_grids() -> None:
     def disagreement(accuracy: float) -> float:
         result = in_hertz_units(SLS, SLS.solve(accuracy=accuracy))
-        return abs(result.friction - result.energy_friction)
+        return abs(result.pressure_friction - result.energy_friction)
 
     # From 64 to 256 or more cells: first order at least gives a quarter; a half allows for single-grid luck.
     assert disagreement(3e-5) < 0.5 * disagreement(1e-2)
@@ -187,27 +188,25 @@ def test_diagnostics_tell_the_work_and_the_residuals() -> None:
     assert diagnostics.load < 1e-12  # scaled to the load: round-off
     assert diagnostics.products >= diagnostics.linear_iterations > 0
     assert diagnostics.ffts > 2 * diagnostics.products - 1
-    assert diagnostics.levels[-1][1] == pytest.approx(SLS.solve(tolerance=1e-9).friction_coefficient, rel=1e-12)
+    assert diagnostics.levels[-1].pressure_friction == SLS.solve(tolerance=1e-9).pressure_friction_coefficient
 
 
 # --- limits of speed, direction -------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("problem", "accuracy"),
+    "problem",
     [
-        (standard_linear_solid(10.0, 1e-3), 0.05),
-        (ball_problem("three short memories", 10.0, [1.0, 2.0, 3.0], [1e-3, 5e-4, 1e-4]), 0.05),
-        pytest.param(standard_linear_solid(10.0, 1e-3), 0.01, marks=pytest.mark.slow),
+        standard_linear_solid(10.0, 1e-5),
+        standard_linear_solid(1000.0, 1e-5),
+        ball_problem("three short memories", 10.0, [1.0, 2.0, 3.0], [1e-4, 5e-5, 1e-5]),
     ],
-    ids=lambda value: getattr(value, "name", str(value)),
+    ids=lambda p: p.name,
 )
-def test_friction_at_low_speed(problem: BallProblem, accuracy: float) -> None:
-    solution = problem.solve(accuracy=accuracy)
-    # The error of low-speed friction is of first order in the cell, so the last change is as large as the
-    # error left; the law's own next term is about l = 1e-3.
-    assert solution.friction_coefficient == pytest.approx(low_speed_friction(problem), rel=accuracy + 2e-3)
-    assert solution.energy_friction_coefficient == pytest.approx(low_speed_friction(problem), rel=accuracy + 2e-3)
+def test_friction_at_low_speed(problem: BallProblem) -> None:
+    solution = problem.solve(accuracy=3e-3)
+    # The accuracy asked for, and 1e-3 for the law, whose next term is about l log l.
+    assert solution.friction_coefficient == pytest.approx(low_speed_friction(problem), rel=4e-3)
 
 
 @pytest.mark.parametrize(
@@ -220,9 +219,9 @@ def test_friction_at_low_speed(problem: BallProblem, accuracy: float) -> None:
     ids=lambda p: p.name,
 )
 def test_friction_at_high_speed(problem: BallProblem) -> None:
-    solution = problem.solve(accuracy=4e-3)
+    solution = problem.solve(accuracy=1e-4)
     # The accuracy asked for, and 1e-3 for the law, whose next term is k/l = 1e-3 at most.
-    assert solution.friction_coefficient == pytest.approx(high_speed_friction(problem), rel=5e-3)
+    assert solution.friction_coefficient == pytest.approx(high_speed_friction(problem), rel=1e-3)
 
 
 def test_pressure_leans_to_the_leading_edge() -> None:
@@ -376,11 +375,33 @@ def test_any_broad_spectrum_gives_a_sound_contact(
     load = solution.pressure.sum() * solution.diagnostics.spacing**2
     assert load == pytest.approx(problem.load, rel=1e-12)  # scaled to the load: round-off
     assert 0.0 < solution.friction_coefficient < 0.6 * HERTZ_RADIUS / BALL_RADIUS
-    assert abs(solution.diagnostics.energy) <= accuracy
+    # The better settled of the two is known to the accuracy, the other one may lag behind.
+    assert abs(solution.diagnostics.energy) <= 3.0 * accuracy
     assert solution.indentation <= HERTZ_RADIUS**2 / BALL_RADIUS * 1.001  # never deeper than fully relaxed
 
 
 # --- what is refused ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("modulus_ratio", [2.0, 100.0])
+def test_second_attempt_solves_for_the_same_material(monkeypatch: pytest.MonkeyPatch, modulus_ratio: float) -> None:
+    """Where the first attempt on a grid fails, the continuation must end at the material that was asked for."""
+    problem = standard_linear_solid(modulus_ratio, 1.0)
+    expected = problem.solve(accuracy=0.02)
+    attempts = 0
+
+    def first_one_fails(*arguments: Any, **settings: Any) -> ComplementaritySolution:
+        nonlocal attempts
+        attempts += 1
+        result = solve_complementarity(*arguments, **settings)
+        return replace(result, converged=result.converged and attempts > 1)
+
+    monkeypatch.setattr(nested, "solve_complementarity", first_one_fails)
+    solution = problem.solve(accuracy=0.02)
+    assert attempts > 1
+    # Another path to the same discrete problem, solved to 1e-8.
+    assert solution.indentation == pytest.approx(expected.indentation, rel=1e-6)
+    assert solution.friction_coefficient == pytest.approx(expected.friction_coefficient, rel=1e-6)
 
 
 def test_unreachable_accuracy_raises() -> None:

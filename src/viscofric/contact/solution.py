@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -12,6 +12,25 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array: TypeAlias = NDArray[np.float64]
+
+
+class Level(NamedTuple):
+    """What one of the nested grids gave.
+
+    Attributes
+    ----------
+    cells : int
+        Along the window's longer edge.
+    pressure_friction, energy_friction : float
+        Friction coefficient from the lean of the pressure and from the dissipated energy.
+    indentation : float
+        m.
+    """
+
+    cells: int
+    pressure_friction: float
+    energy_friction: float
+    indentation: float
 
 
 @dataclass(frozen=True)
@@ -29,15 +48,14 @@ class Diagnostics:
     load : float
         Relative error of the load.
     energy : float
-        Friction from the pressure's lean less that from the dissipated energy, over the larger of them
-        (0 where both vanish).
+        Energy balance: friction from the pressure's lean less that from the dissipated energy, over the larger of
+        them (or over 1e-6 a0/R).
     friction_error : float
-        Error estimate of the friction coefficient (absolute): its change from the last but one grid to the last,
-        or its distance from the energy balance if that is larger.
+        Error estimate of the friction coefficient (absolute), from its changes on the nested grids.
     indentation_error : float
         Change of the indentation from the last but one grid to the last, m.
-    levels : tuple of (int, float, float)
-        Cells along the window's longer edge, friction coefficient and indentation (m) on each nested grid.
+    levels : tuple of Level
+        What each nested grid gave, coarsest first.
     set_changes, linear_iterations, products, ffts : int
         Work on all grids: looks at the contact set, steps of the linear solver, products with the influence
         matrix and two-dimensional real FFTs (of the padded window in products, of the bare one for the
@@ -51,7 +69,7 @@ class Diagnostics:
     energy: float
     friction_error: float
     indentation_error: float
-    levels: tuple[tuple[int, float, float], ...]
+    levels: tuple[Level, ...]
     set_changes: int
     linear_iterations: int
     products: int
@@ -71,9 +89,12 @@ class ContactSolution:
     temperature : float or None
         K, as asked.
     friction_coefficient : float
-        μ = F_t/F_N from the lean of the pressure; it has the sign of the speed.
+        μ = F_t/F_N, with the sign of the speed: of the two below the one that has settled better on the nested
+        grids (the second maybe extrapolated).
+    pressure_friction_coefficient : float
+        From the lean of the pressure, on the finest grid.
     energy_friction_coefficient : float
-        The same from the energy that the material dissipates.
+        From the energy that the material dissipates, on the finest grid.
     indentation : float
         δ, m.
     contact_area : float
@@ -98,6 +119,7 @@ class ContactSolution:
     load: float
     temperature: float | None
     friction_coefficient: float
+    pressure_friction_coefficient: float
     energy_friction_coefficient: float
     indentation: float
     contact_area: float

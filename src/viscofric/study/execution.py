@@ -14,6 +14,7 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError, InputError, StudyError
 from viscofric.friction.agreement import compare
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.master_curve import shift_friction
 from viscofric.friction.tribometry import separate
 from viscofric.readers import read_dma, read_mtm
 from viscofric.rheology.material import Material
@@ -97,7 +98,7 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
         "data_origin": study.data_origin,
         "study_file": path.name,
         "study_text": text,
-        "notes": _listed([*rubber.fit.notes, *(measured.notes if measured else ())]),
+        "notes": _listed([*rubber.fit.notes, *(_measurement_notes(measured, rubber.shift) if measured else ())]),
         "warnings": _listed(solver.warnings),
         "failures": _listed(solver.failures),
         "deformation": rubber.deformation,
@@ -109,6 +110,15 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
     }
     labelled.save_results(tree, folder)
     return StudyResults(tree, folder)
+
+
+def _measurement_notes(measured: FrictionCurves, shift: ShiftLaw) -> tuple[str, ...]:
+    """Tell what was noted of a measurement, and how its temperatures fall on one friction master curve."""
+    try:
+        master = shift_friction(measured, shift=shift).overlap_sentence
+    except InputError as error:
+        master = f"The measured friction was not joined into one master curve: {error}"
+    return (*measured.notes, master)
 
 
 def _listed(sentences: Iterable[str]) -> str:

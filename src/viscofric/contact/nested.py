@@ -1,0 +1,210 @@
+"""Nested grids: the window found on a coarse one, then cells halved until the friction is known well enough.
+
+Everything here is in units of the Hertz contact at E0 (lengths a0, depths a0²/R, load 4/3), so that neither the
+user's units nor his material's modulus matter.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.grids import Window, touches_edge
+from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.errors import ConvergenceError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+logger = logging.getLogger(__name__)
+
+LOAD = 4.0 / 3.0
+COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
+MARGIN = 0.15  # free space left around the contact, relative to its size
+#: Friction is resolved relative to its own value, but not below this fraction of a0/R.
+FRICTION_FLOOR = 1e-6
+
+# Step of the continuation in the glassy compliance, which leads into the hard corner (one mode, E∞ >> E0).
+_CONTINUATION = 1.4
+_EASY_GLASSY = 0.1
+_LONGEST_CONTINUATION = 64
+_MOST_WINDOWS = 20
+_MOST_RESTARTS = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """A converged solution on one grid."""
+
+    window: Window
+    operator: HalfSpaceOperator
+    result: ComplementaritySolution
+
+    @cached_property
+    def pressure_friction(self) -> float:
+        """Friction coefficient from the lean of the pressure, ∫ p x dA / (R F)."""
+        pressure = self.result.pressure
+        return self.window.cell_area * float(self.window.x @ pressure.sum(axis=1)) / LOAD
+
+    @cached_property
+    def energy_friction(self) -> float:
+        """Friction coefficient from the dissipated energy."""
+        return self.operator.dissipated_force(self.result.pressure) / LOAD
+
+
+class Estimate(NamedTuple):
+    """A number and the error that its changes from grid to grid let expect."""
+
+    value: float
+    error: float
+
+    @property
+    def relative_error(self) -> float:
+        """Error relative to the value, or to `FRICTION_FLOOR` for smaller ones."""
+        return self.error / max(abs(self.value), FRICTION_FLOOR)
+
+
+def friction_estimate(stages: list[Stage]) -> Estimate:
+    """Return the friction coefficient from the quantity that has settled best on the nested grids.
+
+    The lean of the pressure settles quickest where friction is large; the dissipated energy where it is small
+    against the contact's slope a/R (at low and high speed), because it does not live on a small difference.  At low
+    speed its error is of first order in the cell, so that its linear extrapolation is the third candidate.
+    """
+    if len(stages) < 2:
+        return Estimate(stages[-1].pressure_friction, math.inf)
+    lean = np.array([stage.pressure_friction for stage in stages])
+    energy = np.array([stage.energy_friction for stage in stages])
+    if len(stages) == 2:
+        # One change alone may be small by chance.
+        error = max(*np.abs(np.diff(lean)), *np.abs(np.diff(energy)), abs(lean[-1] - energy[-1]))
+        return Estimate(float(lean[-1]), float(error))
+    candidates = [settled(lean), settled(energy)]
+    if len(stages) > 3:
+        candidates.append(settled(2.0 * energy[1:] - energy[:-1]))
+    return min(candidates, key=lambda candidate: candidate.error)
+
+
+def settled(values: Array) -> Estimate:
+    """Return the last of three or more values on nested grids, with an estimate of its error.
+
+    With changes d1 (the last) and d0, a geometric sequence has d1/(d0/d1 − 1) still to go.  No less than d1 is
+    taken, nor than d0/4, since a single change may be small by chance.
+    """
+    before, last = np.abs(np.diff(values))[-2:]
+    ratio = max(before / last, 1.25) if last > 0.0 else math.inf
+    return Estimate(float(values[-1]), float(max(last, last / (ratio - 1.0), 0.25 * before)))
+
+
+def refine(first: Stage, solid: SteadyMaterial, accuracy: float, tolerance: float, finest: int) -> list[Stage]:
+    """Halve the cells until the friction coefficient is known to a relative accuracy.
+
+    Returns
+    -------
+    list of Stage
+        Coarsest first, at least two.
+
+    Raises
+    ------
+    ConvergenceError
+        If a grid does not converge, or the accuracy is not reached with `finest` cells along the longer edge.
+    """
+    stages, restarts = [first], 0
+    while True:
+        coarse = stages[-1]
+        window = coarse.window.refined()
+        if max(window.shape) > finest:
+            raise ConvergenceError(
+                f"the friction coefficient is known to {friction_estimate(stages).relative_error:.1e} of itself on "
+                f"the finest grid allowed ({finest} cells); ask for less accuracy than {accuracy:g} or a finer grid."
+            )
+        stage = _solve_in_window(window, solid, coarse, tolerance)
+        if touches_edge(stage.result.pressure > 0.0) and restarts < _MOST_RESTARTS:
+            # The coarse contact was a little too small: start again from a window around the finer one.
+            stages, restarts = [_solve_in_window(_around(stage), solid, stage, tolerance)], restarts + 1
+            continue
+        stages.append(stage)
+        estimate = friction_estimate(stages)
+        logger.debug("grid %s: friction %.6g ± %.1g, %d products", window.shape, *estimate, stage.result.products)
+        if estimate.relative_error <= accuracy:
+            return stages
+
+
+def find_window(solid: SteadyMaterial, modulus: float, tolerance: float) -> Stage:
+    """Solve on coarse grids until the window fits the contact: nothing cut off, little space wasted.
+
+    Parameters
+    ----------
+    solid : SteadyMaterial
+    modulus : float
+        First guess of the modulus that the contact meets, relative to E0.
+    tolerance : float
+    """
+    radius = modulus ** (-1.0 / 3.0)
+    window = Window.around(1.5 * radius, 1.5 * radius, 1.5 * radius, COARSEST)
+    guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / radius**2))
+    stage = _solve_on(window, solid, guess, tolerance)
+    for _ in range(_MOST_WINDOWS):
+        loaded = stage.result.pressure > 0.0
+        if touches_edge(loaded):
+            old = stage.window
+            size = old.spacing * max(old.shape)
+            rear, front, side = old.spacing * old.behind, old.spacing * old.ahead, old.spacing * old.beside
+            window = Window.around(rear + 0.3 * size, front + 0.3 * size, side + 0.3 * size, COARSEST)
+        else:
+            window = _around(stage)
+            if window.spacing > 0.8 * stage.window.spacing:
+                return stage
+        stage = _solve_in_window(window, solid, stage, tolerance)
+    raise ConvergenceError("no window was found that holds the contact; the indenter may be too blunt.")
+
+
+def _around(stage: Stage) -> Window:
+    rear, front, side = stage.window.extent(stage.result.pressure > 0.0)
+    margin = MARGIN * max(rear + front, 2.0 * side)
+    return Window.around(rear + margin, front + margin, side + margin, COARSEST)
+
+
+def _solve_in_window(window: Window, solid: SteadyMaterial, before: Stage, tolerance: float) -> Stage:
+    return _solve_on(window, solid, before.window.resample(before.result.pressure, window), tolerance)
+
+
+def _solve_on(window: Window, solid: SteadyMaterial, guess: Array, tolerance: float) -> Stage:
+    """Solve on one grid; where that fails, come from a material with a softer glassy state."""
+    height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    load = LOAD / window.cell_area
+
+    def attempt(glassy: float, start: Array) -> Stage:
+        operator = HalfSpaceOperator(window, replace(solid, glassy=glassy))
+        return Stage(window, operator, solve_complementarity(operator, height, load, start, tolerance=tolerance))
+
+    stage = attempt(solid.glassy, guess)
+    if stage.result.converged:
+        return stage
+    failed = stage
+    glassy, factor, good = max(_EASY_GLASSY, solid.glassy), _CONTINUATION, guess
+    for _ in range(_LONGEST_CONTINUATION):
+        stage = attempt(glassy, good)
+        if stage.result.converged:
+            if glassy <= solid.glassy:
+                return stage
+            good = stage.result.pressure
+            glassy = max(solid.glassy, glassy / factor)
+        elif glassy >= _EASY_GLASSY:
+            break
+        else:
+            factor = math.sqrt(factor)
+            glassy *= factor
+    raise ConvergenceError(
+        f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells, nor did a material "
+        f"with a softer glassy state lead to it: a gap of {failed.result.complementarity:.1e} of the indentation "
+        f"was left where {tolerance:.0e} was asked for."
+    )
