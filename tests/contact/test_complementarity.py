@@ -11,7 +11,7 @@ from contact.dense_reference import (
     displacement_matrix,
     solve_dense_contact,
 )
-from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference
+from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference, standard_linear_solid
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.grids import Window
 from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
@@ -40,7 +40,8 @@ def test_pressure_is_that_of_dense_pivoting(name: str) -> None:
     matrix = displacement_matrix(coefficients, nx, ny)
     dense = solve_dense_contact(matrix, height.ravel(), load)
     guess = np.maximum(0.0, 1.0 - window.x[:, None] ** 2 - window.y**2)
-    solution = solve_complementarity(HalfSpaceOperator(window, material), height, load, guess, tolerance=1e-11)
+    operator = HalfSpaceOperator(window, material)
+    solution = solve_complementarity(operator, height, load, guess, tolerance=1e-11)
     assert solution.converged
     scale = dense.pressure.max()
     # A gap of 1e-11 of the indentation takes a pressure error of about 1e-11 k times the condition of the
@@ -98,3 +99,19 @@ def test_dense_friction_is_good_to_a_percent(reference: BallReference) -> None:
     # Discretisation with about 24 cells across the contact: a few thousandths were seen.
     assert friction * BALL_RADIUS / HERTZ_RADIUS == pytest.approx(reference.friction.value, rel=0.01)
     assert indentation * BALL_RADIUS / HERTZ_RADIUS**2 == pytest.approx(reference.indentation.value, rel=0.003)
+
+
+@pytest.mark.parametrize(("modulus_ratio", "memory_length"), [(1000.0, 1.0), (1e4, 0.3)])
+def test_hard_corner_agrees_with_dense_pivoting(modulus_ratio: float, memory_length: float) -> None:
+    """One mode, a very stiff glass and memory of the contact's size: the operator is nearly skew on any usable grid."""
+    problem = standard_linear_solid(modulus_ratio, memory_length)
+    spectrum = problem.material.spectrum
+    friction, indentation = dense_friction(
+        spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, POISSON_RATIO, BALL_RADIUS,
+        problem.load, problem.speed, cells=36,
+    )  # fmt: skip
+    solution = problem.solve(accuracy=2e-3)
+    assert solution.diagnostics.complementarity <= 1e-8
+    # Some 30 cells across the contact leave a few thousandths, as for the easier contacts above.
+    assert solution.friction_coefficient == pytest.approx(friction, rel=0.01)
+    assert solution.indentation == pytest.approx(indentation, rel=0.003)

@@ -68,6 +68,17 @@ def test_memory_agrees_with_adaptive_quadrature(memory_length: float) -> None:
     assert influence.shape == (2 * nx - 1, ny)
 
 
+@pytest.mark.filterwarnings("ignore::scipy.integrate.IntegrationWarning")  # pieces at round-off level
+@pytest.mark.parametrize("memory_length", [1e-6, 0.1, 1.0, 1e3])
+def test_memory_behind_the_cell_centres_agrees_with_adaptive_quadrature(memory_length: float) -> None:
+    nx, _ = WINDOW
+    for shift in (0.1, 0.37, 0.5):
+        influence = memory_influence(WINDOW, np.ones((1, 1)), np.array([memory_length]), shift)[0]
+        computed = np.array([influence[i + nx - 1, j] for i, j in OFFSETS])
+        expected = np.array([remembered_potential(i - shift, j, memory_length) for i, j in OFFSETS])
+        np.testing.assert_allclose(computed, expected, rtol=1e-9)  # as at the centres
+
+
 def test_rows_with_coarser_rules_agree_with_adaptive_quadrature() -> None:
     # The rules change at rows 3, 16 and 64: look on both sides of each.
     shape = (4, 70)

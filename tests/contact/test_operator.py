@@ -7,7 +7,7 @@ import pytest
 
 from contact.dense_reference import displacement_coefficients, displacement_matrix
 from viscofric.contact.grids import Window
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial, collocation_shift
 
 WINDOW = Window(spacing=0.25, behind=6, ahead=5, beside=4)
 ONE_MODE = SteadyMaterial(0.1, np.array([0.9]), np.array([0.7]))
@@ -25,6 +25,25 @@ def test_product_is_the_direct_sum(material: SteadyMaterial) -> None:
     product = HalfSpaceOperator(WINDOW, material)(pressure).ravel()
     # Both kernels are right to about 1e-11 of the largest coefficient.
     np.testing.assert_allclose(product, direct, rtol=1e-9)
+
+
+def test_shift_looks_behind_the_cell_centres() -> None:
+    """On a smooth pressure, displacements half a cell behind lie between those at the centres."""
+    window = Window(spacing=0.02, behind=60, ahead=60, beside=60)
+    pressure = np.exp(-8.0 * (window.x[:, None] ** 2 + window.y**2))
+    centred, behind = (HalfSpaceOperator(window, SIX_MODES, shift=shift)(pressure) for shift in (0.0, 0.5))
+    between = (-centred[:-3] + 9.0 * centred[1:-2] + 9.0 * centred[2:-1] - centred[3:]) / 16.0
+    # Cubic interpolation over cells of 1/12 of the pressure's width: (1/12)^4, and a cell's own error.
+    np.testing.assert_allclose(behind[2:-1], between, atol=1e-4 * centred.max())
+
+
+def test_shift_is_for_nearly_skew_operators_alone_and_vanishes_with_refinement() -> None:
+    resolved = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))
+    stiff_glass = SteadyMaterial(1e-4, np.array([1.0 - 1e-4]), np.array([1.0]))
+    assert collocation_shift(resolved, 0.05) == 0.0
+    shifts = [collocation_shift(stiff_glass, spacing) for spacing in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)]
+    assert 0.4 < max(shifts) < 0.5
+    assert shifts[-1] == 0.0
 
 
 @pytest.mark.parametrize("material", [ONE_MODE, SIX_MODES], ids=["one mode", "six modes"])

@@ -131,13 +131,11 @@ _ROW_RULES: tuple[tuple[int, Array, int], ...] = (
 )
 # Potentials evaluated in one go: enough to keep the interpreter idle, few enough for the cache.
 _BLOCK = 500_000
-# The loaded cell's own edge is a logarithmic singularity in the middle of two cells of its row.
-_GRADED = np.concatenate(
-    [[0.0], 0.5 - 0.5 ** np.arange(2.0, 40.0), [0.5], (0.5 + 0.5 ** np.arange(2.0, 40.0))[::-1], [1.0]]
-)
+# Panels that halve towards a point: 1/2 to 1e-12.
+_HALVINGS = 0.5 ** np.arange(1.0, 40.0)
 
 
-def memory_influence(shape: tuple[int, int], mixtures: Array, memory_lengths: Array) -> Array:
+def memory_influence(shape: tuple[int, int], mixtures: Array, memory_lengths: Array, shift: float = 0.0) -> Array:
     """Delayed displacements around one loaded cell of the free half-space, for mixtures of modes.
 
     Parameters
@@ -148,11 +146,13 @@ def memory_influence(shape: tuple[int, int], mixtures: Array, memory_lengths: Ar
         Each row holds the coefficients c_m of one mixture of the m modes.
     memory_lengths : (m,) array
         λ_m = v τ_m / h > 0, in cells, for motion towards +x.
+    shift : float
+        How far behind the cell centres the displacement is looked at, in cells (0 to 0.5).
 
     Returns
     -------
     (k, 2 nx − 1, ny) array
-        ``Σ c_m K(x, y; λ_m)`` at x = −(nx−1) … nx−1 and y = 0 … ny−1, in cells; K is even in y.  Right to
+        ``Σ c_m K(x, y; λ_m)`` at x + shift = −(nx−1) … nx−1 and y = 0 … ny−1, in cells; K is even in y.  Right to
         about 1e-11 of the largest value for memory lengths from 1e-8 to 1e10 cells.
 
     Notes
@@ -161,7 +161,7 @@ def memory_influence(shape: tuple[int, int], mixtures: Array, memory_lengths: Ar
     them, at 5 to 32 points a cell, the fewer the farther the row lies from the loaded cell.
     """
     nx, ny = shape
-    offsets = np.arange(-(nx - 1.0), nx)
+    offsets = np.arange(-(nx - 1.0), nx) - shift
     result = np.zeros((len(mixtures), 2 * nx - 1, ny))
     if len(memory_lengths) == 0:
         return result
@@ -174,26 +174,29 @@ def memory_influence(shape: tuple[int, int], mixtures: Array, memory_lengths: Ar
         if len(y) == 0:
             break
         points, weights = _panel_rule(edges, order, rate)
-        memory = _tail(float(nx), y, rate)
+        memory = _tail(nx - shift, y, rate)
         block = max(1, _BLOCK // (len(points) * len(y)))
         for last in range(2 * nx - 2, -1, -block):
             first = max(0, last + 1 - block)
             potential = cell_potential(offsets[first : last + 1, None, None] + points[:, None], y)
             for i in range(last, first - 1, -1):
                 memory = weights @ potential[i - first] + decay * memory
-                if start == 0 and offsets[i] in (-1.0, 0.0):
+                if start == 0 and -2.0 <= offsets[i] <= 1.0:
                     memory[:, 0] += _singular_correction(offsets[i], points, weights, rate)
                 result[:, i, start : start + len(y)] = mixtures @ memory
     return result
 
 
 def _singular_correction(x: float, points: Array, weights: Array, rate: Array) -> Array:
-    """Return what the plain rule misses in the two cells of the loaded row that contain the loaded cell's edge."""
-    graded_points, graded_weights = _panel_rule(_GRADED, 12, rate)
+    """Return what the plain rule misses from x to x + 1 in the loaded row, near the loaded cell's own edge.
+
+    The edge, x = ±1/2, is a logarithmic singularity of the slope; panels halve towards it from both sides.
+    """
+    edge = (0.5 - x) % 1.0
+    near = np.concatenate([[0.0, 1.0, edge], edge - _HALVINGS, edge + _HALVINGS, edge + 1.0 - _HALVINGS])
+    panels, graded = _panel_rule(np.unique(near[(near >= 0.0) & (near <= 1.0)]), 16, rate)
     zero = np.zeros(1)
-    return np.asarray(
-        graded_weights @ cell_potential(x + graded_points, zero) - weights @ cell_potential(x + points, zero)
-    )
+    return np.asarray(graded @ cell_potential(x + panels, zero) - weights @ cell_potential(x + points, zero))
 
 
 def _tail(start: float, y: Array, rate: Array) -> Array:

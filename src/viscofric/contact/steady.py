@@ -154,11 +154,8 @@ def _assemble(
     """Bring the finest stage back to SI units, mirrored if the indenter moves backwards."""
     fine, coarse = stages[-1], stages[-2]
     result, window = fine.result, fine.window
-    pressure, displacement, x = (
-        scale.pressure * result.pressure,
-        scale.depth * result.displacement,
-        scale.length * window.x,
-    )
+    pressure, x = scale.pressure * result.pressure, scale.length * window.x
+    displacement = scale.depth * _at_centres(result.displacement, fine.operator.shift)
     slope = math.copysign(scale.slope, velocity)
     friction = friction_estimate(stages)
     lean, energy = fine.pressure_friction, fine.energy_friction
@@ -210,6 +207,14 @@ def _assemble(
             ffts=2 * products + 2 * linear,
         ),
     )
+
+
+def _at_centres(displacement: Array, shift: float) -> Array:
+    """Carry displacements taken `shift` cells behind the centres to the centres, between neighbours."""
+    if shift == 0.0:
+        return displacement
+    ahead = np.concatenate([displacement[1:], displacement[-1:]])
+    return np.asarray((1.0 - shift) * displacement + shift * ahead)
 
 
 def _check_width(first: Stage, scale: _Scale, load: float, ball: Ball) -> None:
