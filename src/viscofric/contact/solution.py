@@ -43,8 +43,11 @@ class Diagnostics:
         Cells of the finest window.
     spacing : float
         Side of a cell, m.
+    collocation_shift : float
+        How far behind the cell centres the gap was held at zero, in cells; above zero only where the cells do not
+        resolve the shortest memory (see `viscofric.contact.operator.collocation_shift`).
     complementarity : float
-        Largest gap under pressure or overlap without it, relative to the indentation.
+        Largest gap under pressure or overlap without it, where the gap was looked at, relative to the indentation.
     load : float
         Relative error of the load.
     energy : float
@@ -64,6 +67,7 @@ class Diagnostics:
 
     shape: tuple[int, int]
     spacing: float
+    collocation_shift: float
     complementarity: float
     load: float
     energy: float

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.nested import FRICTION_FLOOR, find_window, friction_estimate, refine
+from viscofric.contact.nested import COARSEST, FRICTION_FLOOR, find_window, friction_estimate, refine
 from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level, edges
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 FINEST = 2048
+TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
 SMALL_STRAIN = 0.3  # contact radius over ball radius beyond which linear contact is doubtful
 
 
@@ -59,7 +60,8 @@ def solve_steady(
         Relative error of the friction coefficient that is aimed at (of 1e-6 a0/R where it is smaller, a0 the Hertz
         radius at E0): grids are refined until its changes from one to the next promise as much.
     tolerance : float
-        Of the complementarity: largest gap under pressure or overlap without it over the indentation.
+        Of the complementarity: largest gap under pressure or overlap without it over the indentation; from 1e-13
+        to a thousandth of the accuracy.
     finest : int
         Most cells along the window's longer edge.
 
@@ -91,6 +93,13 @@ def solve_steady(
     force = positive(load, "N", "load")
     if not 0.0 < accuracy < 1.0:
         raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1, such as 1e-3.")
+    if not TIGHTEST <= tolerance <= LOOSEST * accuracy:
+        raise InputError(
+            f"tolerance = {tolerance!r}: must lie between {TIGHTEST:g} and {LOOSEST:g} times the accuracy, "
+            f"{LOOSEST * accuracy:g}, so that it does not spoil the friction."
+        )
+    if finest < 2 * COARSEST:
+        raise InputError(f"finest = {finest!r}: must be at least {2 * COARSEST} cells.")
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
     spectrum = material.at(kelvin)
     scale = _Scale.of(spectrum, material.poisson_ratio, indenter, force)
@@ -155,7 +164,7 @@ def _assemble(
     fine, coarse = stages[-1], stages[-2]
     result, window = fine.result, fine.window
     pressure, x = scale.pressure * result.pressure, scale.length * window.x
-    displacement = scale.depth * _at_centres(result.displacement, fine.operator.shift)
+    displacement = scale.depth * fine.displacement
     slope = math.copysign(scale.slope, velocity)
     friction = friction_estimate(stages)
     lean, energy = fine.pressure_friction, fine.energy_friction
@@ -187,6 +196,7 @@ def _assemble(
         diagnostics=Diagnostics(
             shape=window.shape,
             spacing=scale.length * window.spacing,
+            collocation_shift=fine.operator.shift,
             complementarity=result.complementarity,
             load=result.load,
             energy=(lean - energy) / max(abs(lean), abs(energy), FRICTION_FLOOR),
@@ -209,14 +219,6 @@ def _assemble(
     )
 
 
-def _at_centres(displacement: Array, shift: float) -> Array:
-    """Carry displacements taken `shift` cells behind the centres to the centres, between neighbours."""
-    if shift == 0.0:
-        return displacement
-    ahead = np.concatenate([displacement[1:], displacement[-1:]])
-    return np.asarray((1.0 - shift) * displacement + shift * ahead)
-
-
 def _check_width(first: Stage, scale: _Scale, load: float, ball: Ball) -> None:
     """Refuse a contact wider than the ball before time is spent on refining it."""
     _, _, side = first.window.extent(first.result.pressure > 0.0)
@@ -229,11 +231,11 @@ def _check_width(first: Stage, scale: _Scale, load: float, ball: Ball) -> None:
 
 
 def _with_warnings(solution: ContactSolution, ball: Ball) -> ContactSolution:
-    ratio = solution.half_width / float(ball.radius)
+    ratio = max(solution.front, solution.rear, solution.half_width) / float(ball.radius)
     if ratio <= SMALL_STRAIN:
         return solution
     warning = (
-        f"The contact's half-width is {ratio:.2f} of the ball's radius; above {SMALL_STRAIN} the assumption of "
+        f"The contact reaches {ratio:.2f} ball radii from the axis; above {SMALL_STRAIN} the assumption of "
         "small strain and of a parabolic ball is doubtful."
     )
     return replace(solution, warnings=(*solution.warnings, warning))
