@@ -1,11 +1,13 @@
 """Units at the edges: text, numbers or pint quantities in, SI floats and arrays out.
 
-Plain numbers are SI (temperatures in kelvin).  Text such as ``"100 mm/s"`` or ``"30 degC"`` and pint
-quantities carry their own unit.  pint itself is imported only when a unit has to be understood.
+Plain numbers are SI (temperatures in kelvin).  Text is one plain number and one unit, such as ``"100 mm/s"`` or
+``"30 degC"``; it is never evaluated.  pint quantities carry their own unit.  pint itself sees only the text of the
+unit, and is imported only when a unit has to be understood.
 """
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -34,9 +36,42 @@ _EXAMPLE = {
     "Hz": "'10 Hz'",
     "rad/s": "'10 rad/s'",
     "delta_degC": "'10 K'",
+    "J/mol": "'120 kJ/mol'",
+    "dimensionless": "the plain number 0.5",
 }
 
+#: SI unit -> how it is commonly written, to find what was meant by other capitals.
+_COMMON = {
+    "m": ("nm", "um", "mm", "cm", "m", "km"),
+    "N": ("mN", "N", "kN"),
+    "N/m": ("N/m", "N/mm", "kN/m"),
+    "m/s": ("mm/s", "m/s", "um/s"),
+    "K": ("degC", "degF", "K"),
+    "Pa": ("Pa", "kPa", "MPa", "GPa"),
+    "s": ("s", "ms", "us"),
+    "Hz": ("Hz", "kHz", "MHz"),
+    "rad/s": ("rad/s",),
+    "delta_degC": ("K",),
+    "J/mol": ("J/mol", "kJ/mol"),
+}
+#: Letters that pint takes for coulomb and farad.
+_DEGREES = {"c": "degC", "f": "degF"}
+
 CELSIUS_ZERO = 273.15  # K
+#: No rubber is measured below this; a plain number there was probably meant in degrees Celsius.
+COLDEST_PLAUSIBLE = 150.0  # K
+
+_NUMBER = re.compile(r"(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>.*)")
+_DECIMAL_COMMA = re.compile(r"(?P<whole>[+-]?[0-9]*),(?P<part>[0-9]+(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^0-9,.+\s].*)")
+_PARTED = re.compile(
+    r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s].*)"
+)
+# A unit is names with single-digit exponents, multiplied and divided; what else pint might evaluate is kept from it.
+_LONGEST_UNIT = 40
+_TERM = r"[^\W\d]+(?:\s?(?:\*\*|\^)\s?(?:-?[0-9]|\(-?[0-9]\))|⁻?[¹²³])?(?![0-9⁻¹²³^])"
+_JOIN = r"(?:\s?[*/]\s?|\s)"
+_GROUP = rf"\({_TERM}(?:{_JOIN}{_TERM})*\)"
+_UNIT = re.compile(rf"(?:1\s?/\s?)?(?:{_TERM}|{_GROUP})(?:{_JOIN}(?:{_TERM}|{_GROUP}))*")
 
 
 @lru_cache(maxsize=1)
@@ -47,9 +82,9 @@ def registry() -> pint.UnitRegistry[Any]:
     return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
-def _wrong(name: str, value: object, unit: str, reason: str) -> InputError:
-    example = _EXAMPLE.get(unit, f"a quantity in {unit}")
-    return InputError(f"{name} = {value!r}: {reason}; right would be, for instance, {example}.")
+def _wrong(name: str, value: object, unit: str, reason: str, right: str = "") -> InputError:
+    right = right or f"right would be, for instance, {_EXAMPLE.get(unit, f'a quantity in {unit}')}"
+    return InputError(f"{name} = {value!r}: {reason}; {right}.")
 
 
 def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
@@ -69,21 +104,37 @@ def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
     InputError
         If the text is not a unit, or not one of the right dimension.
     """
-    zero, one = (to_si(_quantity(number, text, unit, name), unit, name) for number in (0.0, 1.0))
+    zero, one = (_convert(_quantity(number, text, text, unit, name), text, unit, name) for number in (0.0, 1.0))
     return one - zero, zero
 
 
-def _quantity(number: float, text: str, unit: str, name: str) -> pint.Quantity[Any]:
+def _quantity(number: float, text: str, shown: str, unit: str, name: str) -> pint.Quantity[Any]:
+    plain = _plain(text)
     try:
-        return registry().Quantity(number, registry().Unit(_plain(text)))
+        if len(plain) > _LONGEST_UNIT or not _UNIT.fullmatch(plain):
+            raise ValueError(plain)
+        return registry().Quantity(number, registry().Unit(plain))
     except Exception as error:  # pint raises many kinds; all mean the same to the user
-        raise _wrong(name, text, unit, f"{text!r} is not a unit that is known") from error
+        reason = f"{text!r} is not a unit that is known"
+        raise _wrong(name, shown, unit, reason, _meant(shown, text, unit)) from error
 
 
 def _plain(text: str) -> str:
-    """Write the degree and micro signs that instruments print in the way pint reads them."""
-    text = text.strip().replace("µ", "u").replace("μ", "u").replace("²", "**2").replace("·", "*")
+    """Write the degree, micro and product signs that instruments print in the way pint reads them."""
+    text = text.strip().replace("µ", "u").replace("μ", "u").replace("·", "*").replace("℃", "°C")
+    text = re.sub(r"(?<=[^\W\d])\.(?=[^\W\d])", "*", text)
     return text.replace("°C", "degC").replace("°F", "degF").replace("°K", "K")
+
+
+def _meant(shown: str, text: str, unit: str) -> str:
+    """Suggest the common unit that differs by its capitals only, if there is just one."""
+    plain = _plain(text).replace("°", "deg").casefold()
+    near = [one for one in _COMMON.get(unit, ()) if one.casefold() == plain]
+    if unit == "K" and plain in _DEGREES:
+        near = [_DEGREES[plain]]
+    if len(near) != 1 or not shown.endswith(text):
+        return ""
+    return f"write {shown[: len(shown) - len(text)] + near[0]!r}"
 
 
 def to_si(value: Quantity, unit: str, name: str = "value") -> float:
@@ -113,32 +164,68 @@ def to_si(value: Quantity, unit: str, name: str = "value") -> float:
         number = _convert(value, value, unit, name)
     else:
         try:
+            if isinstance(value, (bool, np.bool_)):
+                raise TypeError(value)
             number = float(value)
-        except (TypeError, ValueError):
-            raise _wrong(name, value, unit, "is not a number with a unit") from None
+        except (TypeError, ValueError, OverflowError):
+            kind = "a number" if unit == "dimensionless" else "a number with a unit"
+            raise _wrong(name, value, unit, f"is not {kind}") from None
     if not np.isfinite(number):
         raise _wrong(name, value, unit, "is not a finite number")
     return number
 
 
 def _parse(text: str, unit: str, name: str) -> float:
-    try:
-        parsed = registry().parse_expression(_plain(text))
-    except Exception as error:  # pint raises many kinds; all mean the same to the user
-        raise _wrong(name, text, unit, "cannot be read as a number with a unit") from error
-    if not hasattr(parsed, "to"):
+    """Read one plain number and one unit."""
+    match = _NUMBER.fullmatch(text.strip().replace("−", "-"))
+    if match and match["unit"] and _UNIT.fullmatch(_plain(match["unit"])):
+        quantity = _quantity(float(match["number"]), match["unit"], text.strip(), unit, name)
+        return _convert(quantity, text, unit, name, _meant(text.strip(), match["unit"], unit))
+    if match and not match["unit"]:
+        if unit == "dimensionless":
+            return float(match["number"])
         raise _wrong(name, text, unit, "has no unit")
-    return _convert(parsed, text, unit, name)
+    raise _not_a_quantity(text, unit, name)
 
 
-def _convert(quantity: Any, shown: object, unit: str, name: str) -> float:
+def _not_a_quantity(text: str, unit: str, name: str) -> InputError:
+    """Say what keeps a text from being one number and one unit."""
+    plain = text.strip()
+    if not plain:
+        return _wrong(name, text, unit, "is empty")
+    if parted := _PARTED.fullmatch(plain):
+        whole = f"{re.sub(r'[^0-9.+-]', '', parted['number'])} {parted['unit']}"
+        if parted["mark"] != "," or "." in parted["number"] or parted["number"].count(",") > 1:
+            return _wrong(name, text, unit, "parts its thousands", f"write {whole!r}")
+    if comma := _DECIMAL_COMMA.fullmatch(plain):
+        decimal = f"{comma['whole'] or '0'}.{comma['part']} {comma['unit']}"
+        also = f", or {whole!r} if it parts thousands" if parted else ""
+        return _wrong(name, text, unit, "has a decimal comma", f"write {decimal!r}{also}")
+    if _UNIT.fullmatch(_plain(plain)) and len(plain) <= _LONGEST_UNIT:
+        return _wrong(name, text, unit, "has no number")
+    kind = "one plain number" if unit == "dimensionless" else "one plain number followed by one unit"
+    return _wrong(name, text, unit, f"is not {kind}")
+
+
+def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = "") -> float:
     import pint
 
     try:
+        # pint would move a difference to absolute zero, and an absolute temperature away from it.
+        units = [str(key) for key, _ in quantity.unit_items()]
+        if unit == "K" and any(one.startswith("delta_") for one in units):
+            raise _wrong(name, str(shown), unit, "is a temperature difference where a temperature is wanted")
+        if unit == "delta_degC" and units in (["degree_Celsius"], ["degree_Fahrenheit"], ["degree_Reaumur"]):
+            raise _wrong(name, str(shown), unit, "is a temperature where a temperature difference is wanted")
         return float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
-        raise _wrong(name, str(shown), unit, f"has the wrong kind of unit ({quantity.units})") from None
-    except (TypeError, ValueError, pint.PintError) as error:
+        reason = f"has the wrong kind of unit ({quantity.units})"
+        if unit == "dimensionless":
+            reason = f"has a unit ({quantity.units}) where none belongs"
+        raise _wrong(name, str(shown), unit, reason, right) from None
+    except InputError:
+        raise
+    except (TypeError, ValueError, OverflowError, AttributeError, pint.PintError) as error:
         raise _wrong(name, str(shown), unit, "cannot be read as a number with a unit") from error
 
 
@@ -147,8 +234,14 @@ def to_si_array(values: Quantities, unit: str, name: str = "value") -> NDArray[n
     if isinstance(values, str) or np.isscalar(values):
         return np.array([to_si(values, unit, name)])  # type: ignore[arg-type]
     if hasattr(values, "to") and hasattr(values, "magnitude"):
-        values = np.atleast_1d(values.to(unit).magnitude)
-    return np.array([to_si(value, unit, name) for value in values])  # type: ignore[union-attr, arg-type]
+        if np.ndim(values.magnitude) == 0:
+            return np.array([to_si(values, unit, name)])  # type: ignore[arg-type]
+        return np.array([to_si(value, unit, name) for value in values])  # type: ignore[union-attr, arg-type]
+    try:
+        each = list(values)  # type: ignore[arg-type]
+    except TypeError:
+        raise _wrong(name, values, unit, "is not a number with a unit, nor a list of such") from None
+    return np.array([to_si(value, unit, name) for value in each])
 
 
 def positive(value: Quantity, unit: str, name: str) -> float:
@@ -162,3 +255,10 @@ def positive(value: Quantity, unit: str, name: str) -> float:
 def celsius(kelvin: float) -> float:
     """Turn kelvin into degrees Celsius."""
     return kelvin - CELSIUS_ZERO
+
+
+def kelvin_hint(kelvin: float) -> str:
+    """Return the end of a sentence that helps who gave degrees Celsius as a plain number, or nothing."""
+    if kelvin >= COLDEST_PLAUSIBLE:
+        return ""
+    return f"; plain numbers are kelvin: for {kelvin:.4g} °C write '{kelvin:.4g} degC'"

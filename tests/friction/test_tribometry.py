@@ -210,6 +210,23 @@ def test_standard_errors_are_honest_where_replicates_are_incomplete() -> None:
     assert np.all(curves.replicates == 3)
 
 
+def test_readings_without_slip_are_named_as_the_cause() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03)
+    rows = rows_of(runs)
+    rolling = (rows[:, 0] > rows[:, 1]) & (rows[:, 5] == 1)
+    rows[rolling, 1] = rows[rolling, 0]
+    notes = separate(runs_from(rows)).notes
+    assert any("slip is zero (pure rolling) in 2 readings" in note for note in notes)
+    assert not any("has all sign configurations" in note for note in notes)
+
+
+def test_pure_rolling_one_way_says_what_to_measure() -> None:
+    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03))
+    rows[:, 1] = rows[:, 0]
+    with pytest.raises(InputError, match=r"slip is zero \(pure rolling\).*reversed.*ball and disc apart"):
+        separate(runs_from(rows[rows[:, 0] > 0]))
+
+
 def test_drift_of_the_zero_between_replicates_does_not_reach_friction() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=5)
     rows = rows_of(runs)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers import read_dma, read_mtm
+from viscofric.readers.dma_csv import deformation_is_told
 
 HEADER = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
 ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
@@ -81,7 +83,37 @@ def test_order_and_repeats_of_rows_do_not_matter_and_are_noted(tmp_path):
     text = " ".join(shuffled.notes)
     assert "sorted by frequency" in text
     assert "sorted by temperature" in text
-    assert "1 repeated frequencies at 20.0 °C were averaged" in text
+    assert "1 repeated frequency at 20.0 °C was averaged" in text
+
+
+def test_many_isotherms_share_one_note(tmp_path):
+    rows = [f"{temperature},{f},5,0.5" for temperature in (0.04, -0.04, 10, 20, 30, 40) for f in (2, 1, 1)]
+    rows[:6] = ["-0.04,2,5,0.5", "-0.04,1,5,0.5", "-0.04,1,5,0.5"]
+    notes = read_dma(write(tmp_path, HEADER, *rows)).notes
+    assert "The rows at 0.0, 10.0, 20.0 °C and 2 more temperatures were sorted by frequency." in notes
+    assert "5 repeated frequencies at 0.0, 10.0, 20.0 °C and 2 more temperatures were averaged." in notes
+
+
+def test_two_columns_of_frequency_must_agree(tmp_path):
+    header = HEADER.replace("frequency (Hz)", "frequency (Hz),angular frequency (rad/s)")
+    agreeing = write(tmp_path, header, "20,1,6.28,5,0.5", "20,10,62.8,6,0.7")
+    assert read_dma(agreeing).isotherms[0].angular_frequency == pytest.approx([6.28, 62.8], rel=1e-12)
+    with pytest.raises(DataFileError, match=r"line 3: 10 in column 'frequency \(Hz\)' and 10 in .* contradict"):
+        read_dma(write(tmp_path, header, "20,1,6.28,5,0.5", "20,10,10,6,0.7"))
+
+
+@pytest.mark.parametrize(
+    ("header", "rows", "says"),
+    [
+        (HEADER, ["293,1,5,0.5", "313,1,5,0.5"], "run from 293 to 313 and look like kelvin"),
+        (HEADER.replace("degC", "K"), ["20,1,5,0.5", "40,1,5,0.5"], "run from 20 to 40 and look like °C"),
+        (HEADER.replace("MPa", "Pa"), ["20,1,0.5,0.1"], r"0.5 Pa \(line 2\) is not one of a solid"),
+        (HEADER.replace("MPa", "GPa"), ["20,1,5e6,0.1"], "unit in column 'storage modulus"),
+    ],
+)
+def test_what_looks_like_a_wrong_unit_is_noted(tmp_path, header, rows, says):
+    assert any(re.search(says, note) for note in read_dma(write(tmp_path, header, *rows)).notes)
+    assert not any("look" in note or "solid" in note for note in read_dma(write(tmp_path, HEADER, *ROWS)).notes)
 
 
 def test_repeated_readings_are_averaged(tmp_path):
@@ -127,6 +159,9 @@ def test_without_a_word_in_the_header_the_caller_says_it_or_a_note_does(tmp_path
     assumed = read_dma(path)
     assert assumed.deformation == "tension"
     assert any("taken as tensile" in note for note in assumed.notes)
+    assert not deformation_is_told(assumed)
+    assert deformation_is_told(read_dma(path, deformation="tension"))
+    assert deformation_is_told(read_dma(write(tmp_path, HEADER.replace("storage modulus", "E'"), *ROWS)))
     with pytest.raises(InputError, match="must be 'tension' or 'shear'"):
         read_dma(path, deformation="bending")
 

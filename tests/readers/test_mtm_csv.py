@@ -90,3 +90,23 @@ def test_readings_cannot_be_changed_afterwards(tmp_path):
     runs = read_mtm(write(tmp_path, HEADER, ROW))
     with pytest.raises(ValueError, match="read-only"):
         runs.load[0] = np.pi
+
+
+def test_replicates_beyond_all_counting_are_refused(tmp_path):
+    for number in ("1e30", "-1e30"):
+        with pytest.raises(DataFileError, match=r"line 2: .*must be a whole number, at most 1000000000"):
+            read_mtm(write(tmp_path, HEADER, ROW.replace("30,1", f"30,{number}")))
+
+
+def test_readings_given_twice_are_refused(tmp_path):
+    first = write(tmp_path, HEADER, ROW, name="one.csv")
+    copy = write(tmp_path, "# a copy", HEADER, ROW, name="two.csv")
+    with pytest.raises(DataFileError, match=r"one\.csv: is given twice"):
+        read_mtm(first, tmp_path / ".." / tmp_path.name / "one.csv")
+    with pytest.raises(DataFileError, match=r"two\.csv: holds the same readings as .*one\.csv"):
+        read_mtm(first, copy)
+
+
+def test_different_loads_are_different_conditions(tmp_path):
+    rows = ["30,100,90,25,0.4", "30,100,90,50,0.8", "30,100,90,25.2,0.4", "30,100,90,49.8,0.8"]
+    assert list(read_mtm(write(tmp_path, WITHOUT, *rows)).replicate) == [1, 1, 2, 2]

@@ -146,3 +146,34 @@ def test_what_no_law_describes_is_refused():
         ShiftFactors([290.0, 300.0], [1.0, 0.0], 300.0).law("wlf")
     with pytest.raises(InputError, match="must be 'wlf'"):
         rising.law("vft")
+
+
+def test_uncertainty_of_wlf_constants_follows_the_reference():
+    """C1' and C2' about the new reference, differentiated by central differences, off-diagonal terms and all."""
+    covariance = np.array([[0.09, 0.5], [0.5, 4.0]])
+    law = WLF(C1=9.0, C2=100.0, reference="30 degC", covariance=covariance)
+    step = 1e-4
+
+    def moved(C1, C2):
+        there = WLF(C1, C2, law.reference).at_reference("70 degC")
+        return np.array([there.C1, there.C2])
+
+    slopes = [
+        (moved(law.C1 + a, law.C2 + b) - moved(law.C1 - a, law.C2 - b)) / (2 * step) for a, b in ((step, 0), (0, step))
+    ]
+    jacobian = np.stack(slopes, axis=1)
+    # Central differences are good to step² / C2² and to the rounding 1e-15 / step.
+    assert law.at_reference("70 degC").covariance == pytest.approx(jacobian @ covariance @ jacobian.T, rel=1e-8)
+    back = law.at_reference("70 degC").at_reference("30 degC")
+    assert back.covariance == pytest.approx(covariance, rel=1e-12)
+
+
+def test_celsius_given_as_a_plain_number_is_met_with_help():
+    with pytest.raises(InputError, match=r"measured 0\.0 to 100\.0 °C; .*plain numbers are kelvin.*'60 degC'\.$"):
+        LAWS[3](60.0)
+    with pytest.raises(InputError, match="write '60 degC'"):
+        LAWS[0](60.0)
+    with pytest.raises(InputError) as caught:
+        LAWS[3]("120 degC")
+    assert "plain numbers" not in str(caught.value)
+    assert '[material] shift = "wlf" in a run file' in str(caught.value)

@@ -123,6 +123,21 @@ def test_a_plateau_outside_the_window_is_called_extrapolated(low, high, rubber, 
     assert 0.2 * master.storage_modulus[0] < fitted.E0
 
 
+def test_a_glass_beyond_any_organic_one_is_called_unphysical():
+    truth = spectrum_of([(3.0, -4.0), (5.0, -2.0), (1.0, 1.0)])
+    scale = 1e12 / truth.E_inf
+    master = master_of(truth, -3, 5)
+    stiff = MasterCurve(
+        master.angular_frequency,
+        scale * master.storage_modulus,
+        scale * master.loss_modulus,
+        master.temperature,
+        master.reference,
+    )
+    assert not any("organic glass" in note for note in fit_retardation_spectrum(master).fit.notes)
+    assert any("beyond any organic glass" in note for note in fit_retardation_spectrum(stiff).fit.notes)
+
+
 @settings(max_examples=10)
 @given(st.integers(-3, 3), st.floats(-9, 9))
 def test_units_of_time_and_modulus_do_not_matter_to_the_fit(steps, log_modulus):
@@ -163,4 +178,7 @@ def test_acrylic_spectrum_is_as_good_as_the_best_peer_and_owns_to_its_missing_pl
     assert spectrum.fit.rms_loss <= 0.0150  # best peer: .0147
     assert spectrum.fit.E0_extrapolated  # tan δ is 0.33 at 150 °C
     assert 0.3 * master.storage_modulus[0] < spectrum.E0 < master.storage_modulus[0]
+    # The coldest sweeps are stiffer than the fit can be: said so, not turned round.
+    assert spectrum.E_inf < master.storage_modulus.max()
+    assert "% below the largest measured E' (1.577e+09 Pa)" in spectrum.fit.notes[1]
     assert elapsed < 0.5  # about 5 ms; a loaded machine may be slow

@@ -54,7 +54,7 @@ class Condition:
     slip_sign: Array
 
     def __str__(self) -> str:
-        return f"{celsius(self.temperature):.1f} °C and {1e3 * self.speed:.4g} mm/s"
+        return f"{celsius(self.temperature):z.1f} °C and {1e3 * self.speed:.4g} mm/s"
 
     @property
     def configurations(self) -> Labels:
@@ -105,7 +105,7 @@ def conditions(
     isotherm = clusters(
         temperature,
         np.full(temperature.size, temperature_tolerance),
-        lambda low, high: f"temperature from {celsius(low):.1f} to {celsius(high):.1f} °C",
+        lambda low, high: f"temperature from {celsius(low):z.1f} to {celsius(high):z.1f} °C",
     )
     loading = clusters(load, SAME_LOAD * load, lambda low, high: f"load from {low:.4g} to {high:.4g} N")
     pace = clusters(

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.friction.conditions import Condition, conditions, where
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.doubts import doubts, outliers
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
@@ -18,13 +19,6 @@ if TYPE_CHECKING:
     from viscofric.data import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
-
-# A deviation is worth a note if chance makes it so large once in 370 times: three standard errors where
-# they are well known, more (Student's t) where few replicates stand behind them.
-_CHANCE = 0.00135  # on either side
-_ROUNDING = 1e-9  # relative; smaller deviations come from rounding
-_OUTLIER = 5.0  # robust standard deviations
-_FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
 
 # (sgn u_disc, sgn(u_disc − u_ball)) in words
 _WORDS = {
@@ -49,7 +43,7 @@ def separate(
         Readings with signed surface velocities.
     zero : float, str or pint.Quantity, optional
         Zero reading O of the force cell where it is known, N; fitted at each condition if left out.
-    tolerance : float
+    speed_tolerance : float
         Relative gap that parts nominal speeds, slips and loads from each other; measured ones scatter by
         less.
     temperature_tolerance : float, str or pint.Quantity
@@ -111,7 +105,7 @@ def separate(
     if not groups:
         raise InputError("traction runs hold no reading with the disc in motion: nothing to separate.")
     _insist_on_configurations(groups, known)
-    entries = [_Entry.of(runs, group, known) for group in groups]
+    entries = [Entry.of(runs, group, known) for group in groups]
     sliding = any(entry.slides for entry in entries)
     checked = any(entry.checks for entry in entries)
 
@@ -132,7 +126,7 @@ def separate(
         consistency=column(3, "value") if checked else None,
         consistency_error=column(3, "error") if checked else None,
         source=runs.source,
-        notes=(*runs.notes, *notes, *_doubts(groups, entries), *_outliers(runs, groups, entries)),
+        notes=(*runs.notes, *notes, *doubts(groups, entries), *outliers(runs, groups, entries)),
         slip=np.array([group.slip for group in groups]),
         offset=column(0, "value"),
     )
@@ -146,15 +140,18 @@ def _insist_on_configurations(groups: list[Condition], zero: float | None) -> No
     first = poor[0]
     there = set(zip(first.disc_sign.astype(int), first.slip_sign.astype(int), strict=True))
     missing = [words for signs, words in _WORDS.items() if signs not in there]
+    rolls = not np.any(first.slip_sign)
     advice = f"measure also {' or '.join(missing)}"
-    if not np.any(first.slip_sign):
-        advice = "measure also with the disc's velocity reversed"
+    if rolls:
+        advice = "measure also with the velocities of disc and ball reversed"
+    unknowns = ["the force cell's zero"] * (zero is None) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
+    told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if zero is None:
-        unknowns = "the force cell's zero, viscoelastic and Coulomb friction"
-        advice += ", or pass zero= if the force cell's zero is known"
-    else:
-        unknowns = "viscoelastic and Coulomb friction"
-    raise InputError(f"{where(poor, len(groups))} the signs of the velocities do not tell {unknowns} apart; {advice}.")
+        advice += ", or read the force cell with ball and disc apart and give that zero (zero= in Python)"
+    because = "slip is zero (pure rolling) and " if rolls else ""
+    raise InputError(
+        f"{where(poor, len(groups))} {because}the signs of the velocities do not tell {told} friction apart; {advice}."
+    )
 
 
 def _unknowns(group: Condition, zero: float | None) -> int:
@@ -168,7 +165,7 @@ def _regressors(group: Condition, zero: float | None) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class _Entry:
+class Entry:
     """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition, in this order.
 
     `freedom` is the number of degrees of freedom behind the errors; what cannot be known has an infinite
@@ -185,7 +182,8 @@ class _Entry:
     checks: bool
 
     @classmethod
-    def of(cls, runs: TractionRuns, group: Condition, zero: float | None) -> _Entry:
+    def of(cls, runs: TractionRuns, group: Condition, zero: float | None) -> Entry:
+        """Fit a condition's readings, each replicate by itself where all are complete."""
         numbers = np.unique(runs.replicate[group.rows])
         mine = [runs.replicate[group.rows] == number for number in numbers]
         configurations = [set(group.configurations[rows].tolist()) for rows in mine]
@@ -238,98 +236,3 @@ def _least_squares(design: Array, force: Array) -> tuple[Array, Array, int]:
     variance = float(np.sum((force - design @ coefficients) ** 2)) / freedom
     covariance: Array = variance * np.linalg.inv(design.T @ design)
     return coefficients, np.sqrt(np.diag(covariance)), freedom
-
-
-def _threshold(freedom: int) -> float:
-    """How many standard errors chance reaches once in 370 times."""
-    from scipy.special import stdtrit
-
-    return float(stdtrit(freedom, 1.0 - _CHANCE)) if freedom > 0 else np.inf
-
-
-def _doubts(groups: list[Condition], entries: list[_Entry]) -> list[str]:
-    """Note what does not look like a sound measurement."""
-    total = len(groups)
-    notes = []
-
-    def those(number: int, sign: float | None) -> tuple[list[Condition], str]:
-        """Find where a value is significantly negative (or other than zero), and show the first."""
-        found = []
-        for group, entry in zip(groups, entries, strict=True):
-            value = abs(entry.value[number]) if sign is None else sign * entry.value[number]
-            size = abs(entry.value[0]) / group.load + abs(entry.value[1]) + abs(entry.value[2])
-            chance = _threshold(entry.freedom[number == 3])
-            known = np.isfinite(entry.error[number])
-            if known and value > max(chance * entry.error[number], _ROUNDING * size):
-                found.append((group, f"{entry.value[number]:.2g} ± {entry.error[number]:.2g}"))
-        return [group for group, _ in found], found[0][1] if found else ""
-
-    for number, name in ((1, "viscoelastic"), (2, "Coulomb")):
-        negative, shown = those(number, -1.0)
-        if negative:
-            notes.append(
-                f"{where(negative, total)} the {name} friction coefficient is negative ({shown}): the sign "
-                "of the force or of a velocity is probably reversed."
-            )
-    inconsistent, shown = those(3, None)
-    if inconsistent:
-        notes.append(
-            f"{where(inconsistent, total)} the four sign configurations do not fit together: the "
-            f"consistency is {shown} of the load where scatter alone would give zero."
-        )
-    together = [group for group, entry in zip(groups, entries, strict=True) if entry.together]
-    if together:
-        notes.append(
-            f"{where(together, total)} not every replicate has all sign configurations, so all readings "
-            "are fitted together."
-        )
-    alone = [group for group, entry in zip(groups, entries, strict=True) if not np.isfinite(entry.error[1])]
-    if alone:
-        notes.append(
-            f"{where(alone, total)} there are too few readings to tell the scatter, so standard errors are "
-            "given as infinite; repeat the test."
-        )
-    return notes
-
-
-def _outliers(runs: TractionRuns, groups: list[Condition], entries: list[_Entry]) -> list[str]:
-    """Note the readings far from the others of their configuration."""
-    deviations = [_deviations(runs, group, entry.value[0]) for group, entry in zip(groups, entries, strict=True)]
-    whole = _robust_deviation(np.concatenate(deviations))
-    found: list[tuple[Condition, int]] = []
-    for group, deviation in zip(groups, deviations, strict=True):
-        # Few readings tell a scale badly; the whole test tells what it may be at least.
-        rounding = _ROUNDING * float(np.abs(runs.traction_force[group.rows]).max())
-        scale = max(_robust_deviation(deviation), whole, rounding)
-        far = np.flatnonzero(np.abs(deviation) > _OUTLIER * scale)
-        found += [(group, int(group.rows[row])) for row in far]
-    if not found:
-        return []
-    group, row = found[0]
-    count = "One reading deviates" if len(found) == 1 else f"{len(found)} readings deviate"
-    note = (
-        f"{count} from the others of the same configuration by more than {_OUTLIER:g} robust standard "
-        f"deviations and {'was' if len(found) == 1 else 'were'} kept; "
-        f"{'it is' if len(found) == 1 else 'the first is'} at {group}, replicate {runs.replicate[row]}, "
-        f"with {runs.traction_force[row]:.4g} N."
-    )
-    return [note]
-
-
-def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
-    """Compare forces, brought to the mean load, with their configuration's median (not a number if few)."""
-    force = (runs.traction_force[group.rows] - zero) * group.load / runs.load[group.rows]
-    deviation = np.full(force.size, np.nan)
-    for configuration in np.unique(group.configurations):
-        same = group.configurations == configuration
-        if np.count_nonzero(same) >= _FEWEST_FOR_OUTLIERS:
-            deviation[same] = force[same] - np.median(force[same])
-    return deviation
-
-
-def _robust_deviation(deviation: Array) -> float:
-    """Return the standard deviation told by the median, or by the mean where more than half are equal."""
-    size = np.abs(deviation[np.isfinite(deviation)])
-    if not size.size:
-        return 0.0
-    return 1.4826 * float(np.median(size)) or 1.2533 * float(np.mean(size))

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.data import Deformation, Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError
+from viscofric.readers.plausibility import doubts
 from viscofric.readers.table import Column, Table, read_table
 from viscofric.units import celsius
 
@@ -33,6 +34,22 @@ ISOTHERM_GAP = 1.0  # K
 WIDEST_ISOTHERM = 5.0  # K
 #: Frequencies closer than this (relative) are the same one, printed or measured twice.
 SAME_FREQUENCY = 1e-4
+#: Hz and rad/s of one row, both printed with two digits or so, agree within this (relative).
+PRINTED_FREQUENCY = 0.05
+
+#: The note where neither the file nor the caller says what the moduli are; see `deformation_is_told`.
+UNTOLD_DEFORMATION = "The file does not say whether its moduli are tensile or shear; taken as tensile."
+
+
+def deformation_is_told(sweeps: IsothermalSweeps) -> bool:
+    """Return whether the file or the caller of `read_dma` said that the moduli are tensile or shear.
+
+    Parameters
+    ----------
+    sweeps : IsothermalSweeps
+        As `read_dma` returned them.
+    """
+    return UNTOLD_DEFORMATION not in sweeps.notes
 
 
 def read_dma(path: str | PathLike[str], *, deformation: Deformation | None = None) -> IsothermalSweeps:
@@ -56,7 +73,8 @@ def read_dma(path: str | PathLike[str], *, deformation: Deformation | None = Non
     ------
     DataFileError
         If the file cannot be read, a column or unit is missing or wrong, a cell is not a finite number, a
-        storage modulus or frequency is not above zero, or the temperatures form a ramp, not isotherms.
+        storage modulus or frequency is not above zero, two columns of frequency contradict each other, or the
+        temperatures form a ramp, not isotherms.
     InputError
         If `deformation` is neither "tension" nor "shear".
     """
@@ -67,34 +85,48 @@ def read_dma(path: str | PathLike[str], *, deformation: Deformation | None = Non
     kind, notes = _deformation(table, places, deformation)
     temperature = table.values(places["temperature"], "K")
     frequency = _angular_frequency(table, places["frequency"])
+    _insist_on_one_frequency(table, places["frequency"], frequency)
     storage = table.values(places["storage modulus"], "Pa")
     loss = table.values(places["loss modulus"], "Pa")
     _insist_on_positive(table, places["temperature"], temperature)
     _insist_on_positive(table, places["frequency"], frequency)
     _insist_on_positive(table, places["storage modulus"], storage)
 
+    notes += doubts(table, places, temperature, storage)
     keep = loss > 0.0
     for row in np.flatnonzero(~keep):
         notes.append(
             f"Line {table.lines[row]} left out: its loss modulus is not above zero "
-            f"({loss[row]:.4g} Pa at {celsius(temperature[row]):.1f} °C, "
+            f"({loss[row]:.4g} Pa at {celsius(temperature[row]):z.1f} °C, "
             f"{frequency[row] / (2 * math.pi):.4g} Hz)."
         )
     if not keep.any():
         raise DataFileError(table.path, "no row has a loss modulus above zero.")
     temperature, frequency, storage, loss = (c[keep] for c in (temperature, frequency, storage, loss))
-    isotherms = []
+    isotherms, sorted_ones, averaged, repeated = [], [], [], 0
     for rows in _isotherm_rows(table, temperature):
         isotherm, reordered, repeats = _isotherm(temperature[rows], frequency[rows], storage[rows], loss[rows])
         isotherms.append(isotherm)
-        where = f"at {celsius(isotherm.temperature):.1f} °C"
-        if reordered:
-            notes.append(f"The rows {where} were sorted by frequency.")
-        if repeats:
-            notes.append(f"{repeats} repeated frequencies {where} were averaged.")
+        sorted_ones += [isotherm.temperature] if reordered else []
+        averaged += [isotherm.temperature] if repeats else []
+        repeated += repeats
+    if sorted_ones:
+        notes.append(f"The rows {_at(sorted_ones)} were sorted by frequency.")
+    if repeated:
+        what = "1 repeated frequency" if repeated == 1 else f"{repeated} repeated frequencies"
+        notes.append(f"{what} {_at(averaged)} {'was' if repeated == 1 else 'were'} averaged.")
     if np.any(np.diff(temperature) < -ISOTHERM_GAP):
         notes.append("The isotherms were sorted by temperature.")
     return IsothermalSweeps(tuple(isotherms), kind, table.path, tuple(notes))
+
+
+def _at(temperatures: list[float]) -> str:
+    """Name temperatures in ascending order, the first few of many."""
+    shown = [f"{celsius(kelvin):z.1f}" for kelvin in temperatures[:3]]
+    more = len(temperatures) - len(shown)
+    if more:
+        return f"at {', '.join(shown)} °C and {more} more temperature{'s' if more > 1 else ''}"
+    return f"at {' and '.join([', '.join(shown[:-1]), shown[-1]] if shown[1:] else shown)} °C"
 
 
 def _columns(table: Table) -> dict[str, int]:
@@ -109,11 +141,14 @@ def _columns(table: Table) -> dict[str, int]:
     missing = [name for name, place in places.items() if place is None]
     if missing:
         if any("traction" in column.name.lower() for column in table.columns):
-            raise DataFileError(table.path, "this is a table of traction runs, not of DMA sweeps; use read_mtm.")
+            raise DataFileError(
+                table.path,
+                "this is a table of traction runs, not of DMA sweeps; use read_mtm, or name it as mtm under "
+                "[measurement] of a run file.",
+            )
         raise DataFileError(
             table.path,
-            f"no column for {' or '.join(missing)}; a DMA table has e.g. 'temperature (degC)', "
-            f"'frequency (Hz)', "
+            f"no column for {' or '.join(missing)}; a DMA table has e.g. 'temperature (degC)', 'frequency (Hz)', "
             f"'storage modulus (MPa)', 'loss modulus (MPa)', this one has {table.headings()}.",
         )
     return {name: place for name, place in places.items() if place is not None}
@@ -138,8 +173,7 @@ def _deformation(table: Table, places: dict[str, int], asked: Deformation | None
         return kind, [f"The file's header says that the moduli were measured in {kind}."]
     if asked is not None:
         return asked, [f"The moduli are taken as measured in {asked}, as asked; the file does not say it."]
-    note = "The file does not say whether its moduli are tensile or shear; taken as tensile."
-    return "tension", [note]
+    return "tension", [UNTOLD_DEFORMATION]
 
 
 def _said_by(column: Column) -> Deformation | None:
@@ -166,6 +200,21 @@ def _angular_frequency(table: Table, place: int) -> Array:
     raise DataFileError(table.path, f"column {column.heading!r} has {shown}; it must be {right}.")
 
 
+def _insist_on_one_frequency(table: Table, used: int, angular_frequency: Array) -> None:
+    """Compare with a second column of frequency, where there is one."""
+    other = table.find(FREQUENCY, "frequency")
+    if other is None or other == used:
+        return
+    apart = np.abs(_angular_frequency(table, other) - angular_frequency) > PRINTED_FREQUENCY * np.abs(angular_frequency)
+    if np.any(apart):
+        row = int(np.argmax(apart))
+        told = [
+            f"{table.rows[row][place].strip()} in column {table.columns[place].heading!r}" for place in (other, used)
+        ]
+        problem = f"{' and '.join(told)} contradict each other (ω = 2πf); correct or leave out one of them."
+        raise DataFileError(table.path, problem, int(table.lines[row]))
+
+
 def _insist_on_positive(table: Table, place: int, values: Array) -> None:
     bad = np.flatnonzero(values <= 0.0)
     if bad.size:
@@ -185,7 +234,7 @@ def _isotherm_rows(table: Table, temperature: Array) -> list[NDArray[np.intp]]:
         if high - low > WIDEST_ISOTHERM:
             raise DataFileError(
                 table.path,
-                f"the temperatures from {celsius(low):.1f} to {celsius(high):.1f} °C run on without a gap of "
+                f"the temperatures from {celsius(low):z.1f} to {celsius(high):z.1f} °C run on without a gap of "
                 f"{ISOTHERM_GAP:g} K; isothermal sweeps are wanted, not a temperature ramp.",
             )
     return [np.sort(rows) for rows in groups]

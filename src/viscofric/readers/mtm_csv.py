@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,6 +32,8 @@ REPLICATE = frozenset({"replicate", "repetition", "repeat"})
 #: Readings scatter about their nominal condition; the next condition is further off than this.
 SAME_TEMPERATURE = 1.0  # K
 SAME_SPEED = 0.05  # relative
+SAME_LOAD = 0.05  # relative
+LARGEST_REPLICATE = 1e9
 
 
 def read_mtm(*paths: str | PathLike[str]) -> TractionRuns:
@@ -46,19 +49,20 @@ def read_mtm(*paths: str | PathLike[str]) -> TractionRuns:
     -------
     TractionRuns
         All rows, file after file, in SI units.  Without a replicate column the readings of equal nominal
-        temperature, disc and ball speed are numbered 1, 2, … in the order of the rows, with a note.
+        temperature, load, disc and ball speed are numbered 1, 2, … in the order of the rows, with a note.
 
     Raises
     ------
     DataFileError
-        If a file cannot be read, a column or unit is missing or wrong, a cell is not a finite number, or a
-        load is not above zero.
+        If a file cannot be read or is given twice, a column or unit is missing or wrong, a cell is not a
+        finite number, or a load is not above zero.
     InputError
         If no file is given.
     """
     if not paths:
         raise InputError("read_mtm needs at least one file.")
     tables = [read_table(path) for path in paths]
+    _insist_on_different(tables)
     values: dict[str, list[Array]] = {name: [] for name in COLUMNS}
     replicates: list[NDArray[np.int64] | None] = []
     for table in tables:
@@ -81,12 +85,26 @@ def read_mtm(*paths: str | PathLike[str]) -> TractionRuns:
     )
 
 
+def _insist_on_different(tables: list[Table]) -> None:
+    """Refuse readings that would count twice and make the scatter look smaller than it is."""
+    for place, table in enumerate(tables):
+        for other in tables[:place]:
+            if Path(table.path).resolve() == Path(other.path).resolve():
+                raise DataFileError(table.path, "is given twice; name each file once.")
+            if table.columns == other.columns and table.rows == other.rows:
+                raise DataFileError(table.path, f"holds the same readings as {other.path}; give one of them only.")
+
+
 def _columns(table: Table) -> dict[str, int]:
     places = {name: table.find(names, name) for name, (names, _) in COLUMNS.items()}
     missing = [name for name, place in places.items() if place is None]
     if missing:
         if any("loss" in c.name.lower() or "''" in c.name for c in table.columns):
-            raise DataFileError(table.path, "this is a table of DMA sweeps, not of traction runs; use read_dma.")
+            raise DataFileError(
+                table.path,
+                "this is a table of DMA sweeps, not of traction runs; use read_dma, or name it as dma under "
+                "[material] of a run file.",
+            )
         raise DataFileError(
             table.path,
             f"no column for {' or '.join(missing)}; a table of traction runs has e.g. 'temperature (degC)', "
@@ -112,11 +130,12 @@ def _replicate(table: Table) -> NDArray[np.int64] | None:
     if place is None:
         return None
     numbers = table.numbers(place)
-    bad = np.flatnonzero(numbers != np.round(numbers))
+    bad = np.flatnonzero((numbers != np.round(numbers)) | (np.abs(numbers) > LARGEST_REPLICATE))
     if bad.size:
         row = int(bad[0])
         cell, heading = table.rows[row][place].strip(), table.columns[place].heading
-        raise DataFileError(table.path, f"{cell} in column {heading!r} must be a whole number.", int(table.lines[row]))
+        problem = f"{cell} in column {heading!r} must be a whole number, at most {LARGEST_REPLICATE:.0f}."
+        raise DataFileError(table.path, problem, int(table.lines[row]))
     return numbers.astype(np.int64)
 
 
@@ -134,12 +153,13 @@ def _all_replicates(
     numbers = []
     temperature = columns["temperature"]
     nominal = [_nominal(temperature, np.full(temperature.shape, SAME_TEMPERATURE))]
-    nominal += [_nominal(columns[name], SAME_SPEED * np.abs(columns[name])) for name in ("disc speed", "ball speed")]
+    for name, same in (("load", SAME_LOAD), ("disc speed", SAME_SPEED), ("ball speed", SAME_SPEED)):
+        nominal.append(_nominal(columns[name], same * np.abs(columns[name])))
     for condition in np.stack(nominal, axis=1):
         key = tuple(int(value) for value in condition)
         seen[key] += 1
         numbers.append(seen[key])
-    note = "There is no replicate column; readings of equal speeds and temperature are numbered in their order."
+    note = "There is no replicate column; readings of equal speeds, load and temperature are numbered in their order."
     return np.array(numbers, dtype=np.int64), (note,)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import re
+import stat
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,6 +29,10 @@ _UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>°?[CKF]|deg[CFK]|[mkM]?Hz|ra
 
 # How instruments write the units of temperature that pint would take for coulomb, farad or nothing at all.
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
+
+_COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
+#: A table of measurements is far smaller; what is larger was chosen by mistake.
+LARGEST_FILE = 200_000_000  # bytes
 
 
 @dataclass(frozen=True)
@@ -88,7 +93,14 @@ class Table:
         text = cell.strip()
         if not text:
             raise DataFileError(self.path, f"the cell in column {heading!r} is empty; give a number.", line)
-        plain = text.replace(",", ".") if self.decimal_comma and "." not in text else text
+        if self.decimal_comma and "." in text:
+            raise DataFileError(
+                self.path,
+                f"{text!r} in column {heading!r} has a point, but other numbers of the file have a comma, so that "
+                "decimals cannot be told from thousands; write all decimals in one way and no thousands marks.",
+                line,
+            )
+        plain = text.replace(",", ".") if self.decimal_comma else text
         try:
             value = float(plain)
         except ValueError:
@@ -159,13 +171,14 @@ class Table:
 def read_table(path: str | PathLike[str]) -> Table:
     """Read a table of numbers separated by commas, semicolons or tabs, under one row of headings.
 
-    UTF-8 and UTF-16 (with a byte-order mark) are recognised, anything else is read as Latin-1.  Blank lines
-    and lines that begin with ``#`` are passed over.
+    UTF-8 and UTF-16 (with a byte-order mark) are recognised, anything else is read as Windows-1252.  Blank
+    lines and lines that begin with ``#`` are passed over.
 
     Raises
     ------
     DataFileError
-        If there is no such file, it is a folder, empty or binary, or its rows are not as long as its header.
+        If there is no such file, it is no regular file, empty, binary or too large, or its rows are not as long
+        as its header.
     """
     shown = str(path)
     lines = [
@@ -179,10 +192,10 @@ def read_table(path: str | PathLike[str]) -> Table:
     delimiter = max("\t;,", key=header.count)
     if delimiter not in header:
         raise DataFileError(shown, "the header has no columns separated by commas, semicolons or tabs.", first)
-    columns = tuple(_column(heading) for heading in _cells(header, delimiter))
+    columns = tuple(_column(heading) for heading in _cells(shown, first, header, delimiter))
     rows = []
     for number, line in lines[1:]:
-        cells = _cells(line, delimiter)
+        cells = _cells(shown, number, line, delimiter)
         while len(cells) > len(columns) and not cells[-1].strip():  # delimiters that close a row
             cells.pop()
         if len(cells) != len(columns):
@@ -191,33 +204,48 @@ def read_table(path: str | PathLike[str]) -> Table:
         rows.append(tuple(cells))
     if not rows:
         raise DataFileError(shown, "there is a header, but no row of numbers under it.")
-    comma = delimiter != "," and any(re.fullmatch(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*", c) for r in rows for c in r)
+    measured = [place for place, column in enumerate(columns) if column.unit]  # a remark may hold any comma
+    comma = delimiter != "," and any(_COMMA_NUMBER.fullmatch(row[place]) for row in rows for place in measured)
     numbers = np.array([number for number, _ in lines[1:]], dtype=np.int64)
     return Table(shown, columns, tuple(rows), numbers, comma)
 
 
 def _text(path: str) -> str:
     file = Path(path)
-    if file.is_dir():
-        raise DataFileError(path, "is a folder, not a data file.")
     try:
+        status = file.stat()
+        if stat.S_ISDIR(status.st_mode):
+            raise DataFileError(path, "is a folder, not a data file.")
+        if not stat.S_ISREG(status.st_mode):  # a device or a pipe may never end
+            raise DataFileError(path, "is a device or a pipe, not a data file.")
+        if status.st_size > LARGEST_FILE:
+            size, most = status.st_size / 1e6, LARGEST_FILE / 1e6
+            raise DataFileError(path, f"holds {size:.0f} MB; a table of measurements has at most {most:.0f} MB.")
         data = file.read_bytes()
     except FileNotFoundError:
         raise DataFileError(path, "no such file.") from None
+    except ValueError as error:
+        if isinstance(error, DataFileError):
+            raise
+        raise DataFileError(path.replace("\0", "\\0"), f"is not the name of a file ({error}).") from None
     except OSError as error:
         raise DataFileError(path, f"cannot be opened ({error.strerror or error}).") from None
     try:
         text = data.decode("utf-16") if data.startswith((b"\xff\xfe", b"\xfe\xff")) else data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        text = data.decode("latin-1")
+        # Instrument software under Windows; the five bytes that its code page leaves open stand for no letter.
+        text = data.decode("cp1252", errors="replace")
     # Text has no control characters but tabs and ends of lines; a workbook or an image is full of them.
     if any(ord(character) < 32 and character not in "\t\r\n\f\v" for character in text):
         raise DataFileError(path, "is a binary file; a text table is wanted (export it as CSV).")
     return text
 
 
-def _cells(line: str, delimiter: str) -> list[str]:
-    return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
+def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
+    try:
+        return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
+    except csv.Error as error:
+        raise DataFileError(path, f"the row cannot be split into cells ({error}).", number) from None
 
 
 def _column(heading: str) -> Column:

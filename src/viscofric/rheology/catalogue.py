@@ -26,7 +26,7 @@ def synthetic_fluoroelastomer() -> Material:
     At 30 °C its compliance is spread over log10 τ in two half-Gaussian pairs: the glass transition (12 MPa to
     1.5 GPa) and a slow relaxation below the rubber plateau (12 MPa to 3 MPa), which makes the loss modulus
     fall with frequency where friction tests are made.  WLF above Tg = −18 °C (17.44, 51.6 K), Arrhenius
-    below it;     ν = 0.5.  tan δ peaks at 1.33 near 5e6 rad/s.
+    below it; ν = 0.5.  tan δ peaks at 1.33 near 5e6 rad/s.
 
     Returns
     -------

@@ -124,8 +124,9 @@ def _insist_on_curvature(factor: float, C2: float, temperatures: Array) -> None:
 def _not_described(temperatures: Array, kind: str) -> InputError:
     low, high = celsius(float(temperatures[0])), celsius(float(temperatures[-1]))
     return InputError(
-        f"the shift factors from {low:.1f} to {high:.1f} °C do not fix the constants of the {kind!r} law; "
-        "try law('arrhenius'), law('wlf'), or a narrower range with above=."
+        f"the shift factors from {low:z.1f} to {high:z.1f} °C do not fix the constants of the {kind!r} law; "
+        "take the measured ones ([material] shift = \"measured\" in a run file), or in Python try law('arrhenius'), "
+        "law('wlf'), or a narrower range with above=."
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.rheology import law_fitting
 from viscofric.rheology.shift_laws import WLF, Arrhenius, ShiftLaw, WLFArrhenius
-from viscofric.units import celsius, positive, to_si_array
+from viscofric.units import celsius, kelvin_hint, positive, to_si_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -75,10 +75,11 @@ class ShiftFactors(ShiftLaw):
         low, high = self.temperatures[0], self.temperatures[-1]
         outside = (kelvin < low * (1 - _SAME_TEMPERATURE)) | (kelvin > high * (1 + _SAME_TEMPERATURE))
         if np.any(outside):
+            wanted = float(kelvin[outside][0])
             raise InputError(
-                f"temperature = {celsius(float(kelvin[outside][0])):.1f} °C lies outside the measured "
-                f"{celsius(low):.1f} to {celsius(high):.1f} °C; use a law, "
-                "e.g. shift_factors.law('wlf'), to go beyond."
+                f"temperature = {celsius(wanted):z.1f} °C lies outside the measured "
+                f"{celsius(low):z.1f} to {celsius(high):z.1f} °C; use a law to go beyond, "
+                f"[material] shift = \"wlf\" in a run file, shift_factors.law('wlf') in Python{kelvin_hint(wanted)}."
             )
 
     def _log10(self, kelvin: Array) -> Array:

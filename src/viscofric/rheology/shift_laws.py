@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, overload
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.units import celsius, positive, to_si
+from viscofric.units import celsius, kelvin_hint, positive, to_si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -147,9 +147,10 @@ class WLF(ShiftLaw):
 
     def _refuse(self, kelvin: Array) -> None:
         if np.any(kelvin <= self.pole):
+            coldest = float(kelvin.min())
             raise InputError(
-                f"temperature = {celsius(float(kelvin.min())):.1f} °C: the WLF law diverges at "
-                f"{celsius(self.pole):.1f} °C (reference − C2) and holds above it only."
+                f"temperature = {celsius(coldest):z.1f} °C: the WLF law diverges at "
+                f"{celsius(self.pole):z.1f} °C (reference − C2) and holds above it only{kelvin_hint(coldest)}."
             )
 
     def _log10(self, kelvin: Array) -> Array:

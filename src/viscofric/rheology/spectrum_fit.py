@@ -30,6 +30,8 @@ ITERATIONS = 30
 CONVERGED = 1e-6  # relative fall of the misfit
 #: A modulus that is too small a part of the compliance to be seen is at most this.
 STIFFEST = 1e3  # times the largest measured storage modulus
+#: Organic glasses have a few times 10⁹ Pa.
+STIFFEST_GLASS = 2e10  # Pa
 
 
 @one_blas_thread
@@ -152,22 +154,44 @@ def judged(spectrum: RetardationSpectrum, master_curve: MasterCurve) -> Retardat
     rise = spectrum.E_inf / float(modulus.real[-1]) - 1.0
     rubber = fall > PLATEAU or low_loss > PLATEAU_LOSS_TANGENT
     glass = rise > PLATEAU or high_loss > PLATEAU_LOSS_TANGENT
+    softest, stiffest = float(measured.real.min()), float(measured.real.max())
+    above = (
+        f"E0 = {spectrum.E0:.4g} Pa lies {_beside(spectrum.E0, softest)} the smallest measured E' ({softest:.4g} Pa)"
+    )
+    below = f"E_inf = {spectrum.E_inf:.4g} Pa lies {_beside(spectrum.E_inf, stiffest)} the largest measured E' "
+    below += f"({stiffest:.4g} Pa)"
     notes = []
     if rubber:
         notes.append(
-            f"E0 = {spectrum.E0:.4g} Pa is extrapolated: at the lowest frequency, {omega[0]:.3g} rad/s, "
-            f"E' is still {100 * fall:.0f} % above it and tan δ is {low_loss:.2f}; "
-            "the rubber plateau was not measured."
+            f"{above}, and at the lowest frequency, {omega[0]:.3g} rad/s, tan δ is {low_loss:.2f}: the rubber plateau "
+            "was not measured, so that E0 is extrapolated."
         )
+    elif spectrum.E0 / softest > 1.0 + PLATEAU:
+        notes.append(f"{above}: the fit does not follow the softest points.")
     if glass:
         notes.append(
-            f"E_inf = {spectrum.E_inf:.4g} Pa is extrapolated: at the highest frequency, {omega[-1]:.3g} "
-            f"rad/s, it is still {100 * rise:.0f} % above E' and tan δ is {high_loss:.2f}; "
-            "the glass was not measured."
+            f"{below}, and at the highest frequency, {omega[-1]:.3g} rad/s, tan δ is {high_loss:.2f}: the glass was "
+            "not measured, so that E_inf is extrapolated."
+        )
+    elif spectrum.E_inf < stiffest * (1.0 - PLATEAU):
+        notes.append(f"{below}: the fit does not follow the stiffest points.")
+    if spectrum.E_inf > STIFFEST_GLASS:
+        notes.append(
+            f"E_inf = {spectrum.E_inf:.4g} Pa is beyond any organic glass (a few 1e9 Pa); no rubber has such a glass, "
+            "and the spectrum is not physical above the measured frequencies."
         )
     ends = (float(omega[0]), float(omega[-1]))
     fit = SpectrumFit(rms_storage, rms_loss, rubber, glass, ends, tuple(notes))
     return RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, fit)
+
+
+def _beside(limit: float, measured: float) -> str:
+    """Say how far a limit of the fit lies from the data's own."""
+    if limit > 10.0 * measured:
+        return f"{limit / measured:.0f} times above"
+    if limit < 0.1 * measured:
+        return f"{measured / limit:.0f} times below"
+    return f"{100 * abs(limit / measured - 1.0):.1f} % {'above' if limit >= measured else 'below'}"
 
 
 def _loss_tangent_at_ends(angular_frequency: Array, loss_tangent: Array) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from viscofric.rheology.common_curve import common_shifts
 from viscofric.rheology.overlap import Join, LogSweep, OverlapQuality, failures, join, overlap_quality
 from viscofric.rheology.shift_factors import ShiftFactors, referenced_covariance
 from viscofric.threads import one_blas_thread
-from viscofric.units import celsius, positive, to_si
+from viscofric.units import celsius, kelvin_hint, positive, to_si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -137,8 +137,9 @@ def superpose(sweeps: IsothermalSweeps, reference: Quantity, poisson_ratio: floa
     found = common_shifts(logs, joins)
     if not temperatures[0] <= kelvin <= temperatures[-1]:
         raise InputError(
-            f"reference = {celsius(kelvin):.1f} °C lies outside the joined isotherms, "
-            f"{_shown(temperatures[0])} to {_shown(temperatures[-1])}. {' '.join(left_out)}".rstrip()
+            f"reference = {celsius(kelvin):z.1f} °C lies outside the joined isotherms, "
+            f"{_shown(temperatures[0])} to {_shown(temperatures[-1])}{kelvin_hint(kelvin)}. "
+            f"{' '.join(left_out)}".rstrip()
         )
     shift_factors = ShiftFactors(
         temperatures, found.values, kelvin, referenced_covariance(temperatures, found.covariance, kelvin)
@@ -152,7 +153,7 @@ def superpose(sweeps: IsothermalSweeps, reference: Quantity, poisson_ratio: floa
 
 
 def _shown(kelvin: float) -> str:
-    return f"{celsius(kelvin):.1f} °C"
+    return f"{celsius(kelvin):z.1f} °C"
 
 
 def _joined(isotherms: tuple[Isotherm, ...]) -> tuple[tuple[Isotherm, ...], list[Join], tuple[str, ...]]:

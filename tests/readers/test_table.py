@@ -1,0 +1,70 @@
+"""Text tables that are not what they seem: mixed decimals, strange files, old code pages."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import pytest
+
+from viscofric.errors import DataFileError
+from viscofric.readers import read_dma, table
+
+HEADER = "temperature (degC);frequency (Hz);storage modulus (MPa);loss modulus (MPa)"
+
+
+def write(tmp_path, *lines, encoding="utf-8"):
+    path = tmp_path / "sweeps.csv"
+    path.write_bytes("\n".join(lines).encode(encoding))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("rows", "line", "cell"),
+    [
+        (["20;0,1;5;0,5", "20;1;1.234;0,5"], 3, "1.234"),  # a thousand, or one and a quarter?
+        (["20;0.1;5;0.5", "20;1;1,234;0.5"], 2, "0.1"),
+        (["20;0,1;5;0,5", "20;1;1.234,5;0,5"], 3, "1.234,5"),
+    ],
+)
+def test_points_and_commas_in_one_file_are_refused(tmp_path, rows, line, cell):
+    with pytest.raises(DataFileError, match=rf"line {line}: '{cell}' .* has a point, but other numbers .* a comma"):
+        read_dma(write(tmp_path, HEADER, *rows))
+
+
+def test_a_comma_in_a_remark_is_no_decimal_comma(tmp_path):
+    sweeps = read_dma(write(tmp_path, HEADER + ";remark", "20;0.1;5.5;0.5;1,2", "20;1;6.5;0.5;"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
+def test_primes_of_the_windows_code_page_are_read(tmp_path):
+    header = "T (°C);f (Hz);E’ (MPa);E” (MPa)"
+    sweeps = read_dma(write(tmp_path, header, "20;1;5;0.5", "20;2;6;0.5", encoding="cp1252"))
+    assert sweeps.deformation == "tension"
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([5e5, 5e5])
+
+
+def test_a_monstrous_cell_is_refused(tmp_path):
+    with pytest.raises(DataFileError, match="line 2: the row cannot be split into cells") as caught:
+        read_dma(write(tmp_path, HEADER, "2" * 140_000 + ";1;5;0.5"))
+    assert len(str(caught.value)) < 500
+
+
+def test_a_name_that_no_file_can_have_is_refused():
+    with pytest.raises(DataFileError, match="is not the name of a file"):
+        read_dma("sweeps\0.csv")
+
+
+@pytest.mark.timeout(10)  # read, they would never end
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such files")
+def test_devices_and_pipes_are_refused(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for path in ("/dev/zero", tmp_path / "pipe"):
+        with pytest.raises(DataFileError, match="is a device or a pipe"):
+            read_dma(path)
+
+
+def test_a_file_too_large_for_measurements_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(table, "LARGEST_FILE", 10)
+    with pytest.raises(DataFileError, match="a table of measurements has at most"):
+        read_dma(write(tmp_path, HEADER, "20;1;5;0.5"))

@@ -1,0 +1,133 @@
+"""Quantities as people write them: one plain number and one unit, or a sentence that says what is wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from viscofric.errors import InputError
+from viscofric.units import conversion, kelvin_hint, positive, registry, to_si, to_si_array
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "number"),
+    [
+        ("9.525 mm", "m", 9.525e-3),
+        ("9.525mm", "m", 9.525e-3),
+        (" 5.  mm ", "m", 5e-3),
+        ("-.5e-3 m", "m", -5e-4),
+        ("−18 °C", "K", 255.15),
+        ("60 ℃", "K", 333.15),
+        ("68 degF", "K", 293.15),
+        ("5 N/mm²", "Pa", 5e6),
+        ("5 N/mm^2", "Pa", 5e6),
+        ("5 N/mm**2", "Pa", 5e6),
+        ("10 m·s⁻¹", "m/s", 10.0),
+        ("10 m s^-1", "m/s", 10.0),
+        ("10 m*s^(-1)", "m/s", 10.0),
+        ("5 µm", "m", 5e-6),
+        ("5 μm", "m", 5e-6),
+        ("8 J/(mol K)", "J/mol/K", 8.0),
+        ("3 1/s", "Hz", 3.0),
+        ("51.6 delta_degC", "delta_degC", 51.6),
+        ("51.6 K", "delta_degC", 51.6),
+        ("0.5", "dimensionless", 0.5),
+    ],
+)
+def test_one_number_and_one_unit_are_understood(text, unit, number):
+    assert to_si(text, unit) == pytest.approx(number, rel=1e-12)  # rounding of the conversion
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "says"),
+    [
+        ("9,525 mm", "m", "has a decimal comma; write '9.525 mm', or '9525 mm' if it parts thousands"),
+        ("25,5 N", "N", r"has a decimal comma; write '25\.5 N'\."),
+        (",5 N", "N", r"has a decimal comma; write '0\.5 N'\."),
+        ("1 000 N", "N", r"parts its thousands; write '1000 N'\."),
+        ("1,000.5 N", "N", r"parts its thousands; write '1000\.5 N'\."),
+        ("1,234,567 N", "N", r"parts its thousands; write '1234567 N'\."),
+        ("5 N + 3 N", "N", "not one plain number followed by one unit"),
+        ("2*3 mm", "m", "not one plain number followed by one unit"),
+        ("20, 200 mm/s", "m/s", "not one plain number followed by one unit"),
+        ("1_000 N", "N", "not one plain number"),
+        ("٣ N", "N", "not one plain number"),
+        ("mm", "m", "has no number"),
+        ("25", "N", "has no unit"),
+        ("", "N", "is empty"),
+        ("1e400 N", "N", "not a finite number"),
+        ("5 foo", "N", "'foo' is not a unit that is known"),
+        ("5 kg", "N", r"wrong kind of unit \(kilogram\); right would be, for instance, '25 N'"),
+        ("60 C", "K", "write '60 degC'"),
+        ("140 F", "K", "write '140 degF'"),
+        ("5 MPA", "Pa", "write '5 MPa'"),
+        ("5 kpa", "Pa", "write '5 kPa'"),
+        ("20 delta_degC", "K", "is a temperature difference"),
+        ("51.6 degC", "delta_degC", "is a temperature where a temperature difference is wanted"),
+        ("17 K", "dimensionless", r"has a unit \(kelvin\) where none belongs; .* the plain number 0\.5"),
+    ],
+)
+def test_what_is_not_one_number_and_one_unit_is_refused_in_one_sentence(text, unit, says):
+    with pytest.raises(InputError, match=says) as caught:
+        to_si(text, unit, "radius")
+    assert str(caught.value).startswith(f"radius = {text!r}: ")
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.timeout(10)  # evaluated, each of these would take longer than the universe has
+@pytest.mark.parametrize(
+    "text", ["9**9**9 N", "5 (Pa**9**9**9)", "5 Pa**9**9**9", "5 ((Pa^9)^9)^9", "5 N^99", "9" * 10**5]
+)
+def test_text_is_never_evaluated(text):
+    with pytest.raises(InputError):
+        to_si(text, "N")
+
+
+@pytest.mark.timeout(10)
+def test_units_of_headings_are_not_evaluated_either():
+    assert conversion("°C", "K") == pytest.approx((1.0, 273.15))
+    assert conversion("N/mm²", "Pa") == pytest.approx((1e6, 0.0))
+    for text in ("(Pa**9**9**9)", "Pa + Pa", "2 Pa", "Pa" * 30, "delta_degC"):
+        with pytest.raises(InputError):
+            conversion(text, "K" if "deg" in text else "Pa")
+
+
+@pytest.mark.parametrize("value", [True, False, np.True_, None, [1.0], "N", object()])
+def test_what_is_not_a_number_is_refused(value):
+    with pytest.raises(InputError, match=r"not a number|has no number"):
+        to_si(value, "N", "load")
+    with pytest.raises(InputError, match="is not a number"):
+        to_si(True, "dimensionless")
+
+
+def test_temperature_differences_and_temperatures_are_kept_apart():
+    quantity = registry().Quantity
+    assert to_si(quantity(20.0, "degC"), "K") == pytest.approx(293.15)
+    assert to_si(quantity(20.0, "delta_degC"), "delta_degC") == pytest.approx(20.0)
+    with pytest.raises(InputError, match="temperature difference"):
+        to_si(quantity(20.0, "delta_degC"), "K")
+    with pytest.raises(InputError, match="is a temperature where"):
+        to_si(quantity(20.0, "degC"), "delta_degC")
+
+
+def test_lists_arrays_and_quantities_become_arrays():
+    quantity = registry().Quantity
+    assert to_si_array(["1 mm", 2.0], "m") == pytest.approx([1e-3, 2.0])
+    assert to_si_array("1 mm", "m") == pytest.approx([1e-3])
+    assert to_si_array(quantity(np.array([20.0, 30.0]), "degC"), "K") == pytest.approx([293.15, 303.15])
+    assert to_si_array(quantity(5.0, "mm"), "m") == pytest.approx([5e-3])
+    with pytest.raises(InputError, match="wrong kind of unit"):
+        to_si_array(quantity(np.array([5.0]), "N"), "m")
+    for wrong in ([True], None):
+        with pytest.raises(InputError, match="is not a number"):
+            to_si_array(wrong, "m")
+
+
+def test_positive_insists():
+    with pytest.raises(InputError, match=r"load = '0 N': must be above zero"):
+        positive("0 N", "N", "load")
+
+
+def test_the_hint_to_write_degrees_comes_with_small_numbers_only():
+    assert kelvin_hint(300.0) == ""
+    assert "write '60 degC'" in kelvin_hint(60.0)
