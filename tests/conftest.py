@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
 
 # Tests run side by side, a process for each core: threads of BLAS within them only get in each other's way.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# Nothing is written to the home folder, matplotlib's cache of fonts included.
+os.environ.setdefault("MPLCONFIGDIR", str(Path(sys.prefix) / "var" / "matplotlib"))
 
 ROOT = Path(__file__).resolve().parent.parent
 

@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tomllib
 from importlib.resources import files
 from pathlib import Path
 
@@ -9,6 +16,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from viscofric.cli import main
+from viscofric.cli.run import tell
+from viscofric.study import open_results
 
 EXAMPLE = Path(str(files("viscofric"))) / "example"
 STUDY = """
@@ -38,6 +47,20 @@ def write(folder: Path, *, dma: str | None = None, study: str = STUDY) -> Path:
     )
     (folder / "study.toml").write_text(study, encoding="utf-8")
     return folder / "study.toml"
+
+
+@pytest.fixture(scope="module")
+def once(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the results of one run, not to be changed."""
+    folder = tmp_path_factory.mktemp("once")
+    assert call("run", write(folder)).exit_code == 0
+    return folder / "study.results"
+
+
+@pytest.fixture
+def finished(once: Path, tmp_path: Path) -> Path:
+    """Return a copy of the results of one run."""
+    return shutil.copytree(once, tmp_path / "finished.results")
 
 
 def told(result: Result) -> str:
@@ -128,6 +151,124 @@ def test_shuffled_and_repeated_rows_are_accepted_with_a_note(tmp_path: Path) -> 
     assert "averaged" in notes
 
 
+@pytest.mark.parametrize(("notes", "lines"), [(3, 4), (5, 6), (6, 1)])
+def test_few_notes_are_printed_and_many_are_counted(
+    finished: Path, capsys: pytest.CaptureFixture[str], notes: int, lines: int
+) -> None:
+    results = open_results(finished)
+    results.tree.attrs |= {"notes": json.dumps(["At -30 °C."] * notes), "failures": "[]", "warnings": "[]"}
+    tell(results)
+    printed = capsys.readouterr().err.splitlines()
+    assert len(printed) == lines
+    assert printed[0].startswith(f"{notes} notes on the data")
+    assert set(printed[1:]) <= {"Note: At −30 °C."}
+
+
+def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    results = open_results(finished)
+    failures = [f"89.9995 °C, {speed} mm/s: accuracy not reached." for speed in (19.9996, 40, 80)]
+    warning = "In 3 of 9 cases, most of all at 89.9995 °C, 19.9996 mm/s: wide."
+    results.tree.attrs |= {"notes": "[]", "failures": json.dumps(failures), "warnings": json.dumps([warning])}
+    tell(results)
+    assert capsys.readouterr().err.splitlines() == [
+        "Warning: In 3 of 9 cases, most of all at 90 °C, 20 mm/s: wide.",
+        "Failed: 3 cases (90 °C, 20 mm/s; 90 °C, 40 mm/s; 90 °C, 80 mm/s): accuracy not reached.",
+    ]
+
+
+def test_errors_are_told_without_an_empty_line_before_them(tmp_path: Path) -> None:
+    assert call("run", tmp_path / "study.toml").stderr.startswith("Error: ")
+
+
+@pytest.mark.parametrize("name", ["figures", "report.html"])
+def test_report_that_cannot_be_written_is_told(finished: Path, name: str) -> None:
+    (finished / name).rename(finished / "old")
+    if name == "figures":
+        (finished / name).touch()
+    else:
+        (finished / name).mkdir()
+    assert "cannot be written" in told(call("report", finished))
+
+
+def test_nothing_asked_is_answered_with_the_help() -> None:
+    result = call()
+    assert result.exit_code == 0
+    assert "Exit status" in result.output
+    assert result.output == call("--help").output
+
+
+def test_template_names_every_key_of_a_run_file() -> None:
+    from viscofric.study.run_file import Study
+
+    text = (EXAMPLE / "study.toml").read_text(encoding="utf-8")
+    behind_comments = "\n".join(line.removeprefix("# ") if " = " in line else line for line in text.splitlines())
+    written = tomllib.loads(behind_comments)
+    for key, field in Study.model_fields.items():
+        assert key in written
+        table = field.annotation
+        for name in getattr(table, "model_fields", {}):
+            assert name in written[key], f"[{key}] {name}"
+    assert "mtm" in written["measurement"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
+@pytest.mark.parametrize(
+    ("sent", "status", "word"), [(signal.SIGINT, 130, "Interrupted."), (signal.SIGTERM, 143, "Terminated.")]
+)
+def test_signals_end_a_run_with_one_sentence(tmp_path: Path, sent: signal.Signals, status: int, word: str) -> None:
+    write(tmp_path)
+    program = subprocess.Popen(
+        [sys.executable, "-m", "viscofric", "run", "study.toml"],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert program.stderr is not None
+    program.stderr.readline()  # the first stage has begun
+    program.send_signal(sent)
+    _, errors = program.communicate(timeout=60)
+    assert program.returncode == status
+    assert word in errors
+    assert "Traceback" not in errors
+    assert "Aborted" not in errors
+
+
+@pytest.mark.parametrize("place", ["viscofric.cli.report", "viscofric.report.drawing"])
+def test_interruption_while_modules_load_is_one_sentence(finished: Path, tmp_path: Path, place: str) -> None:
+    (tmp_path / "interrupts.py").write_text(
+        "import sys\n"
+        "class Finder:\n"
+        "    def find_spec(self, name, path=None, target=None):\n"
+        f"        if name == {place!r}: raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Finder())\n"
+        "from viscofric.cli import main\n"
+        f"main(['report', {finished.name!r}])\n"
+    )
+    done = subprocess.run([sys.executable, "interrupts.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 130, done.stderr
+    assert done.stderr.strip() == "Interrupted."
+
+
+def test_matplotlib_writes_nothing_to_the_home_folder(finished: Path, tmp_path: Path) -> None:
+    home = tmp_path / "home"
+    home.mkdir()
+    unset = {"HOME": str(home), "MPLCONFIGDIR": "", "XDG_CACHE_HOME": "", "XDG_CONFIG_HOME": ""}
+    script = "import os; [os.environ.pop(name, None) for name in ('MPLCONFIGDIR', 'XDG_CACHE_HOME', 'XDG_CONFIG_HOME')]"
+    script += "; from viscofric.cli import main; main(['report', 'finished.results'])"
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        cwd=tmp_path,
+        env={**os.environ, **unset},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    if sys.prefix != sys.base_prefix and os.access(sys.prefix, os.W_OK):
+        assert list(home.iterdir()) == []
+
+
 def test_unknown_command_suggests_the_nearest() -> None:
     result = call("rnu")
     assert result.exit_code == 2
@@ -136,9 +277,9 @@ def test_unknown_command_suggests_the_nearest() -> None:
 
 def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(tmp_path, study=STUDY.replace('"100 mm/s"', '["100 mm/s", "200 mm/s"]'))
-    from viscofric.study import execution
+    from viscofric.study import cases
 
-    solve, calls = execution.solve_steady, []
+    solve, calls = cases.solve_steady, []
 
     def interrupted(*arguments: object, **options: object) -> object:
         calls.append(arguments)
@@ -146,7 +287,7 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
             raise KeyboardInterrupt
         return solve(*arguments, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(execution, "solve_steady", interrupted)
+    monkeypatch.setattr(cases, "solve_steady", interrupted)
     result = call("run", path)
     assert result.exit_code == 130
     assert "Finished cases are kept" in result.output

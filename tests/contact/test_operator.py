@@ -37,6 +37,13 @@ def test_shift_looks_behind_the_cell_centres() -> None:
     np.testing.assert_allclose(behind[2:-1], between, atol=1e-4 * centred.max())
 
 
+def test_symbol_is_the_compliance_at_the_frequency_of_a_sinusoid() -> None:
+    """S(ω) at ω = −q v, with S(ω) = 1/E∞ + C/(1 + iωτ): its imaginary part is positive for q above zero."""
+    value = SteadyMaterial(0.1, np.array([0.9]), np.array([2.0])).symbol(np.array([1.5]))[0]
+    assert value == pytest.approx(0.1 + 0.9 / (1.0 - 3.0j), rel=1e-14)
+    assert value.imag > 0.0
+
+
 def test_shift_is_for_nearly_skew_operators_alone_and_vanishes_with_refinement() -> None:
     resolved = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))
     stiff_glass = SteadyMaterial(1e-4, np.array([1.0 - 1e-4]), np.array([1.0]))

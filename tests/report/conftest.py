@@ -68,6 +68,9 @@ def _dma() -> dict[str, xr.Dataset]:
             "wlf_C1_error": 0.05,
             "wlf_C2_error": 0.6,
             "shift_used": "measured",
+            "isotherms_given": 14,
+            "isotherms_used": 14,
+            "temperatures_given": json.dumps(steps.tolist()),
             "overlap_rms_log10_storage": 0.0061,
             "overlap_rms_log10_loss": 0.0083,
             "wlf_rms": 0.31,
@@ -142,6 +145,7 @@ def prediction(speed: Any, temperature: Any, mu: Any) -> xr.Dataset:
             "complementarity": (4.2e-10 * np.ones(size), "1", "complementarity"),
             "cells": (np.full(size, 256), "1", "cells"),
             "products": (np.full(size, 83), "1", "products"),
+            "within_measured_frequencies": (np.ones(size, dtype=int), "1", "within the measured frequencies"),
         },
     )
 
@@ -171,6 +175,7 @@ def _measured() -> dict[str, xr.Dataset]:
             "reduced_speed": (reduced, "m/s", "reduced speed"),
             "predicted": (mu, "1", "predicted"),
             "predicted_error": (4e-4 * mu, "1", "error"),
+            "within_measured_frequencies": (np.ones(mu.shape, dtype=int), "1", "within the measured frequencies"),
         },
     )
     agreement = dataset(
@@ -178,10 +183,10 @@ def _measured() -> dict[str, xr.Dataset]:
         {
             "bias": ([0.011, -0.012, 0.013], "1", "mean relative difference, measured less predicted"),
             "rms": ([0.031, 0.032, 0.033], "1", "root mean square relative difference"),
-            "share_within_scatter": ([1.0, 0.8333, 0.6667], "1", "share of points within the scatter"),
+            "share_within_error": ([1.0, 0.8333, 0.6667], "1", "share of points within twice the standard error"),
             "points": ([6, 6, 6], "1", "points"),
         },
-        {"bias": 0.0041, "rms": 0.0322, "share_within_scatter": 0.8333, "points": 18},
+        {"bias": 0.0041, "rms": 0.0322, "share_within_error": 0.8333, "points": 18, "left_out": 0},
     ).assign_coords(temperature=("temperature", np.array([30.0, 60.0, 90.0]) + ZERO, {"units": "K"}))
     return {"measurement": measurement, "agreement": agreement}
 
@@ -209,7 +214,8 @@ def make_tree() -> Callable[..., xr.DataTree]:
             "notes": json.dumps(["sweeps.csv: 2 rows with a temperature of −999 °C were left out."]),
             "warnings": json.dumps(["The contact's half-width is 0.31 of the ball's radius."]),
             "failures": "[]", "deformation": "tension", "poisson_ratio": 0.5,
-            "indenter": "ball of radius 9.525 mm", "load": 25.0, "accuracy": 1e-3, **attrs,
+            "indenter": "ball of radius 9.525 mm", "indenter_radius": 9.525e-3,
+            "frequency_range": np.array([1e-4, 1e6]), "load": 25.0, "accuracy": 1e-3, **attrs,
         }  # fmt: skip
         return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **groups})
 

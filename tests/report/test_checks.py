@@ -24,11 +24,13 @@ def test_sound_results_pass(tree: xr.DataTree) -> None:
     assert found.pop("WLF law") == "noted"
     assert set(found.values()) == {"passed"}
     assert list(found) == [
+        "Isotherms used",
         "Overlap of the isotherms",
         "Fit of the spectrum",
         "Energy balance",
         "Contact conditions",
         "Small strain",
+        "Measured frequency range",
         "Consistency of the four configurations",
         "All cases solved",
     ]
@@ -56,6 +58,10 @@ def test_unsound_rheology_is_pointed_out(
         ("prediction_master", "energy_balance", 1e-2, "Energy balance"),
         ("prediction", "complementarity", 1e-3, "Contact conditions"),
         ("prediction", "half_width", 3e-3, "Small strain"),
+        ("prediction", "front", 3e-3, "Small strain"),
+        ("prediction_master", "rear", 3e-3, "Small strain"),
+        ("prediction", "within_measured_frequencies", 0, "Measured frequency range"),
+        ("measurement", "within_measured_frequencies", 0, "Measured frequency range"),
         ("measurement", "consistency", 1e-3, "Consistency of the four configurations"),
     ],
 )
@@ -74,9 +80,41 @@ def test_failures_fail(make_tree: Callable[..., xr.DataTree]) -> None:
     assert "2 cases" in all_checks(tree)[-1].words
 
 
-def test_indenter_without_a_radius_has_no_strain_check(make_tree: Callable[..., xr.DataTree]) -> None:
-    for indenter in ("a flat punch", "ball of radius unknown"):
-        assert "Small strain" not in verdicts(make_tree(indenter=indenter))
+def words(tree: xr.DataTree, name: str) -> str:
+    (check,) = [check for check in all_checks(tree) if check.name == name]
+    return check.words.replace("\N{NO-BREAK SPACE}", " ")
+
+
+def test_ball_of_unknown_radius_has_its_strain_unchecked_and_says_so(tree: xr.DataTree) -> None:
+    del tree.attrs["indenter_radius"]
+    assert verdicts(tree)["Small strain"] == "noted"
+    assert "Could not be checked" in words(tree, "Small strain")
+
+
+def test_isotherms_left_out_are_counted_and_named(tree: xr.DataTree) -> None:
+    tree["shift_factors"].attrs |= {"isotherms_given": 16, "temperatures_given": json.dumps([233.15, 243.15, 500.0])}
+    assert verdicts(tree)["Isotherms used"] == "look at this"
+    said = words(tree, "Isotherms used")
+    assert "14 of 16 isotherms" in said
+    assert "those at −40 °C and 226.9 °C are not" in said
+
+
+def test_cases_beyond_the_measured_frequencies_are_counted(tree: xr.DataTree) -> None:
+    part = tree["prediction"].to_dataset()
+    part["within_measured_frequencies"][:3] = 0
+    tree["prediction"].dataset = part
+    said = words(tree, "Measured frequency range")
+    assert "3 of 21 cases asked for, 0 of 18 measured points and 0 of 41 cases" in said
+    assert "0.00010 to 1.0 × 10⁶ rad/s" in said
+
+
+def test_results_of_an_older_viscofric_lack_the_newer_checks(tree: xr.DataTree) -> None:
+    for name in ("prediction", "prediction_master", "measurement"):
+        tree[name].dataset = tree[name].to_dataset().drop_vars("within_measured_frequencies")
+    for name in ("isotherms_given", "isotherms_used", "temperatures_given"):
+        del tree["shift_factors"].attrs[name]
+    del tree.attrs["frequency_range"]
+    assert not {"Isotherms used", "Measured frequency range"} & set(verdicts(tree))
 
 
 def test_without_measurement_there_is_no_consistency(make_tree: Callable[..., xr.DataTree]) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from viscofric import report
+from viscofric.errors import DataFileError
 from viscofric.report import drawing
 
 if TYPE_CHECKING:
@@ -71,6 +72,28 @@ def test_figures_of_synthetic_data_say_so(
     drawing.figure_images(make_tree(data_origin=origin), ("svg",))
     assert len(seen) == len(NAMES)
     assert all(("synthetic data" in texts) == said for texts in seen)
+
+
+def test_legends_of_synthetic_data_call_nothing_measured(tree: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+    words: list[str] = []
+
+    def read(figure: object, form: str) -> bytes:
+        legends = [axes.get_legend() for axes in figure.axes]  # type: ignore[attr-defined]
+        words.extend(
+            text.get_text() for one in legends if one is not None for text in (one.get_title(), *one.get_texts())
+        )
+        return b""
+
+    monkeypatch.setattr(drawing, "_image", read)
+    drawing.figure_images(tree, ("svg",))
+    assert any("synthetic ± scatter" in text for text in words)
+    assert not any("measured" in text for text in words)
+
+
+def test_figures_that_cannot_be_written_are_told(tree: xr.DataTree, tmp_path: Path) -> None:
+    (tmp_path / "figures").write_text("a file where the folder should be")
+    with pytest.raises(DataFileError, match="cannot be written"):
+        report.draw_figures(tree, tmp_path / "figures")
 
 
 def test_results_without_an_origin_count_as_synthetic(tree: xr.DataTree) -> None:

@@ -197,3 +197,14 @@ def test_isotherms_show_every_sweep(axes: Axes, tree: xr.DataTree, modulus: Any)
 def test_many_temperatures_still_differ() -> None:
     looks = house_style.looks(26)
     assert len({str(look) for look in looks}) == 26
+
+
+def test_prediction_beyond_the_measured_frequencies_is_thin(axes: Axes, tree: xr.DataTree) -> None:
+    prediction = group(tree, "prediction_master")
+    prediction["within_measured_frequencies"][:10] = 0
+    report.plot_friction_master_curve(axes, prediction)
+    thin, full = axes.lines
+    assert thin.get_linewidth() < full.get_linewidth()
+    assert np.isfinite(np.asarray(thin.get_ydata(), dtype=float)).all()
+    assert np.isnan(np.asarray(full.get_ydata(), dtype=float)).sum() == 10
+    assert legend_texts(axes) == ["predicted"]

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from viscofric import report
+from viscofric.errors import DataFileError
 from viscofric.report import html
 from viscofric.report.tables import agreement_table, detail_tables, friction_at_a_glance
 
@@ -126,7 +127,9 @@ def test_rows_of_a_table_keep_the_numbers_together(tree: xr.DataTree) -> None:
     first = dict(zip(prediction.headings, prediction.rows[0], strict=True))
     assert first["temperature"] == "30 °C"
     assert first["speed (mm/s)"] == "20.00"
-    assert first["area (mm²)"] == "15.70"
+    assert first["area (mm²)"] == "15.7"
+    assert prediction.headings.index("energy balance") == prediction.headings.index("numerical error") + 1
+    assert "complementarity: " in prediction.note
     assert first["largest pressure (MPa)"] == "2.310"
     assert first["cells"] == "256"
 
@@ -143,7 +146,7 @@ def test_answer_names_the_key_numbers(tree: xr.DataTree, tmp_path: Path) -> None
         "1.51 GPa",
         "3.2 %",
         "+0.4 % on average",
-        "83.3 % of the points within the measured scatter",
+        "83.3 % of the points within twice the standard error",
         "against a ball of radius 9.525 mm under 25 N, at 20 to 200 mm/s and 30 °C, 60 °C and 90 °C",
         "in tension",
         "E0 lies below what the sweeps reach & is extrapolated.",
@@ -234,3 +237,9 @@ def test_many_speeds_are_thinned_at_a_glance_only(make_tree: Callable[..., xr.Da
     assert glance is not None
     assert len(glance.rows) == 10
     assert "all of them are in the tables below" in glance.caption
+
+
+def test_report_that_cannot_be_written_is_told(tree: xr.DataTree, tmp_path: Path) -> None:
+    (tmp_path / "report.html").mkdir()
+    with pytest.raises(DataFileError, match=r"report\.html: cannot be written \(.*director"):
+        report.write_report(tree, tmp_path)

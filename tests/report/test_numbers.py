@@ -63,5 +63,15 @@ def test_running_text_has_no_trailing_zeros() -> None:
 def test_shares_and_lists_in_words() -> None:
     assert numbers.percent(0.0322) == f"3.2{NBSP}%"
     assert numbers.signed_percent(-0.0041) == f"−0.4{NBSP}%"
+    assert numbers.signed_percent(-0.0004) == f"0.0{NBSP}%"
     assert numbers.several(["a", "b", "c"]) == "a, b and c"
     assert numbers.several(["a"]) == "a"
+
+
+def test_speeds_choose_their_unit() -> None:
+    assert [numbers.speed(value) for value in (1e-4, 0.0199996, 0.999999, 10.0)] == [
+        "0.1 mm/s",
+        "20 mm/s",
+        "1 m/s",
+        "10 m/s",
+    ]

@@ -8,10 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import viscofric as vf
+from contact.dense_reference import dense_friction
 from viscofric.study import StudyResults, open_results, run_study
 
+ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = Path(str(files("viscofric"))) / "example"
 REAL_STUDY = """
 title = "acrylic elastomer"
@@ -38,7 +41,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> StudyResults:
     folder = tmp_path_factory.mktemp("study")
     for name in ("dma.csv", "mtm.csv"):
         (folder / name).write_bytes((EXAMPLE / name).read_bytes())
-    text = text.replace("accuracy = 1e-3", "accuracy = 1e-3\nmaster_curve_points = 7")
+    text = text.replace("accuracy = 1e-3", "accuracy = 1e-3\nmaster_curve_points = 21")
     (folder / "study.toml").write_text(text, encoding="utf-8")
     return run_study(folder / "study.toml")
 
@@ -50,49 +53,62 @@ def test_planted_shift_factors_come_back_within_their_errors(results: StudyResul
     difference = found["log10_shift_factor"].values - planted.log10(found["temperature"].values)
     error = found["standard_error"].values
     measured = error > 0.0  # the reference itself is exact
-    # 22 correlated values: five standard errors would be a wrong error or a wrong factor.
-    assert np.abs(difference[measured] / error[measured]).max() < 5.0
-    assert np.abs(difference).max() < 0.1  # decades; 1 % noise against slopes of 0.1 to 0.5 a decade
+    # 22 correlated values, the errors of which were found 2 to 4 % small: three of them, and 0.05 decade (12 %).
+    assert np.abs(difference[measured] / error[measured]).max() < 3.0
+    assert np.abs(difference).max() < 0.05
+    law = found.attrs
+    # About 30 °C the planted WLF (17.44, 51.6 K about -18 °C) has C2 = 51.6 + 48 and C1 = 17.44 · 51.6/C2.
+    assert law["wlf_C2"] == pytest.approx(99.6, abs=3.0 * law["wlf_C2_error"])
+    assert law["wlf_C1"] == pytest.approx(17.44 * 51.6 / 99.6, abs=3.0 * law["wlf_C1_error"])
 
 
 def test_planted_modulus_comes_back_within_the_noise(results: StudyResults) -> None:
     curve = results.tree["master_curve"]
     planted = vf.synthetic_fluoroelastomer().complex_modulus(curve["angular_frequency"].values)
-    # 17 readings a sweep and 1 % noise leave about 0.3 % in the fit; the shift's own error adds up to 2 %.
-    np.testing.assert_allclose(curve["fitted_storage_modulus"].values, planted.real, rtol=0.03)
-    np.testing.assert_allclose(curve["fitted_loss_modulus"].values, planted.imag, rtol=0.03)
-    assert results.tree["spectrum"].attrs["E0"] == pytest.approx(3e6, rel=0.01)
+    for fitted, true in (("fitted_storage_modulus", planted.real), ("fitted_loss_modulus", planted.imag)):
+        error = curve[fitted].values / true - 1.0
+        # The noise is 1 %; the fit averages over some ten readings a mode, and the shifts add as much again.
+        assert np.sqrt(np.mean(error**2)) < 0.01
+        assert abs(error.mean()) < 0.005
+    assert results.tree["spectrum"].attrs["E0"] == pytest.approx(3e6, rel=0.005)
 
 
 def test_planted_coulomb_friction_comes_back(results: StudyResults) -> None:
     measured = results.tree["measurement"]
     z = (measured["coulomb"].values - 0.045) / measured["coulomb_error"].values
-    # 30 points with seven degrees of freedom each: Student's t goes beyond 6 once in 20,000 tries.
+    # 30 points with seven degrees of freedom each: Student's t goes beyond 6 once in 2,000 such tests.
     assert np.abs(z).max() < 6.0
-    assert abs(z.mean()) < 4.0 / math.sqrt(len(z))
+    assert abs(z.mean()) < 3.0 * math.sqrt(1.4 / len(z))  # variance of t with seven degrees of freedom
 
 
-def test_planted_viscoelastic_friction_is_measured_and_predicted(results: StudyResults) -> None:
+def test_planted_viscoelastic_friction_is_measured(results: StudyResults) -> None:
     measured = results.tree["measurement"]
-    z = (measured["viscoelastic"].values - measured["predicted"].values) / measured["viscoelastic_error"].values
+    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_friction.csv", delimiter=",", skiprows=3)[:, 2]
+    z = (measured["viscoelastic"].values - planted) / measured["viscoelastic_error"].values
     assert len(z) == 30
-    assert np.abs(z).max() < 6.0
-    # Prediction goes through shift factors and spectrum fitted to noisy data: 1 to 2 % of systematic error.
-    assert abs(results.tree["agreement"].attrs["bias"]) < 0.02
-    assert results.tree["agreement"].attrs["rms"] < 0.03
+    assert np.abs(z).max() < 6.0  # as above
+    assert abs(z.mean()) < 3.0 * math.sqrt(1.4 / len(z))
+
+
+def test_planted_viscoelastic_friction_is_predicted_from_the_sweeps(results: StudyResults) -> None:
+    """From noisy sweeps alone: through shift factors, master curve, spectrum and contact."""
+    predicted = results.tree["measurement"]["predicted"].values
+    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_friction.csv", delimiter=",", skiprows=3)[:, 2]
+    error = predicted / planted - 1.0
+    # Accuracy 1e-3 of the contact; the rest is 1 % noise of the sweeps, averaged, and shifts good to 2 to 4 %,
+    # each of which moves friction by at most a third as much.
+    assert np.sqrt(np.mean(error**2)) < 0.01
+    assert abs(error.mean()) < 0.007
+    assert abs(results.tree["agreement"].attrs["bias"]) < 0.01
 
 
 def test_temperatures_fall_on_one_friction_master_curve(results: StudyResults) -> None:
     measured = results.tree["measurement"]
     master = results.tree["prediction_master"]
-    line = np.interp(
-        np.log(measured["reduced_speed"].values),
-        np.log(master["speed"].values),
-        master["friction_coefficient"].values,
-    )
-    # Seven points over four decades, interpolated linearly: good to a few per cent, far less than the
-    # factor of six by which the friction changes along the curve.
-    assert np.sqrt(np.mean((line / measured["viscoelastic"].values - 1.0) ** 2)) < 0.1
+    line = CubicSpline(np.log(master["speed"].values), master["friction_coefficient"].values)
+    error = line(np.log(measured["reduced_speed"].values)) / measured["viscoelastic"].values - 1.0
+    # Scatter of the means is 1 %, that of the prediction as above; 21 points over four decades are smooth to less.
+    assert np.sqrt(np.mean(error**2)) < 0.02
 
 
 def test_results_are_labelled_with_units_and_provenance(results: StudyResults) -> None:
@@ -117,7 +133,7 @@ def test_a_second_run_solves_nothing_again(results: StudyResults, monkeypatch: p
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
-    monkeypatch.setattr("viscofric.study.execution.solve_steady", refuse)
+    monkeypatch.setattr("viscofric.study.cases.solve_steady", refuse)
     again = run_study(results.folder.parent / "study.toml")
     first, second = (one.tree["prediction"]["friction_coefficient"].values for one in (results, again))
     np.testing.assert_array_equal(first, second)
@@ -128,35 +144,144 @@ def _real_study(
 ) -> Path:
     path = folder / "study.toml"
     dma = (real_data / "dma" / "acrylic_468mp.csv").resolve().as_posix()
-    path.write_text(
-        REAL_STUDY.format(dma=dma, load=load, points=points, slowest=slowest, fastest=fastest), encoding="utf-8"
-    )
+    text = REAL_STUDY.format(dma=dma, load=load, points=points, slowest=slowest, fastest=fastest)
+    path.write_text(text, encoding="utf-8")
     return path
 
 
 def test_real_acrylic_isotherms_run_to_friction(real_data: Path, tmp_path: Path) -> None:
     results = run_study(_real_study(real_data, tmp_path, "0.05 N", 6))
     assert results.failures == ()
-    assert results.tree["isotherms"].sizes["reading"] == 339  # 340 rows less the negative loss modulus
+    isotherms = results.tree["isotherms"]
+    assert isotherms.sizes["reading"] == 339  # 340 rows less the negative loss modulus
+    # Measured in shear: the first row's 260.04053 MPa is G', so that E' = 2 (1 + 0.5) G'.
+    assert isotherms["storage_modulus"].values[0] == pytest.approx(3.0 * 260.04053e6, rel=1e-9)
     notes = results.tree.attrs["notes"]
     assert "loss modulus is not above zero" in notes
-    assert "Line 18" in notes
+    assert "ine 18" in notes
     assert results.tree["spectrum"].attrs["E0_extrapolated"] == 1
     prediction = results.tree["prediction"]
     assert prediction.sizes["case"] == 18
-    # tan δ is 0.3 to 1.3 over this range: friction of some per cent, and never beyond what Hertz strains allow.
-    assert np.all((prediction["friction_coefficient"] > 0.0) & (prediction["friction_coefficient"] < 0.5))
     # Friction is known to 1e-3; of the two ways to it the slower one may be a few times farther off.
     assert np.all(np.abs(prediction["energy_balance"]) < 5e-3)
 
 
+def test_real_acrylic_friction_is_that_of_an_independent_solution(real_data: Path) -> None:
+    sweeps = vf.read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
+    fit = vf.superpose(sweeps, reference="20 degC")
+    rubber = vf.Material(vf.fit_retardation_spectrum(fit.master_curve), shift=fit.shift_factors)
+    spectrum = rubber.at("30 degC")
+    solution = vf.solve_steady(
+        rubber, vf.Ball(radius="9.525 mm"), speed="10 mm/s", load="0.05 N", temperature="30 degC"
+    )
+    friction, indentation = dense_friction(
+        spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, 0.5, 9.525e-3, 0.05, 0.01, cells=20
+    )
+    # 20 cells across the contact: up to 1 % in friction and a few thousandths in the indentation.
+    assert solution.friction_coefficient == pytest.approx(friction, rel=0.015)
+    assert solution.indentation == pytest.approx(indentation, rel=0.005)
+
+
 def test_contacts_wider_than_the_ball_are_told_and_the_others_kept(real_data: Path, tmp_path: Path) -> None:
     results = run_study(_real_study(real_data, tmp_path, "25 N", 2))
-    assert results.tree["prediction"].sizes["case"] + len(results.failures) >= 6
-    assert any("0.1 mm/s" in failure and "wider than the ball" in failure for failure in results.failures)
+    # At 0.1 mm/s the rubber is too soft at 30 and 60 °C, but not at 0 °C, nor at 10 m/s.
+    assert results.tree["prediction"].sizes["case"] == 4
+    asked = [failure for failure in results.failures if ", 0.1 mm/s: " in failure]
+    assert [failure.split(",")[0] for failure in asked] == ["30 °C", "60 °C"]
+    assert all("wider than the ball" in failure for failure in results.failures)
 
 
 def test_a_study_of_which_no_case_can_be_solved_is_an_error(real_data: Path, tmp_path: Path) -> None:
     path = _real_study(real_data, tmp_path, "25 N", 2, "1 um/s", "2 um/s")
     with pytest.raises(vf.StudyError, match="wider than the ball"):
         run_study(path)
+
+
+def _small_study(folder: Path, **changes: str) -> Path:
+    """Write a quick study of the synthetic sweeps, with some of its lines replaced."""
+    (folder / "dma.csv").write_bytes((EXAMPLE / "dma.csv").read_bytes())
+    lines = {
+        "dma": 'dma = "dma.csv"',
+        "deformation": 'deformation = "tension"',
+        "poisson_ratio": "poisson_ratio = 0.5",
+        "reference_temperature": 'reference_temperature = "30 degC"',
+        "shift": 'shift = "measured"',
+        "tau_ratio": "tau_ratio = 2.718281828459045",
+        "indenter": '[indenter]\nradius = "9.525 mm"',
+        "load": '[conditions]\nload = "25 N"',
+        "speed": 'speed = "100 mm/s"',
+        "temperature": 'temperature = "90 degC"',
+        "accuracy": "[solver]\naccuracy = 1e-2",
+        "master_curve_points": "master_curve_points = 2",
+    }
+    path = folder / "study.toml"
+    path.write_text("\n".join(["[material]", *{**lines, **changes}.values()]), encoding="utf-8")
+    return path
+
+
+def test_every_line_of_a_study_reaches_the_answer(tmp_path: Path) -> None:
+    """In one folder, so that a stored case of another study taken for this one's shows as well."""
+
+    def friction(**changes: str) -> float:
+        results = run_study(_small_study(tmp_path, **changes), output=tmp_path / "results")
+        return float(results.tree["prediction"]["friction_coefficient"].values[0])
+
+    first = friction()
+    # At 90 °C friction depends on each of these by more than the accuracy or by what is exactly known.
+    changed = {
+        name: friction(**{name: line})
+        for name, line in {
+            "load": '[conditions]\nload = "12 N"',
+            "speed": 'speed = "50 mm/s"',
+            "temperature": 'temperature = "80 degC"',
+            "indenter": '[indenter]\nradius = "7 mm"',
+            "accuracy": "[solver]\naccuracy = 1e-4",
+            "tau_ratio": "tau_ratio = 10.0",
+            "shift": 'shift = "wlf"',
+            "poisson_ratio": "poisson_ratio = 0.4",
+        }.items()
+    }
+    assert all(value != first for value in changed.values())
+    # A ball's friction is a0/R Φ(v/a0): with ν a0³ grows as 1 − ν², as it does with the load.
+    stiffer = friction(poisson_ratio="poisson_ratio = 0.4", load=f'[conditions]\nload = "{25.0 * 0.75 / 0.84:.12f} N"')
+    assert stiffer == pytest.approx(first, rel=1e-6)
+    assert friction() == first
+
+
+def test_moduli_measured_in_shear_become_tensile_with_the_given_poisson_ratio(tmp_path: Path) -> None:
+    text = (EXAMPLE / "dma.csv").read_text(encoding="utf-8").replace("E' (MPa),E'' (MPa)", "G' (MPa),G'' (MPa)")
+    path = _small_study(tmp_path, deformation='deformation = "shear"', poisson_ratio="poisson_ratio = 0.3")
+    in_tension = run_study(_small_study(tmp_path)).tree["spectrum"].attrs["E0"]
+    path = _small_study(tmp_path, deformation='deformation = "shear"', poisson_ratio="poisson_ratio = 0.3")
+    (tmp_path / "dma.csv").write_text(text, encoding="utf-8")
+    results = run_study(path)
+    assert results.tree.attrs["deformation"] == "shear"
+    assert results.tree["spectrum"].attrs["E0"] == pytest.approx(2.6 * in_tension, rel=1e-9)
+
+
+def test_a_file_that_tells_neither_tension_nor_shear_needs_it_told(tmp_path: Path) -> None:
+    path = _small_study(tmp_path, deformation="")
+    run_study(path)  # its header says E'
+    text = (EXAMPLE / "dma.csv").read_text(encoding="utf-8")
+    untold = text.replace("E' (MPa),E'' (MPa)", "storage modulus (MPa),loss modulus (MPa)")
+    (tmp_path / "dma.csv").write_text(untold, encoding="utf-8")
+    with pytest.raises(vf.StudyError, match="tension or in shear"):
+        run_study(path)
+
+
+def test_contacts_beyond_the_measured_frequencies_are_told(tmp_path: Path) -> None:
+    results = run_study(_small_study(tmp_path, speed='speed = ["100 mm/s", "1e8 m/s"]'))
+    assert results.tree["prediction"]["within_measured_frequencies"].values.tolist() == [1, 0]
+    assert any("beyond the reduced frequencies" in warning for warning in results.warnings)
+
+
+def test_temperatures_without_shift_factor_are_told_before_anything_is_solved(tmp_path: Path) -> None:
+    with pytest.raises(vf.InputError, match="outside the measured"):
+        run_study(_small_study(tmp_path, temperature='temperature = ["90 degC", "400 degC"]'))
+    assert not list(tmp_path.glob("study.results/cases/*.json"))
+
+
+def test_unwritable_output_is_told_before_anything_is_solved(tmp_path: Path) -> None:
+    (tmp_path / "taken").write_text("a file")
+    with pytest.raises(vf.DataFileError, match="cannot be written"):
+        run_study(_small_study(tmp_path), output=tmp_path / "taken")

@@ -52,7 +52,7 @@ def test_one_speed_or_temperature_needs_no_list() -> None:
         ('load = "25 N"', 'load = "25 mm"', ["conditions.load", "wrong kind of unit"]),
         ('load = "25 N"', 'laod = "25 N"', ["conditions.laod", "did you mean 'load'?", "conditions.load: is missing"]),
         ("[indenter]", "[indentr]", ["did you mean 'indenter'?"]),
-        ('radius = "9.525 mm"', 'radius = "big"', ["indenter.radius", "cannot be read"]),
+        ('radius = "9.525 mm"', 'radius = "big"', ["indenter.radius", "has no number"]),
         ('"20 mm/s"', '"0 mm/s"', ["conditions.speed.from", "above zero"]),
         ("points = 3", "points = 1", ["conditions.speed.points"]),
         ("points = 3", "point = 3", ["did you mean 'points'?"]),

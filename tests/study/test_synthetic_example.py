@@ -61,19 +61,6 @@ def test_planted_friction_obeys_the_energy_balance() -> None:
     np.testing.assert_allclose(from_dissipation, friction, rtol=1e-4)
 
 
-@pytest.mark.parametrize("row", [0, 13, 29])
-def test_planted_friction_agrees_with_the_solver_of_today(row: int) -> None:
-    temperature, speed, friction = planted()[row, :3]
-    solution = vf.solve_steady(
-        vf.synthetic_fluoroelastomer(),
-        vf.Ball(radius="9.525 mm"),
-        speed=speed,
-        load="25 N",
-        temperature=f"{temperature} degC",
-    )
-    assert solution.friction_coefficient == pytest.approx(friction, rel=1e-3)  # the default accuracy
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("row", [0, 10, 19, 29])
 def test_planted_friction_agrees_with_an_independent_solution(row: int) -> None:

@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import Any
+import sys
 
-import click
+INTERRUPTED, TERMINATED = 130, 143
+
+try:
+    import importlib
+    import os
+    import signal
+    import threading
+    from typing import TYPE_CHECKING, Any, Never
+
+    import click
+except KeyboardInterrupt:  # the user may change their mind while Python still loads
+    sys.stderr.write("Interrupted.\n")
+    sys.exit(INTERRUPTED)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from contextlib import AbstractContextManager
+    from types import FrameType
 
 # command -> module of this package that defines it, and what the overview says
 _COMMANDS = {
@@ -16,8 +32,30 @@ _COMMANDS = {
 }
 
 
+class Terminated(KeyboardInterrupt):
+    """The system asked the program to end (SIGTERM); it ends as it does at Ctrl-C, with another status."""
+
+
 class _LazyGroup(click.Group):
     """Commands whose modules are imported only when they are called, so that --help answers at once."""
+
+    def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
+        """Run the command line; an interruption at any moment is one sentence and its own exit status."""
+        run: Any = super().main
+        if not standalone_mode:
+            return run(*args, standalone_mode=False, **extra)
+        try:
+            with _signals():
+                status = run(*args, standalone_mode=False, **extra)
+        except click.ClickException as error:
+            error.show()
+            sys.exit(error.exit_code)
+        except (click.Abort, KeyboardInterrupt) as stop:
+            # click turns an interruption into Abort, raised from it
+            terminated = isinstance(stop, Terminated) or isinstance(stop.__cause__, Terminated)
+            click.echo("Terminated." if terminated else "Interrupted.", err=True)
+            sys.exit(TERMINATED if terminated else INTERRUPTED)
+        sys.exit(status if isinstance(status, int) else 0)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(_COMMANDS)
@@ -42,11 +80,43 @@ class _LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
 
-@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+def _signals() -> AbstractContextManager[None]:
+    """Let SIGTERM end the program as Ctrl-C does, for as long as the command line runs."""
+    from contextlib import contextmanager
+
+    def terminate(number: int, frame: FrameType | None) -> Never:
+        raise Terminated
+
+    @contextmanager
+    def listening() -> Iterator[None]:
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = signal.signal(signal.SIGTERM, terminate)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGTERM, before)
+
+    return listening()
+
+
+def _keep_matplotlib_here() -> None:
+    """Give matplotlib a folder in the virtual environment for its caches, so that nothing outside is touched."""
+    if sys.prefix != sys.base_prefix and os.access(sys.prefix, os.W_OK):
+        os.environ.setdefault("MPLCONFIGDIR", os.path.join(sys.prefix, "var", "matplotlib"))  # noqa: PTH118
+
+
+@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]}, invoke_without_command=True)
 @click.version_option(package_name="viscofric", prog_name="viscofric")
-def main() -> None:
+@click.pass_context
+def main(ctx: click.Context) -> None:
     """Viscoelastic friction of rubber, at any speed and temperature, from laboratory data.
 
     Exit status: 0 all went well; 1 something is wrong with the input or could not be solved (one sentence says
-    what); 2 the command was called wrongly; 3 the study ran, but some of its cases failed; 130 interrupted.
+    what); 2 the command was called wrongly; 3 the study ran, but some of its cases failed; 130 interrupted;
+    143 terminated.
     """
+    _keep_matplotlib_here()
+    if ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())

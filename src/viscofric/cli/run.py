@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
+
+if TYPE_CHECKING:
+    from viscofric.study import StudyResults
+
 SOME_CASES_FAILED = 3
-INTERRUPTED = 130
+# As many notes and kinds of failure are printed; the report has them all.
+_MOST_LINES = 5
 
 
 @click.command(name="run")
@@ -30,30 +37,49 @@ def command(study: Path, output: Path | None) -> None:
 
 def run_and_report(study: Path, output: Path) -> None:
     """Run a study, write its report, and name what was written; leaves the program where that failed."""
-    from viscofric.cli.progress import TerminalProgress
-    from viscofric.errors import ViscofricError
-    from viscofric.report import draw_figures, write_report
-    from viscofric.study import run_study
-
     try:
-        with TerminalProgress() as progress:
-            results = run_study(study, output=output, progress=progress)
-            progress("report", 0, 1)
-            figures = draw_figures(results.tree, results.folder / "figures")
-            report = write_report(results.tree, results.folder)
-            progress("report", 1, 1)
-    except ViscofricError as error:
-        raise click.ClickException(str(error)) from error
-    except KeyboardInterrupt:
-        click.echo(f"Interrupted. Finished cases are kept in {output}; the same command continues.", err=True)
-        sys.exit(INTERRUPTED)
-    for warning in results.warnings:
-        click.echo(f"Warning: {warning}", err=True)
+        from viscofric.cli.progress import TerminalProgress
+        from viscofric.errors import ViscofricError
+        from viscofric.report import draw_figures, write_report
+        from viscofric.study import run_study
+
+        try:
+            with TerminalProgress() as progress:
+                results = run_study(study, output=output, progress=progress)
+                progress("report", 0, 1)
+                figures = draw_figures(results.tree, results.folder / "figures")
+                report = write_report(results.tree, results.folder)
+                progress("report", 1, 1)
+        except ViscofricError as error:
+            raise click.ClickException(str(error)) from error
+    except KeyboardInterrupt as stop:
+        terminated = isinstance(stop, Terminated)
+        kept = f" Finished cases are kept in {output}; the same command continues." if output.is_dir() else ""
+        click.echo(("Terminated." if terminated else "Interrupted.") + kept, err=True)
+        sys.exit(TERMINATED if terminated else INTERRUPTED)
+    tell(results)
     for figure in figures:
         click.echo(f"figure   {figure}")
     click.echo(f"data     {results.folder / 'results.nc'}")
     click.echo(f"report   {report}")
     if results.failures:
-        for failure in results.failures:
-            click.echo(f"Failed: {failure}", err=True)
         sys.exit(SOME_CASES_FAILED)
+
+
+def tell(results: StudyResults) -> None:
+    """Print notes, warnings and failures of a study: few of each, the report has them all."""
+    from viscofric.report.messages import grouped_failures, readable
+    from viscofric.report.results import sentences
+
+    notes = sentences(results.tree.attrs, "notes")
+    if len(notes) > _MOST_LINES:
+        click.echo(f"{len(notes)} notes on the data: see the report.", err=True)
+    elif notes:
+        many = f"{len(notes)} notes" if len(notes) > 1 else "1 note"
+        click.echo(f"{many} on the data, also in the report:", err=True)
+        for note in notes:
+            click.echo(f"Note: {readable(note)}", err=True)
+    for warning in results.warnings:
+        click.echo(f"Warning: {readable(warning)}", err=True)
+    for line in grouped_failures(results.failures, _MOST_LINES):
+        click.echo(f"Failed: {line}", err=True)

@@ -28,6 +28,7 @@ logger = logging.getLogger(__name__)
 
 LOAD = 4.0 / 3.0
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
+FEWEST_GRIDS = 3  # one change alone may be small by chance
 MARGIN = 0.15  # free space left around the contact, relative to its size
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
 FRICTION_FLOOR = 1e-6
@@ -87,14 +88,10 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     against the contact's slope a/R (at low and high speed), because it does not live on a small difference.  At low
     speed its error is of first order in the cell, so that its linear extrapolation is the third candidate.
     """
-    if len(stages) < 2:
+    if len(stages) < FEWEST_GRIDS:
         return Estimate(stages[-1].pressure_friction, math.inf)
     lean = np.array([stage.pressure_friction for stage in stages])
     energy = np.array([stage.energy_friction for stage in stages])
-    if len(stages) == 2:
-        # One change alone may be small by chance.
-        error = max(*np.abs(np.diff(lean)), *np.abs(np.diff(energy)), abs(lean[-1] - energy[-1]))
-        return Estimate(float(lean[-1]), float(error))
     candidates = [settled(lean), settled(energy)]
     if len(stages) > 3:
         candidates.append(settled(2.0 * energy[1:] - energy[:-1]))
@@ -105,7 +102,7 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     # chance; little otherwise.
     difference = abs(float(lean[-1] - energy[-1]))
     explained = difference <= candidates[0].error + candidates[1].error and stages[-1].operator.shift == 0.0
-    share = 0.5 if not explained else 0.35 if len(stages) == 3 else 0.1
+    share = 0.5 if not explained else 0.35 if len(stages) == FEWEST_GRIDS else 0.1
     return Estimate(best.value, max(best.error, share * difference))
 
 
@@ -128,7 +125,7 @@ def refine(first: Stage, solid: SteadyMaterial, accuracy: float, tolerance: floa
     Returns
     -------
     list of Stage
-        Coarsest first, at least two.
+        Coarsest first, at least `FEWEST_GRIDS`.
 
     Raises
     ------

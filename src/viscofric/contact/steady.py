@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.nested import COARSEST, FRICTION_FLOOR, find_window, friction_estimate, refine
+from viscofric.contact.nested import COARSEST, FEWEST_GRIDS, FRICTION_FLOOR, find_window, friction_estimate, refine
 from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level, edges
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 FINEST = 2048
+LEAST_FINEST = COARSEST * 2 ** (FEWEST_GRIDS - 1)
 TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
 SMALL_STRAIN = 0.3  # contact radius over ball radius beyond which linear contact is doubtful
 
@@ -98,8 +99,8 @@ def solve_steady(
             f"tolerance = {tolerance!r}: must lie between {TIGHTEST:g} and {LOOSEST:g} times the accuracy, "
             f"{LOOSEST * accuracy:g}, so that it does not spoil the friction."
         )
-    if finest < 2 * COARSEST:
-        raise InputError(f"finest = {finest!r}: must be at least {2 * COARSEST} cells.")
+    if finest < LEAST_FINEST:
+        raise InputError(f"finest = {finest!r}: must be at least {LEAST_FINEST} cells.")
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
     spectrum = material.at(kelvin)
     scale = _Scale.of(spectrum, material.poisson_ratio, indenter, force)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viscofric.errors import InputError
-from viscofric.report.numbers import percent, significant
-from viscofric.report.results import group, number, sentences, values
-from viscofric.units import to_si
+from viscofric.report.doubts import SMALL_STRAIN, is_extrapolated, knows_range, reach
+from viscofric.report.house_style import degrees
+from viscofric.report.numbers import percent, several, significant
+from viscofric.report.results import SAME_TEMPERATURE, group, number, numbers, sentences, values
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,7 +24,6 @@ _FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
 _WLF = 0.1  # decades of α, rms
 _COMPLEMENTARITY = 1e-6  # over the indentation
 _CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
-_SMALL_STRAIN = 0.3  # contact half-width over ball radius
 # How far apart, in units of the accuracy, friction from the pressure and from the dissipation may be.
 _ENERGY_BALANCE = 5.0
 
@@ -40,7 +39,8 @@ class Check:
 
 def all_checks(tree: xr.DataTree) -> list[Check]:
     """Return every check that the results allow, in the order of the calculation."""
-    return [*_superposition(tree), *_spectrum(tree), *_contact(tree), *_measurement(tree), *_cases(tree)]
+    parts = (_isotherms, _superposition, _spectrum, _contact, _small_strain, _frequencies, _measurement, _cases)
+    return [check for part in parts for check in part(tree)]
 
 
 def _check(name: str, sound: bool, words: str) -> Check:
@@ -50,6 +50,32 @@ def _check(name: str, sound: bool, words: str) -> Check:
 def _decades(rms: float) -> str:
     """Say an rms of log10 as a percentage."""
     return percent(10.0**rms - 1.0)
+
+
+def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
+    if not (math.isfinite(given) and math.isfinite(used)):
+        return  # results of an older viscofric
+    if used >= given:
+        yield Check("Isotherms used", "passed", f"All {given:.0f} isotherms are joined into the master curve.")
+        return
+    kept = values(factors, "temperature")
+    left = [
+        degrees(kelvin)
+        for kelvin in numbers(factors.attrs, "temperatures_given")
+        if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE
+    ]
+    which = f", those at {several(left)} are not" if len(left) > 1 else f", the one at {''.join(left)} is not"
+    known = len(left) == given - used
+    yield Check(
+        "Isotherms used",
+        "look at this",
+        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve{which if known else ''}; the notes "
+        "on the input say why.",
+    )
 
 
 def _superposition(tree: xr.DataTree) -> Iterator[Check]:
@@ -106,9 +132,10 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
         yield _check(
             "Energy balance",
             energy <= limit * (1.0 + 1e-9),
-            "Friction from the pressure and friction from the energy dissipated, two independent paths, "
-            f"differ by {percent(energy)} at most (up to {percent(limit)} is sound: {_ENERGY_BALANCE:g} times the "
-            "accuracy asked, since the one that has settled worse may lag behind the one that is reported).",
+            "Friction is calculated twice, from the contact pressure and from the energy that the rubber dissipates. "
+            f"The two differ by {percent(energy)} at most. Up to {percent(limit)} counts as sound, "
+            f"{_ENERGY_BALANCE:g} times the accuracy asked for: only the better known of the two is reported, and "
+            "that one must reach the accuracy.",
         )
     violation = largest("complementarity")
     if math.isfinite(violation):
@@ -118,23 +145,54 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
             f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of "
             f"the indentation at most (up to {significant(_COMPLEMENTARITY, 1)} counts as sound).",
         )
-    ratio = largest("half_width") / _ball_radius(str(tree.attrs.get("indenter", "")))
-    if math.isfinite(ratio):
-        yield _check(
-            "Small strain",
-            ratio <= _SMALL_STRAIN,
-            f"The contact's half-width reaches {significant(ratio, 2)} of the ball's radius; above "
-            f"{_SMALL_STRAIN:g} the linear, half-space description of the contact is doubtful.",
+
+
+def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
+    parts = [part for name in ("prediction", "prediction_master") if (part := group(tree, name)) is not None]
+    if not parts:
+        return
+    reaches = np.concatenate([reach(tree, part) for part in parts])
+    reaches = reaches[np.isfinite(reaches)]
+    if not reaches.size:
+        words = "Could not be checked: the results do not say how large the ball or its contact is."
+        yield Check("Small strain", "noted", words)
+        return
+    wide = int(np.sum(reaches > SMALL_STRAIN))
+    many = f" This concerns {wide} of {reaches.size} cases, which the tables mark." if wide else ""
+    yield _check(
+        "Small strain",
+        wide == 0,
+        f"The contact reaches up to {significant(float(reaches.max()), 2)} of the ball's radius from its axis; above "
+        f"{SMALL_STRAIN:g} the linear, half-space description of the contact is doubtful.{many}",
+    )
+
+
+def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
+    counts, outside = [], 0
+    for name, what in (
+        ("prediction", "cases asked for"),
+        ("measurement", "measured points"),
+        ("prediction_master", "cases along the friction master curve"),
+    ):
+        part = group(tree, name)
+        if part is None or not knows_range(part):
+            continue
+        beyond, of = int(is_extrapolated(part).sum()), next(iter(part.sizes.values()))
+        outside += beyond
+        counts.append(f"{beyond} of {of} {what}")
+    if not counts:
+        return
+    ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
+    measured = f" ({ends[0]} to {ends[1]} rad/s at the reference temperature)" if len(ends) == 2 else ""
+    meaning = "the frequency at which the contact deforms the rubber, shift factor times speed over half-width,"
+    if outside:
+        words = (
+            f"In {several(counts)} {meaning} lies outside the measured range{measured}; friction there rests on the "
+            "extrapolated spectrum. The tables mark these cases."
         )
-
-
-def _ball_radius(sentence: str) -> float:
-    """Return the radius (m) from a sentence such as 'ball of radius 9.525 mm', nan if it names none."""
-    _, found, text = sentence.partition("radius ")
-    try:
-        return to_si(" ".join(text.split()[:2]), "m", "radius") if found else math.nan
-    except InputError:
-        return math.nan
+    else:
+        words = f"Everywhere {meaning} lies within the measured range{measured}."
+    yield _check("Measured frequency range", outside == 0, words)
 
 
 def _measurement(tree: xr.DataTree) -> Iterator[Check]:

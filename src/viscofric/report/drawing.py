@@ -12,6 +12,7 @@ from viscofric.report.friction_figures import plot_friction_curves, plot_frictio
 from viscofric.report.house_style import STYLE, mark_synthetic, new_figure
 from viscofric.report.results import group, is_synthetic, reference_temperature
 from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_shift_factors
+from viscofric.study.store import write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -140,13 +141,17 @@ def draw_figures(tree: xr.DataTree, folder: str | Path) -> list[Path]:
     list of Path
         ``isotherms``, ``shift_factors``, ``master_curve``, ``friction_against_speed`` and
         ``friction_master_curve``, each with ``.png`` and ``.svg``; without those that the results lack.
+
+    Raises
+    ------
+    DataFileError
+        If the folder or a file cannot be written.
     """
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
     written = []
     for name, images in figure_images(tree).items():
         for form, content in images.items():
             path = folder / f"{name}.{form}"
-            path.write_bytes(content)
+            write_atomically(path, content)
             written.append(path)
     return written

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
+from viscofric.report.doubts import is_extrapolated
 from viscofric.report.house_style import INK, at_temperature, degrees, looks, plain_numbers, speed_ticks
 from viscofric.report.results import nearest, nominal_temperatures, values
 
@@ -42,9 +43,11 @@ def plot_friction_curves(axes: Axes, prediction: xr.Dataset, measurement: xr.Dat
             rows = np.flatnonzero((which == index) & (values(prediction, "load") == load))
             rows = rows[np.argsort(speed[rows], kind="stable")]
             lone = look.marker if measurement is None or np.isfinite(friction[rows]).sum() == 1 else "none"
-            axes.plot(
+            _plot_predicted(
+                axes,
                 speed[rows],
                 friction[rows],
+                is_extrapolated(prediction)[rows],
                 color=look.colour,
                 linestyle=look.dashes,
                 marker=lone,
@@ -86,7 +89,8 @@ def plot_friction_master_curve(
     order = np.argsort(speed, kind="stable")
     friction = values(prediction, "friction_coefficient")[order]
     alone = {"marker": "o", "markersize": 4} if np.isfinite(friction).sum() == 1 else {}
-    handles = axes.plot(speed[order], friction, color=INK, label="predicted", **alone)  # type: ignore[arg-type]
+    _plot_predicted(axes, speed[order], friction, is_extrapolated(prediction)[order], color=INK, **alone)
+    handles = [Line2D([], [], color=INK, label="predicted", **alone)]  # type: ignore[arg-type]
     if measurement is not None:
         nominal = nominal_temperatures(values(measurement, "temperature"))
         handles += [
@@ -96,6 +100,15 @@ def plot_friction_master_curve(
         _plot_measured(axes, measurement, 1e3 * values(measurement, "reduced_speed"), nominal)
     axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(reference_temperature))
     _finish_friction(axes, handles, None if measurement is None else "points: measured ± scatter")
+
+
+def _plot_predicted(axes: Axes, speed: Array, friction: Array, extrapolated: NDArray[np.bool_], **look: Any) -> None:
+    """Draw a predicted line, thin where it rests on frequencies that were not measured."""
+    if not extrapolated.any():
+        axes.plot(speed, friction, **look)
+        return
+    axes.plot(speed, friction, linewidth=0.7, **look)
+    axes.plot(speed, np.where(extrapolated, np.nan, friction), **look)
 
 
 def _plot_measured(axes: Axes, measurement: xr.Dataset, speed: Array, nominal: Array) -> None:

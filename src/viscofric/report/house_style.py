@@ -143,7 +143,11 @@ def plain_numbers(axes: Axes, axis: Literal["x", "y"]) -> None:
 
 
 def mark_synthetic(axes: Axes) -> None:
-    """Say within the figure that its data are synthetic."""
+    """Say within the figure that its data are synthetic, and call nothing in its legend measured."""
+    legend = axes.get_legend()
+    if legend is not None:
+        for text in (legend.get_title(), *legend.get_texts()):
+            text.set_text(text.get_text().replace("measured", "synthetic"))
     axes.text(
         1.0,
         1.012,

@@ -11,14 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.report.checks import all_checks
 from viscofric.report.drawing import figure_images
+from viscofric.report.messages import grouped_failures, readable
 from viscofric.report.results import group, is_synthetic, sentences, table
 from viscofric.report.tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.words import captions, key_numbers, what_was_asked
+from viscofric.study.store import write_atomically
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _HERE = Path(__file__).parent
+_MOST_KINDS_OF_FAILURE = 20
 
 
 def write_report(tree: xr.DataTree, folder: str | Path) -> Path:
@@ -35,6 +38,11 @@ def write_report(tree: xr.DataTree, folder: str | Path) -> Path:
     -------
     Path
         The file written.
+
+    Raises
+    ------
+    DataFileError
+        If it cannot be written.
     """
     import jinja2
 
@@ -47,10 +55,8 @@ def write_report(tree: xr.DataTree, folder: str | Path) -> Path:
         lstrip_blocks=True,
     )
     page = environment.get_template("report.html").render(_content(tree))
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8", newline="\n")
+    path = Path(folder) / "report.html"
+    write_atomically(path, page.encode("utf-8", errors="replace"))
     return path
 
 
@@ -69,7 +75,9 @@ def _content(tree: xr.DataTree) -> dict[str, Any]:
         "key_numbers": key_numbers(tree),
         "glance": friction_at_a_glance(tree),
         "agreement": agreement_table(tree),
-        "statements": [] if spectrum is None else sentences(spectrum.attrs, "statements"),
+        "statements": []
+        if spectrum is None
+        else [readable(statement) for statement in sentences(spectrum.attrs, "statements")],
         "checks": all_checks(tree),
         "figures": [
             {"name": name, "caption": caption, "source": _as_data(images[name]["svg"])}
@@ -77,9 +85,9 @@ def _content(tree: xr.DataTree) -> dict[str, Any]:
             if name in images
         ],
         "tables": detail_tables(tree),
-        "failures": sentences(tree.attrs, "failures"),
-        "warnings": sentences(tree.attrs, "warnings"),
-        "notes": sentences(tree.attrs, "notes"),
+        "failures": grouped_failures(sentences(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
+        "warnings": [readable(warning) for warning in sentences(tree.attrs, "warnings")],
+        "notes": [readable(note) for note in sentences(tree.attrs, "notes")],
         "command": f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
         "study_text": attrs.get("study_text", ""),
         "software": table(tree.attrs, "software"),

@@ -38,7 +38,8 @@ def signed_percent(share: float) -> str:
     """Return a relative difference as a percentage with its sign and one decimal."""
     if not math.isfinite(share):
         return ABSENT
-    return f"{100.0 * share:+.1f}{_SPACE}%".replace("-", "−")
+    rounded = round(100.0 * share, 1)
+    return f"{rounded:+.1f}{_SPACE}%".replace("-", "−") if rounded else f"0.0{_SPACE}%"
 
 
 def with_error(value: float, error: float) -> str:
@@ -58,6 +59,13 @@ def megapascals(pascals: float, digits: int = 3) -> str:
     if abs(pascals) >= 1e9:
         return f"{significant(pascals / 1e9, digits)}{_SPACE}GPa"
     return f"{significant(pascals / 1e6, digits)}{_SPACE}MPa"
+
+
+def speed(metres_per_second: float, digits: int = 3) -> str:
+    """Return a speed with its unit: mm/s, or m/s from 1 m/s on."""
+    if metres_per_second >= 0.99995:
+        return f"{short(metres_per_second, digits)} m/s"
+    return f"{short(1e3 * metres_per_second, digits)} mm/s"
 
 
 def several(texts: list[str]) -> str:

@@ -38,6 +38,14 @@ def number(attributes: Mapping[Any, Any], name: str) -> float:
         return math.nan
 
 
+def numbers(attributes: Mapping[Any, Any], name: str) -> list[float]:
+    """Return an attribute that is a list of numbers, written as JSON or as an array; empty if it is absent."""
+    try:
+        return [float(value) for value in np.ravel(_from_json(attributes.get(name, [])))]
+    except (TypeError, ValueError):
+        return []
+
+
 def sentences(attributes: Mapping[Any, Any], name: str) -> list[str]:
     """Return an attribute that is a list of sentences, written as JSON or as a list."""
     found = _from_json(attributes.get(name, []))

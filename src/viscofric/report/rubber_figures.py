@@ -99,7 +99,7 @@ def plot_shift_factors(axes: Axes, shift_factors: xr.Dataset) -> None:
         fmt="o",
         color=BLUE,
         zorder=3,
-        label="measured on the sweeps, ± standard error",
+        label="from the sweeps, ± standard error",
     )
     handles: list[Any] = [measured]
     reference, C1, C2 = (number(shift_factors.attrs, name) for name in ("reference_temperature", "wlf_C1", "wlf_C2"))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from viscofric.report.doubts import EXTRAPOLATED, SMALL_STRAIN, WIDE, remarks
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import ABSENT, percent, signed_percent, significant, with_error
-from viscofric.report.results import group, nearest, nominal_temperatures, values
+from viscofric.report.results import group, nearest, nominal_temperatures, number, values
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,17 +18,25 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _MOST_ROWS_AT_A_GLANCE = 12
+_DOUBTFUL = f"{WIDE}: wider than {SMALL_STRAIN:g} ball radii; {EXTRAPOLATED}: at frequencies that were not measured"
+_MEANINGS = (
+    "front and rear: from the ball's axis to the leading and to the trailing edge of the contact; half-width: across "
+    "the motion; energy balance: friction from the pressure less friction from the dissipation, relative; "
+    "complementarity: largest violation of the contact conditions, over the indentation; cells: along the longer "
+    "edge of the finest grid; products: with the influence matrix, the solver's work."
+)
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table: what it shows, its headings and its cells."""
+    """A table: what it shows, its headings and its cells, and a line below that explains them."""
 
     key: str
     caption: str
     headings: list[str]
     rows: list[list[str]]
     open: bool = True
+    note: str = ""
 
 
 class _Column(NamedTuple):
@@ -44,7 +53,9 @@ def _whole(value: float) -> str:
     return f"{value:.0f}" if np.isfinite(value) else ABSENT
 
 
-def _table(key: str, caption: str, dataset: xr.Dataset, columns: list[_Column], is_open: bool = True) -> Table:
+def _table(
+    key: str, caption: str, dataset: xr.Dataset, columns: list[_Column], is_open: bool = True, note: str = ""
+) -> Table:
     """Write down those columns that the dataset has."""
     columns = [column for column in columns if column.variable in dataset.variables]
     texts = [[column.text(float(value)) for value in values(dataset, column.variable)] for column in columns]
@@ -54,7 +65,17 @@ def _table(key: str, caption: str, dataset: xr.Dataset, columns: list[_Column], 
         [column.heading for column in columns],
         [list(row) for row in zip(*texts, strict=True)],
         is_open,
+        note,
     )
+
+
+def _with_remarks(table: Table, doubts: list[str]) -> Table:
+    """Add a column that says what is doubtful about a row, if anything is about any."""
+    if not any(doubts):
+        return table
+    rows = [[*row, doubt] for row, doubt in zip(table.rows, doubts, strict=True)]
+    note = f"{table.note} {_DOUBTFUL}.".strip()
+    return replace(table, headings=[*table.headings, "remark"], rows=rows, note=note)
 
 
 def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
@@ -63,7 +84,7 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
     if prediction is None:
         return None
     speed, load = values(prediction, "speed"), values(prediction, "load")
-    friction = values(prediction, "friction_coefficient")
+    friction, doubts = values(prediction, "friction_coefficient"), remarks(tree, prediction)
     nominal = nominal_temperatures(values(prediction, "temperature"))
     which = nearest(nominal, values(prediction, "temperature"))
     loads = np.unique(load)
@@ -78,7 +99,8 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
         cells = [significant(1e3 * float(row_speed), 4)]
         for index, force in columns:
             match = np.flatnonzero((which == index) & (load == force) & (speed == row_speed))
-            cells.append(significant(float(friction[match[0]]), 3) if match.size else ABSENT)
+            mark = " *" if match.size and doubts[match[0]] else ""
+            cells.append(significant(float(friction[match[0]]), 3) + mark if match.size else ABSENT)
         rows.append(cells)
     headings = [
         degrees(float(nominal[index])) + (f", {significant(float(force))} N" if loads.size > 1 else "")
@@ -90,7 +112,14 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
         f"Predicted viscoelastic friction coefficient.{some}",
         ["speed (mm/s)", *headings],
         rows,
+        note=f"* {_or(doubts)}." if any(cell.endswith("*") for row in rows for cell in row) else "",
     )
+
+
+def _or(doubts: list[str]) -> str:
+    """Say which doubts the marked cells carry."""
+    told = [part for part in _DOUBTFUL.split("; ") if any(part.split(":")[0] in doubt for doubt in doubts)]
+    return "; ".join(told)
 
 
 def agreement_table(tree: xr.DataTree) -> Table | None:
@@ -98,6 +127,11 @@ def agreement_table(tree: xr.DataTree) -> Table | None:
     agreement = group(tree, "agreement")
     if agreement is None:
         return None
+    left_out = number(agreement.attrs, "left_out")
+    left = ""
+    if left_out > 0:
+        points = "1 measured point is" if left_out == 1 else f"{left_out:.0f} measured points are"
+        left = f" {points} left out: without a prediction, or with friction not above zero."
     return _table(
         "agreement",
         "Predicted less measured friction, over the measured one, temperature by temperature.",
@@ -105,11 +139,12 @@ def agreement_table(tree: xr.DataTree) -> Table | None:
         [
             _Column("temperature", "temperature", degrees),
             _Column("points", "points", _whole),
-            _Column("mean difference", "bias", signed_percent),
-            _Column("rms difference", "rms", percent),
-            _Column("within the scatter", "share_within_scatter", lambda share: percent(share, 3)),
+            _Column("mean", "bias", signed_percent),
+            _Column("rms", "rms", percent),
             _Column("within 2 standard errors", "share_within_error", lambda share: percent(share, 3)),
         ],
+        note="Standard error: of the measured mean, with the numerical error of the prediction; the uncertainty of "
+        f"the material (sweeps, shift factors, spectrum) is not counted.{left}",
     )
 
 
@@ -119,7 +154,7 @@ def _prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_o
         return None
     friction = prediction["friction_coefficient"]
     full = prediction.assign(relative_error=prediction["friction_error"] / abs(friction).where(friction != 0.0))
-    return _table(
+    table = _table(
         key,
         caption,
         full,
@@ -129,19 +164,21 @@ def _prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_o
             _Column("load (N)", "load", significant),
             _Column("friction coefficient", "friction_coefficient", _times(1.0)),
             _Column("numerical error", "relative_error", percent),
+            _Column("energy balance", "energy_balance", percent),
             _Column("indentation (mm)", "indentation", _times(1e3)),
-            _Column("area (mm²)", "contact_area", _times(1e6)),
+            _Column("area (mm²)", "contact_area", _times(1e6, 3)),
             _Column("front (mm)", "front", _times(1e3)),
             _Column("rear (mm)", "rear", _times(1e3)),
             _Column("half-width (mm)", "half_width", _times(1e3)),
             _Column("largest pressure (MPa)", "max_pressure", _times(1e-6)),
-            _Column("energy balance", "energy_balance", percent),
             _Column("complementarity", "complementarity", _times(1.0, 2)),
             _Column("cells", "cells", _whole),
             _Column("products", "products", _whole),
         ],
         is_open,
+        _MEANINGS,
     )
+    return _with_remarks(table, remarks(tree, prediction))
 
 
 def _measurement_table(tree: xr.DataTree) -> Table | None:
@@ -174,7 +211,7 @@ def _measurement_table(tree: xr.DataTree) -> Table | None:
             pairs = zip(values(measurement, name), values(measurement, f"{name}_error"), strict=True)
             for row, (value, error) in zip(table.rows, pairs, strict=True):
                 row.append(with_error(float(value), float(error)))
-    return table
+    return _with_remarks(table, remarks(tree, measurement))
 
 
 def _shift_factor_table(tree: xr.DataTree) -> Table | None:

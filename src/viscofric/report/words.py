@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from viscofric.report.doubts import SMALL_STRAIN, is_extrapolated, is_wide
 from viscofric.report.house_style import degrees
+from viscofric.report.messages import readable
 from viscofric.report.numbers import (
     ABSENT,
     megapascals,
@@ -16,9 +18,18 @@ from viscofric.report.numbers import (
     several,
     short,
     signed_percent,
+    speed,
     with_error,
 )
-from viscofric.report.results import group, nominal_temperatures, number, reference_temperature, values
+from viscofric.report.results import (
+    group,
+    is_synthetic,
+    nominal_temperatures,
+    number,
+    reference_temperature,
+    sentences,
+    values,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,7 +39,7 @@ if TYPE_CHECKING:
 
 
 # Space between a number and its unit, where a line should not break
-_BEFORE_UNIT = re.compile(r"(?<=\d) (?=°C|N\b|mm|rad/s|%)")
+_BEFORE_UNIT = re.compile(r"(?<=\d) (?=°C|N\b|mm|m/s|rad/s|%)")
 
 
 class KeyNumber(NamedTuple):
@@ -44,6 +55,15 @@ def _range(numbers: Array, digits: int = 3) -> str:
     return low if low == high else f"{low} to {high}"
 
 
+def _speeds(metres_per_second: Array) -> str:
+    """Say a range of speeds: 20 to 200 mm/s, 0.1 mm/s to 10 m/s."""
+    low, high = speed(float(np.nanmin(metres_per_second))), speed(float(np.nanmax(metres_per_second)))
+    if low == high:
+        return low
+    same_unit = low.split()[1] == high.split()[1]
+    return f"{low.split()[0] if same_unit else low} to {high}"
+
+
 def what_was_asked(tree: xr.DataTree) -> list[str]:
     """Say the inputs of the study in sentences."""
     attrs = tree.attrs
@@ -54,7 +74,7 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
         at = several(steps) if len(steps) <= 6 else f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}"
         said.append(
             f"The viscoelastic friction of a rubber against a {attrs.get('indenter', 'rigid indenter')} "
-            f"under {short(number(attrs, 'load'))} N, at {_range(1e3 * values(prediction, 'speed'))} mm/s "
+            f"under {short(number(attrs, 'load'))} N, at {_speeds(values(prediction, 'speed'))} "
             f"and {at}, to an accuracy of {short(100 * number(attrs, 'accuracy'))} %."
         )
     if sweeps is not None:
@@ -62,17 +82,26 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
         at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
         said.append(
             f"The rubber is known from dynamic mechanical analysis in {attrs.get('deformation', 'tension')}: "
-            f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s. "
-            f"Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
+            f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s"
+            f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
         )
     measurement = group(tree, "measurement")
     if measurement is not None:
+        kind = "synthetic (made, not measured)" if is_synthetic(tree) else "measured"
         said.append(
-            f"The prediction is compared with {measurement.sizes['point']} measured points, at which the "
-            "viscoelastic and the Coulomb friction were separated; nothing of the measured friction enters "
-            "the prediction."
+            f"The prediction is compared with {measurement.sizes['point']} {kind} points, at which the "
+            "viscoelastic and the Coulomb friction were separated; nothing of this friction enters the "
+            "prediction."
         )
     return [_BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", sentence) for sentence in said]
+
+
+def _isotherms_used(tree: xr.DataTree) -> str:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return ""
+    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
+    return f"; {used:.0f} of {given:.0f} isotherms used" if math.isfinite(given) and math.isfinite(used) else ""
 
 
 def key_numbers(tree: xr.DataTree) -> list[KeyNumber]:
@@ -85,20 +114,29 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     prediction, agreement = group(tree, "prediction"), group(tree, "agreement")
     if prediction is not None and np.isfinite(values(prediction, "friction_coefficient")).any():
         friction = values(prediction, "friction_coefficient")
-        found.append(
-            KeyNumber("Viscoelastic friction coefficient", _range(friction), "predicted, over all cases asked for")
-        )
+        remark = f"predicted, over all cases asked for{_caveat(tree, prediction)}"
+        found.append(KeyNumber("Viscoelastic friction coefficient", _range(friction), remark))
     if agreement is not None:
         bias, rms, points = (number(agreement.attrs, name) for name in ("bias", "rms", "points"))
         remark = f"rms over {points:.0f} points; {signed_percent(bias)} on average" if math.isfinite(points) else ""
-        for name, meaning in (
-            ("share_within_scatter", "within the measured scatter"),
-            ("share_within_error", "within twice the standard error"),
-        ):
-            if math.isfinite(number(agreement.attrs, name)):
-                remark += f"; {percent(number(agreement.attrs, name), 3)} of the points {meaning}"
+        share = number(agreement.attrs, "share_within_error")
+        if math.isfinite(share):
+            remark += (
+                f"; {percent(share, 3)} of the points within twice the standard error (without the material's own)"
+            )
         found.append(KeyNumber("Prediction less measurement", percent(rms), remark))
     return found
+
+
+def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
+    """Say how many of the cases behind the headline rest on doubtful ground."""
+    wide, beyond = int(is_wide(tree, prediction).sum()), int(is_extrapolated(prediction).sum())
+    of, said = prediction.sizes["case"], ""
+    if wide:
+        said += f"; doubtful in {wide} of {of}, where the contact is wider than {SMALL_STRAIN:g} ball radii"
+    if beyond:
+        said += f"; extrapolated in {beyond} of {of}, beyond the measured frequencies"
+    return said
 
 
 def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
@@ -136,16 +174,27 @@ def captions(tree: xr.DataTree) -> dict[str, str]:
     """Say what each figure shows."""
     reference = reference_temperature(tree)
     at = "the reference temperature" if reference is None else degrees(reference)
-    measured = group(tree, "measurement") is not None
-    bars = " Points: measured, with bars of one standard deviation over the repetitions." if measured else ""
-    together = " They fall on one curve if friction obeys the shift factors of the modulus." if measured else ""
+    points = group(tree, "measurement") is not None
+    made = is_synthetic(tree)
+    measured = "synthetic measurement" if made else "measured"
+    bars = f" Points: {measured}, with bars of one standard deviation over the repetitions." if points else ""
+    # Only what was tested: a sentence of the study tells how the curves coincide, or that they do not overlap.
+    told = (note for note in sentences(tree.attrs, "notes") if "overlap in reduced speed" in note)
+    together = f" {readable(next(told, ''))}".rstrip() if points else ""
     return {
-        "friction_against_speed": f"Viscoelastic friction against speed. Lines: predicted.{bars}",
+        "friction_against_speed": f"Viscoelastic friction against speed. Lines: predicted{_thin(tree, 'prediction')}."
+        f"{bars}",
         "friction_master_curve": f"Viscoelastic friction against speed times shift factor, at {at}. "
-        f"Line: predicted over the whole range.{bars}{together}",
-        "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: measured readings, "
-        "shifted, and the retardation spectrum fitted to them.",
+        f"Line: predicted over the whole range{_thin(tree, 'prediction_master')}.{bars}{together}",
+        "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: "
+        f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them.",
         "shift_factors": "Shift factors found by laying the isotherms over one another, with their standard "
         "errors, and the WLF law fitted to them.",
-        "isotherms": "Storage and loss modulus as measured, one curve for each temperature.",
+        "isotherms": f"Storage and loss modulus {'of the synthetic sweeps' if made else 'as measured'}, one curve "
+        "for each temperature.",
     }
+
+
+def _thin(tree: xr.DataTree, name: str) -> str:
+    cases = group(tree, name)
+    return ", thin beyond the measured frequencies" if cases is not None and is_extrapolated(cases).any() else ""

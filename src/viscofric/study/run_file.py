@@ -129,7 +129,7 @@ class MeasurementTable(_Table):
 class SolverTable(_Table):
     """[solver]: how accurate the friction is to be."""
 
-    accuracy: float = Field(default=1e-3, ge=1e-5, le=0.1)
+    accuracy: float = Field(default=1e-3, ge=1e-4, le=0.1, allow_inf_nan=False)
     master_curve_points: int = Field(default=41, ge=2, le=_MOST_POINTS)
 
 
@@ -143,6 +143,11 @@ class Study(_Table):
     conditions: ConditionsTable
     measurement: MeasurementTable | None = None
     solver: SolverTable = SolverTable()
+
+    @property
+    def inputs(self) -> tuple[Path, ...]:
+        """All data files."""
+        return (self.material.dma, *(self.measurement.mtm if self.measurement else ()))
 
 
 def load_study(path: str | Path) -> Study:
@@ -169,13 +174,15 @@ def load_study(path: str | Path) -> Study:
 def read_study_text(path: Path) -> str:
     """Return the text of a run file."""
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise StudyError(f"{path}: no such file.") from None
     except IsADirectoryError:
         raise StudyError(f"{path}: is a folder; a run file (TOML) is wanted.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"{path}: cannot be read as UTF-8 text ({error}).") from None
+    except UnicodeDecodeError:
+        raise StudyError(f"{path}: is not UTF-8 text; save it as UTF-8.") from None
+    except (OSError, ValueError) as error:
+        raise StudyError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error}).") from None
 
 
 def parse_study(text: str, path: Path) -> Study:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
+import math
 import os
 import tempfile
 from dataclasses import asdict, dataclass, fields
+from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,9 +17,6 @@ from viscofric.errors import DataFileError
 
 if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
-
-# Raise when the solver changes its answers, so that stored cases of an older one are not taken for new.
-SOLVER_VERSION = 1
 
 
 @dataclass(frozen=True)
@@ -66,8 +66,18 @@ class CaseRecord:
 
 def case_key(description: dict[str, object]) -> str:
     """Return a name for a case that changes with anything that could change its answer."""
-    text = json.dumps({"solver": SOLVER_VERSION, **description}, sort_keys=True)
+    text = json.dumps({"solver": _solver_fingerprint(), **description}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+@functools.cache
+def _solver_fingerprint() -> str:
+    """Return what changes with any line of the solver, so that cases of an older one are not taken for new."""
+    digest = hashlib.sha256()
+    for source in sorted(files("viscofric.contact").iterdir(), key=lambda entry: entry.name):
+        if source.name.endswith(".py"):
+            digest.update(source.read_bytes())
+    return digest.hexdigest()
 
 
 @dataclass(frozen=True)
@@ -83,12 +93,26 @@ class CaseStore:
     folder: Path
 
     def get(self, key: str) -> CaseRecord | None:
-        """Return a finished case, or None if there is none (or its file was cut off by a crash)."""
+        """Return a finished case, or None if there is none (or its file was damaged, by a crash or otherwise)."""
         try:
             values = json.loads(self._path(key).read_text(encoding="utf-8"))
-            return CaseRecord(**{**values, "warnings": tuple(values["warnings"])})
-        except (FileNotFoundError, json.JSONDecodeError, UnicodeDecodeError, TypeError, KeyError):
+            record = CaseRecord(**{**values, "warnings": tuple(values["warnings"])})
+        except (OSError, ValueError, TypeError, KeyError):
             return None
+        sound = all(_is_number(getattr(record, name)) for name in NUMBERS)
+        return record if sound and all(isinstance(text, str) for text in record.warnings) else None
+
+    def prepare(self) -> None:
+        """Make the folder and see that it can be written, before time is spent on solving.
+
+        Raises
+        ------
+        DataFileError
+            If it cannot.
+        """
+        probe = self.folder / ".writable"
+        write_atomically(probe, b"")
+        probe.unlink(missing_ok=True)
 
     def put(self, key: str, record: CaseRecord) -> None:
         """Store a finished case; it is either there whole or not at all."""
@@ -99,6 +123,17 @@ class CaseStore:
 
 
 NUMBERS = tuple(field.name for field in fields(CaseRecord) if field.name != "warnings")
+
+
+def _umask() -> int:
+    """Return the process's file mode mask, which can only be read by setting it."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def write_atomically(path: Path, content: bytes) -> None:
@@ -115,6 +150,8 @@ def write_atomically(path: Path, content: bytes) -> None:
         temporary = Path(name)
         try:
             with os.fdopen(handle, "wb") as file:
+                # Temporary files are for their owner alone; what is written here is to be handed on.
+                temporary.chmod(0o666 & ~_umask())
                 file.write(content)
                 file.flush()
                 os.fsync(file.fileno())

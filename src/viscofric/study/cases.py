@@ -1,0 +1,131 @@
+"""Solving the cases of a study one by one: each is stored at once, failures and warnings are kept account of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+from viscofric.contact.steady import solve_steady
+from viscofric.errors import ConvergenceError, InputError
+from viscofric.study.store import CaseRecord, CaseStore, case_key
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from viscofric.contact.indenters import Ball
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.shift_laws import ShiftLaw
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+class Progress(Protocol):
+    """What a study tells of its progress."""
+
+    def __call__(self, stage: str, done: int, total: int) -> None:
+        """Hear of a stage that begins (done = 0) and of each of its steps."""
+
+
+class CaseSolver:
+    """Solves contacts of one material and one ball, from the store where it has them.
+
+    Attributes
+    ----------
+    failures : list of str
+        Cases that could not be solved, one sentence each.
+    """
+
+    def __init__(
+        self,
+        material: Material,
+        shift: ShiftLaw,
+        ball: Ball,
+        accuracy: float,
+        store: CaseStore,
+        progress: Progress,
+    ) -> None:
+        self.material, self.shift, self.ball, self.accuracy = material, shift, ball, accuracy
+        self.store, self.progress = store, progress
+        self.failures: list[str] = []
+        self._solved: list[CaseRecord] = []
+        store.prepare()
+
+    def solve(self, stage: str, temperatures: Array, speeds: Array, loads: Array) -> list[CaseRecord | None]:
+        """Solve cases given entry by entry; None where one failed."""
+        records: list[CaseRecord | None] = []
+        self.progress(stage, 0, len(speeds))
+        for temperature, speed, load in zip(temperatures.tolist(), speeds.tolist(), loads.tolist(), strict=True):
+            key = self._key(temperature, speed, load)
+            record = self.store.get(key)
+            if record is None:
+                record = self._attempt(temperature, speed, load)
+                if record is not None:
+                    self.store.put(key, record)
+            records.append(record)
+            self.progress(stage, len(records), len(speeds))
+        self._solved += kept(records)
+        return records
+
+    def _attempt(self, temperature: float, speed: float, load: float) -> CaseRecord | None:
+        try:
+            solution = solve_steady(
+                self.material, self.ball, speed=speed, load=load, temperature=temperature, accuracy=self.accuracy
+            )
+        except (ConvergenceError, InputError) as error:
+            self.failures.append(f"{_where(temperature, speed)}: {error}")
+            return None
+        return CaseRecord.of(solution, temperature)
+
+    def _key(self, temperature: float, speed: float, load: float) -> str:
+        spectrum = self.material.at(temperature)
+        return case_key(
+            {
+                "E0": spectrum.E0,
+                "E_inf": spectrum.E_inf,
+                "C": spectrum.C.tolist(),
+                "tau": spectrum.tau.tolist(),
+                "poisson_ratio": self.material.poisson_ratio,
+                "ball": self.ball.radius,
+                "load": load,
+                "speed": speed,
+                "temperature": temperature,
+                "accuracy": self.accuracy,
+            }
+        )
+
+    def within_measured_frequencies(self, record: CaseRecord) -> bool:
+        """Whether the contact's frequency v/a, reduced by α(T), lies within the master curve's."""
+        fit = self.material.spectrum.fit
+        if fit is None:
+            return True
+        low, high = fit.frequency_range
+        return low <= self.shift(record.temperature) * record.speed / record.half_width <= high
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Assumptions that do not hold well, each with the number of cases that it concerns."""
+        count = len(self._solved)
+        sentences = []
+        wide = [record for record in self._solved if record.warnings]
+        if wide:
+            worst = max(wide, key=lambda record: record.half_width)
+            place = _where(worst.temperature, worst.speed)
+            sentences.append(f"In {len(wide)} of {count} cases, most of all at {place}: {' '.join(worst.warnings)}")
+        beyond = [record for record in self._solved if not self.within_measured_frequencies(record)]
+        if beyond:
+            example = _where(beyond[0].temperature, beyond[0].speed)
+            sentences.append(
+                f"In {len(beyond)} of {count} cases, such as {example}, the contact's frequency v/a lies beyond the "
+                "reduced frequencies that were measured: their friction rests on the extrapolated spectrum."
+            )
+        return tuple(sentences)
+
+
+def kept(records: list[CaseRecord | None]) -> list[CaseRecord]:
+    """Return the cases that were solved."""
+    return [record for record in records if record is not None]
+
+
+def _where(temperature: float, speed: float) -> str:
+    return f"{celsius(temperature):.4g} °C, {1e3 * speed:.4g} mm/s"
