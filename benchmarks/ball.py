@@ -1,6 +1,6 @@
 """Cost of one steady contact of a ball, counted in FFT pairs of the finest padded grid timed in the same run.
 
-Usage: python benchmarks/ball.py [--accuracy 1e-4] [--json FILE]
+Usage: python benchmarks/ball.py [--accuracy 1e-3] [--json FILE]
 
 For each case: cells of the finest grid, products with the influence matrix on all grids, CPU seconds, and the same
 in pairs of real FFTs (forward and inverse, SciPy, one thread) of the finest padded window.
@@ -61,7 +61,7 @@ def measure(problem: BallProblem, accuracy: float) -> dict[str, float | str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--accuracy", type=float, default=1e-4)
+    parser.add_argument("--accuracy", type=float, default=1e-3)
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     standard_linear_solid(10.0, 1.0).solve(accuracy=1e-2)  # imports and caches

@@ -106,7 +106,7 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
         degrees(float(nominal[index])) + (f", {significant(float(force))} N" if loads.size > 1 else "")
         for index, force in columns
     ]
-    some = f" Every {every}. speed; all of them are in the tables below." if every > 1 else ""
+    some = f" One speed in {every}; all of them are in the tables below." if every > 1 else ""
     return Table(
         "at-a-glance",
         f"Predicted viscoelastic friction coefficient.{some}",
