@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import TractionRuns
-    from viscofric.friction.tribometry import Entry
+    from viscofric.friction.separation import Entry
 
     Array: TypeAlias = NDArray[np.float64]
 
