@@ -6,21 +6,23 @@ import numpy as np
 import pytest
 
 from gallery import standard_linear_solid
-from viscofric.contact.nested import FRICTION_FLOOR, Estimate, find_window, refine, settled
+from viscofric.contact.indenters import Ball
+from viscofric.contact.nested import FRICTION_FLOOR, Estimate, Problem, find_window, refine, settled
 from viscofric.contact.operator import SteadyMaterial
 
-SOLID = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))
+# A standard linear solid in units of the Hertz contact at E0, and a ball, whose radius is one there.
+PROBLEM = Problem(SteadyMaterial(0.1, np.array([0.9]), np.array([1.0])), Ball(radius=1.0), 1e-8)
 
 
 @pytest.mark.parametrize("modulus", [1e-3, 1.0, 30.0, 1e4])
 def test_window_finds_the_contact_from_a_poor_guess(modulus: float) -> None:
     """A first window ten times too large or twenty times too small ends around the same contact."""
-    good, found = (find_window(SOLID, guess, 1e-8) for guess in (3.0, modulus))
+    good, found = (find_window(PROBLEM, guess) for guess in (3.0, modulus))
     assert found.window.extent(found.result.pressure > 0.0) == pytest.approx(
         good.window.extent(good.result.pressure > 0.0),
         abs=2.0 * good.window.spacing,  # each counts in its own cells
     )
-    friction = [refine(first, SOLID, 1e-3, 1e-8, 512)[-1].pressure_friction for first in (good, found)]
+    friction = [refine(first, 1e-3, 512)[-1].pressure_friction for first in (good, found)]
     assert friction[1] == pytest.approx(friction[0], rel=2e-3)  # the accuracy of each
 
 

@@ -10,7 +10,7 @@ import logging
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -42,19 +42,39 @@ _MOST_WINDOWS = 20
 _MOST_RESTARTS = 5
 
 
+class Shape(Protocol):
+    """An indenter, in these units."""
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height above the lowest point."""
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What is to be solved on every grid: a solid, an indenter, and how exactly the contact conditions hold."""
+
+    solid: SteadyMaterial
+    shape: Shape
+    tolerance: float
+
+
 @dataclass(frozen=True, eq=False)
 class Stage:
     """A converged solution on one grid."""
 
+    problem: Problem
     window: Window
     operator: HalfSpaceOperator
     result: ComplementaritySolution
 
     @cached_property
     def pressure_friction(self) -> float:
-        """Friction coefficient from the lean of the pressure, ∫ p x dA / (R F)."""
-        pressure = self.result.pressure
-        return self.window.cell_area * float(self.window.x @ pressure.sum(axis=1)) / LOAD
+        """Friction coefficient from the lean of the pressure, ∫ p ∂h/∂x dA / F."""
+        slope = self.problem.shape.slope(self.window.x[:, None], self.window.y)
+        return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / LOAD
 
     @cached_property
     def energy_friction(self) -> float:
@@ -119,7 +139,7 @@ def settled(values: Array) -> Estimate:
     return Estimate(float(values[-1]), float(max(last / (ratio - 1.0), *faded)))
 
 
-def refine(first: Stage, solid: SteadyMaterial, accuracy: float, tolerance: float, finest: int) -> list[Stage]:
+def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
     """Halve the cells until the friction coefficient is known to a relative accuracy.
 
     Returns
@@ -141,10 +161,10 @@ def refine(first: Stage, solid: SteadyMaterial, accuracy: float, tolerance: floa
                 f"the friction coefficient is known to {friction_estimate(stages).relative_error:.1e} of itself on "
                 f"the finest grid allowed ({finest} cells); ask for less accuracy than {accuracy:g} or a finer grid."
             )
-        stage = _solve_in_window(window, solid, coarse, tolerance)
+        stage = _solve_in_window(window, coarse)
         if touches_edge(stage.result.pressure > 0.0) and restarts < _MOST_RESTARTS:
             # The coarse contact was a little too small: start again from a window around the finer one.
-            stages, restarts = [_solve_in_window(_around(stage), solid, stage, tolerance)], restarts + 1
+            stages, restarts = [_solve_in_window(_around(stage), stage)], restarts + 1
             continue
         stages.append(stage)
         estimate = friction_estimate(stages)
@@ -153,20 +173,19 @@ def refine(first: Stage, solid: SteadyMaterial, accuracy: float, tolerance: floa
             return stages
 
 
-def find_window(solid: SteadyMaterial, modulus: float, tolerance: float) -> Stage:
+def find_window(problem: Problem, modulus: float) -> Stage:
     """Solve on coarse grids until the window fits the contact: nothing cut off, little space wasted.
 
     Parameters
     ----------
-    solid : SteadyMaterial
+    problem : Problem
     modulus : float
         First guess of the modulus that the contact meets, relative to E0.
-    tolerance : float
     """
     radius = modulus ** (-1.0 / 3.0)
     window = Window.around(1.5 * radius, 1.5 * radius, 1.5 * radius, COARSEST)
     guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / radius**2))
-    stage = _solve_on(window, solid, guess, tolerance)
+    stage = _solve_on(window, problem, guess)
     for _ in range(_MOST_WINDOWS):
         loaded = stage.result.pressure > 0.0
         if touches_edge(loaded):
@@ -178,7 +197,7 @@ def find_window(solid: SteadyMaterial, modulus: float, tolerance: float) -> Stag
             window = _around(stage)
             if window.spacing > 0.8 * stage.window.spacing:
                 return stage
-        stage = _solve_in_window(window, solid, stage, tolerance)
+        stage = _solve_in_window(window, stage)
     raise ConvergenceError("no window was found that holds the contact; the indenter may be too blunt.")
 
 
@@ -188,12 +207,13 @@ def _around(stage: Stage) -> Window:
     return Window.around(rear + margin, front + margin, side + margin, COARSEST)
 
 
-def _solve_in_window(window: Window, solid: SteadyMaterial, before: Stage, tolerance: float) -> Stage:
-    return _solve_on(window, solid, before.window.resample(before.result.pressure, window), tolerance)
+def _solve_in_window(window: Window, before: Stage) -> Stage:
+    return _solve_on(window, before.problem, before.window.resample(before.result.pressure, window))
 
 
-def _solve_on(window: Window, solid: SteadyMaterial, guess: Array, tolerance: float) -> Stage:
+def _solve_on(window: Window, problem: Problem, guess: Array) -> Stage:
     """Solve on one grid; where that fails, come from a material with a softer glassy state."""
+    solid, tolerance = problem.solid, problem.tolerance
     load = LOAD / window.cell_area
 
     def attempt(glassy: float, start: Array) -> Stage:
@@ -201,8 +221,9 @@ def _solve_on(window: Window, solid: SteadyMaterial, guess: Array, tolerance: fl
         shift = collocation_shift(material, window.spacing)
         operator = HalfSpaceOperator(window, material, shift)
         x = window.x - shift * window.spacing
-        height = 0.5 * (x[:, None] ** 2 + window.y**2)
-        return Stage(window, operator, solve_complementarity(operator, height, load, start, tolerance=tolerance))
+        height = problem.shape.height(x[:, None], window.y)
+        result = solve_complementarity(operator, height, load, start, tolerance=tolerance)
+        return Stage(problem, window, operator, result)
 
     stage = attempt(solid.glassy, guess)
     if stage.result.converged:

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.nested import COARSEST, FEWEST_GRIDS, FRICTION_FLOOR, find_window, friction_estimate, refine
+from viscofric.contact.nested import (
+    COARSEST,
+    FEWEST_GRIDS,
+    FRICTION_FLOOR,
+    Problem,
+    find_window,
+    friction_estimate,
+    refine,
+)
 from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level, edges
@@ -105,9 +113,10 @@ def solve_steady(
     spectrum = material.at(kelvin)
     scale = _Scale.of(spectrum, material.poisson_ratio, indenter, force)
     solid = _steady_material(spectrum, abs(velocity) / scale.length)
-    first = find_window(solid, _effective_modulus(solid), tolerance)
+    problem = Problem(solid, _ScaledIndenter(indenter, scale), tolerance)
+    first = find_window(problem, _effective_modulus(solid))
     _check_width(first, scale, force, indenter)
-    stages = refine(first, solid, accuracy, tolerance, finest)
+    stages = refine(first, accuracy, finest)
     return _with_warnings(_assemble(stages, scale, velocity, force, kelvin), indenter)
 
 
@@ -136,6 +145,22 @@ class _Scale:
     def slope(self) -> float:
         """a0/R, the unit of friction coefficients."""
         return self.depth / self.length
+
+
+@dataclass(frozen=True)
+class _ScaledIndenter:
+    """An indenter in units of the Hertz contact."""
+
+    indenter: Ball
+    scale: _Scale
+
+    def height(self, x: Array, y: Array) -> Array:
+        length, depth = self.scale.length, self.scale.depth
+        return self.indenter.height(length * x, length * y) / depth
+
+    def slope(self, x: Array, y: Array) -> Array:
+        length = self.scale.length
+        return self.indenter.slope(length * x, length * y) / self.scale.slope
 
 
 def _steady_material(spectrum: RetardationSpectrum, speed: float) -> SteadyMaterial:
