@@ -9,6 +9,7 @@ from gallery import standard_linear_solid
 from viscofric.contact.indenters import Ball
 from viscofric.contact.nested import FRICTION_FLOOR, Estimate, Problem, find_window, refine, settled
 from viscofric.contact.operator import SteadyMaterial
+from viscofric.errors import ConvergenceError
 
 # A standard linear solid in units of the Hertz contact at E0, and a ball, whose radius is one there.
 PROBLEM = Problem(SteadyMaterial(0.1, np.array([0.9]), np.array([1.0])), Ball(radius=1.0), 1e-8)
@@ -55,3 +56,10 @@ def test_displacements_are_given_at_the_cell_centres() -> None:
     # climbs in a cell; displacements left at the shifted places would be off by shift × slope, on average too.
     climb = solution.diagnostics.spacing * np.abs(solution.x).max() / radius
     assert abs(gap[inside].mean()) < 0.02 * climb
+
+
+def test_contact_that_is_cut_by_every_window_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = find_window(PROBLEM, 3.0)
+    monkeypatch.setattr("viscofric.contact.nested.touches_edge", lambda mask: True)
+    with pytest.raises(ConvergenceError, match="no window"):
+        refine(first, 1e-3, 512)

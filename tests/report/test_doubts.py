@@ -34,7 +34,7 @@ def test_doubtful_rows_are_marked_and_counted_in_the_headline(tree: xr.DataTree)
     glance = friction_at_a_glance(tree)
     assert glance is not None
     assert [row[1].endswith(" *") for row in glance.rows[:3]] == [True, True, False]
-    assert "wider than 0.3 ball radii" in glance.note
+    assert "reaching beyond 0.3 ball radii from the axis" in glance.note
     remark = key_numbers(tree)[0].remark
     assert "doubtful in 1 of 21" in remark
     assert "extrapolated in 1 of 21" in remark

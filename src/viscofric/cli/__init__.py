@@ -11,6 +11,7 @@ try:
     import os
     import signal
     import threading
+    from contextlib import contextmanager
     from typing import TYPE_CHECKING, Any, Never
 
     import click
@@ -20,7 +21,6 @@ except KeyboardInterrupt:  # the user may change their mind while Python still l
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from contextlib import AbstractContextManager
     from types import FrameType
 
 # command -> module of this package that defines it, and what the overview says
@@ -80,25 +80,21 @@ class _LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
 
-def _signals() -> AbstractContextManager[None]:
+@contextmanager
+def _signals() -> Iterator[None]:
     """Let SIGTERM end the program as Ctrl-C does, for as long as the command line runs."""
-    from contextlib import contextmanager
 
     def terminate(number: int, frame: FrameType | None) -> Never:
         raise Terminated
 
-    @contextmanager
-    def listening() -> Iterator[None]:
-        if threading.current_thread() is not threading.main_thread():
-            yield
-            return
-        before = signal.signal(signal.SIGTERM, terminate)
-        try:
-            yield
-        finally:
-            signal.signal(signal.SIGTERM, before)
-
-    return listening()
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, terminate)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _keep_matplotlib_here() -> None:

@@ -69,9 +69,8 @@ def run_and_report(study: Path, output: Path) -> None:
 def tell(results: StudyResults) -> None:
     """Print notes, warnings and failures of a study: few of each, the report has them all."""
     from viscofric.report.messages import grouped_failures, readable
-    from viscofric.report.results import sentences
 
-    notes = sentences(results.tree.attrs, "notes")
+    notes = results.notes
     if len(notes) > _MOST_LINES:
         click.echo(f"{len(notes)} notes on the data: see the report.", err=True)
     elif notes:

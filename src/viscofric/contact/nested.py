@@ -40,6 +40,7 @@ _LONGEST_CONTINUATION = 64
 _LARGEST_CONTINUATION_GRID = 160  # cells: beyond, a failure is final, since a continuation would take hours
 _MOST_WINDOWS = 20
 _MOST_RESTARTS = 5
+_NO_WINDOW = "no window was found that holds the contact; the indenter may be too blunt."
 
 
 class Shape(Protocol):
@@ -113,7 +114,7 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     lean = np.array([stage.pressure_friction for stage in stages])
     energy = np.array([stage.energy_friction for stage in stages])
     candidates = [settled(lean), settled(energy)]
-    if len(stages) > 3:
+    if len(stages) > FEWEST_GRIDS:
         candidates.append(settled(2.0 * energy[1:] - energy[:-1]))
     best = min(candidates, key=lambda candidate: candidate.error)
     # However well one has settled, part of what the two ways differ by is claimed as error: most where their own
@@ -162,8 +163,10 @@ def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
                 f"the finest grid allowed ({finest} cells); ask for less accuracy than {accuracy:g} or a finer grid."
             )
         stage = _solve_in_window(window, coarse)
-        if touches_edge(stage.result.pressure > 0.0) and restarts < _MOST_RESTARTS:
+        if touches_edge(stage.result.pressure > 0.0):
             # The coarse contact was a little too small: start again from a window around the finer one.
+            if restarts == _MOST_RESTARTS:
+                raise ConvergenceError(_NO_WINDOW)
             stages, restarts = [_solve_in_window(_around(stage), stage)], restarts + 1
             continue
         stages.append(stage)
@@ -198,7 +201,7 @@ def find_window(problem: Problem, modulus: float) -> Stage:
             if window.spacing > 0.8 * stage.window.spacing:
                 return stage
         stage = _solve_in_window(window, stage)
-    raise ConvergenceError("no window was found that holds the contact; the indenter may be too blunt.")
+    raise ConvergenceError(_NO_WINDOW)
 
 
 def _around(stage: Stage) -> Window:

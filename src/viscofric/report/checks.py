@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viscofric.report.doubts import SMALL_STRAIN, is_extrapolated, knows_range, reach
+from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.report.doubts import is_extrapolated, knows_range, reach
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import percent, several, significant
 from viscofric.report.results import SAME_TEMPERATURE, group, number, numbers, sentences, values

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.report.results import number, values
 
 if TYPE_CHECKING:
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Mask = NDArray[np.bool_]
 
-#: Contact's reach over ball radius above which the linear, half-space description is doubtful.
-SMALL_STRAIN = 0.3
 WIDE, EXTRAPOLATED = "wide contact", "beyond the sweeps"
 
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.report.doubts import EXTRAPOLATED, SMALL_STRAIN, WIDE, remarks
+from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.report.doubts import EXTRAPOLATED, WIDE, remarks
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import ABSENT, percent, signed_percent, significant, with_error
 from viscofric.report.results import group, nearest, nominal_temperatures, number, values
@@ -18,7 +19,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _MOST_ROWS_AT_A_GLANCE = 12
-_DOUBTFUL = f"{WIDE}: wider than {SMALL_STRAIN:g} ball radii; {EXTRAPOLATED}: at frequencies that were not measured"
+_DOUBTFUL = (
+    f"{WIDE}: reaching beyond {SMALL_STRAIN:g} ball radii from the axis; "
+    f"{EXTRAPOLATED}: at frequencies that were not measured"
+)
 _MEANINGS = (
     "front and rear: from the ball's axis to the leading and to the trailing edge of the contact; half-width: across "
     "the motion; energy balance: friction from the pressure less friction from the dissipation, relative; "

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.report.doubts import SMALL_STRAIN, is_extrapolated, is_wide
+from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.report.doubts import is_extrapolated, is_wide
 from viscofric.report.house_style import degrees
 from viscofric.report.messages import readable
 from viscofric.report.numbers import (
@@ -133,7 +134,7 @@ def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
     wide, beyond = int(is_wide(tree, prediction).sum()), int(is_extrapolated(prediction).sum())
     of, said = prediction.sizes["case"], ""
     if wide:
-        said += f"; doubtful in {wide} of {of}, where the contact is wider than {SMALL_STRAIN:g} ball radii"
+        said += f"; doubtful in {wide} of {of}, where the contact reaches beyond {SMALL_STRAIN:g} ball radii"
     if beyond:
         said += f"; extrapolated in {beyond} of {of}, beyond the measured frequencies"
     return said

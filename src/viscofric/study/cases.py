@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from viscofric.contact.steady import solve_steady
@@ -34,6 +35,8 @@ class CaseSolver:
     ----------
     failures : list of str
         Cases that could not be solved, one sentence each.
+    frequency_range : tuple of float
+        Reduced angular frequencies between which the material's spectrum was measured, rad/s.
     """
 
     def __init__(
@@ -47,6 +50,8 @@ class CaseSolver:
     ) -> None:
         self.material, self.shift, self.ball, self.accuracy = material, shift, ball, accuracy
         self.store, self.progress = store, progress
+        fit = material.spectrum.fit
+        self.frequency_range = (0.0, math.inf) if fit is None else fit.frequency_range
         self.failures: list[str] = []
         self._solved: list[CaseRecord] = []
         store.prepare()
@@ -96,10 +101,7 @@ class CaseSolver:
 
     def within_measured_frequencies(self, record: CaseRecord) -> bool:
         """Whether the contact's frequency v/a, reduced by α(T), lies within the master curve's."""
-        fit = self.material.spectrum.fit
-        if fit is None:
-            return True
-        low, high = fit.frequency_range
+        low, high = self.frequency_range
         return low <= self.shift(record.temperature) * record.speed / record.half_width <= high
 
     @property

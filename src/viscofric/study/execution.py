@@ -108,7 +108,7 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
         "poisson_ratio": study.material.poisson_ratio,
         "indenter": f"ball of radius {1e3 * study.indenter.radius:.6g} mm",
         "indenter_radius": study.indenter.radius,
-        "frequency_range": rubber.frequency_range,
+        "frequency_range": solver.frequency_range,
         "load": study.conditions.load,
         "accuracy": study.solver.accuracy,
         "input_hashes": hashes,
@@ -141,12 +141,6 @@ class _Rubber:
     law: WLF | None
     isotherms: xarray.Dataset
     deformation: str
-
-    @property
-    def frequency_range(self) -> list[float]:
-        """Lowest and highest reduced angular frequency measured, rad/s."""
-        frequency = self.fit.master_curve.angular_frequency
-        return [float(frequency[0]), float(frequency[-1])]
 
 
 def _material(study: Study) -> _Rubber:

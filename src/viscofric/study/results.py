@@ -39,6 +39,11 @@ class StudyResults:
     folder: Path
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """What was doubtful about the data, changed or left out, one sentence each."""
+        return tuple(json.loads(self.tree.attrs["notes"]))
+
+    @property
     def failures(self) -> tuple[str, ...]:
         """Cases that could not be solved, one sentence each."""
         return tuple(json.loads(self.tree.attrs["failures"]))
