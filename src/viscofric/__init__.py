@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from viscofric.contact.steady import solve_steady as solve_steady
     from viscofric.data import Isotherm as Isotherm
     from viscofric.data import IsothermalSweeps as IsothermalSweeps
+    from viscofric.data import MasterCurve as MasterCurve
     from viscofric.data import TractionRuns as TractionRuns
     from viscofric.errors import ConvergenceError as ConvergenceError
     from viscofric.errors import DataFileError as DataFileError
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectrum import RetardationSpectrum as RetardationSpectrum
     from viscofric.rheology.spectrum import SpectrumFit as SpectrumFit
     from viscofric.rheology.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
-    from viscofric.rheology.superposition import MasterCurve as MasterCurve
     from viscofric.rheology.superposition import Superposition as Superposition
     from viscofric.rheology.superposition import superpose as superpose
     from viscofric.study import Study as Study
@@ -60,6 +60,7 @@ _HOME = {
     "solve_steady": "viscofric.contact.steady",
     "Isotherm": "viscofric.data",
     "IsothermalSweeps": "viscofric.data",
+    "MasterCurve": "viscofric.data",
     "TractionRuns": "viscofric.data",
     "ConvergenceError": "viscofric.errors",
     "DataFileError": "viscofric.errors",
@@ -86,7 +87,6 @@ _HOME = {
     "RetardationSpectrum": "viscofric.rheology.spectrum",
     "SpectrumFit": "viscofric.rheology.spectrum",
     "fit_retardation_spectrum": "viscofric.rheology.spectrum_fit",
-    "MasterCurve": "viscofric.rheology.superposition",
     "Superposition": "viscofric.rheology.superposition",
     "superpose": "viscofric.rheology.superposition",
     "Study": "viscofric.study",

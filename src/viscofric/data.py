@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.units import positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,12 +38,15 @@ class Isotherm:
         Ascending, without repeats, rad/s.
     storage_modulus, loss_modulus : (n,) array
         As measured (tensile or shear, see `IsothermalSweeps.deformation`), positive, Pa.
+    strain_amplitude : (n,) array, optional
+        Of the oscillation, as a fraction (0.01 is 1 %); NaN where it was not recorded.
     """
 
     temperature: float
     angular_frequency: Array
     storage_modulus: Array
     loss_modulus: Array
+    strain_amplitude: Array | None = None
 
     def __post_init__(self) -> None:
         for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
@@ -52,6 +56,11 @@ class Isotherm:
             object.__setattr__(self, name, column)
         if np.any(np.diff(self.angular_frequency) <= 0):
             raise InputError("the frequencies of an isotherm must ascend without repeats.")
+        if self.strain_amplitude is not None:
+            amplitude = _column(self.strain_amplitude)
+            if amplitude.shape != self.angular_frequency.shape or np.any(amplitude < 0):
+                raise InputError("strain_amplitude of an isotherm must be one fraction per frequency, none below zero.")
+            object.__setattr__(self, "strain_amplitude", amplitude)
 
     def __len__(self) -> int:
         return len(self.angular_frequency)
@@ -71,12 +80,15 @@ class IsothermalSweeps:
         Where they came from (a file's name).
     notes : tuple of str
         What the reader found doubtful, left out, sorted or averaged: one sentence each.
+    format : str
+        What the reader took the file for, in words; empty for sweeps that no file holds.
     """
 
     isotherms: tuple[Isotherm, ...]
     deformation: Deformation = "tension"
     source: str = ""
     notes: tuple[str, ...] = ()
+    format: str = ""
 
     def __post_init__(self) -> None:
         if self.deformation not in ("tension", "shear"):
@@ -106,6 +118,53 @@ class IsothermalSweeps:
         )
         note = f"Shear moduli turned into tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
         return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
+
+
+@dataclass(frozen=True, eq=False)
+class MasterCurve:
+    """Tensile modulus at one reference temperature, every measured point moved by its isotherm's shift.
+
+    Parameters
+    ----------
+    angular_frequency : (n,) array
+        Reduced, α(T) ω, ascending, rad/s.
+    storage_modulus, loss_modulus : (n,) array
+        Pa.
+    temperature : (n,) array
+        Of the isotherm that each point comes from, K.
+    reference : float
+        K.
+    """
+
+    angular_frequency: Array
+    storage_modulus: Array
+    loss_modulus: Array
+    temperature: Array
+    reference: float
+
+    def __post_init__(self) -> None:
+        shape = np.shape(self.angular_frequency)
+        for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
+            column = _column(getattr(self, name))
+            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
+                raise InputError(f"{name} of a master curve must be one row of positive numbers, one per point.")
+            object.__setattr__(self, name, column)
+        object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
+        if np.any(np.diff(self.angular_frequency) < 0):
+            raise InputError("the frequencies of a master curve must ascend.")
+
+    def __len__(self) -> int:
+        return len(self.angular_frequency)
+
+    @property
+    def complex_modulus(self) -> NDArray[np.complex128]:
+        """E' + iE'', Pa."""
+        return np.asarray(self.storage_modulus + 1j * self.loss_modulus)
+
+    @property
+    def loss_tangent(self) -> Array:
+        """E''/E'."""
+        return np.asarray(self.loss_modulus / self.storage_modulus)
 
 
 @dataclass(frozen=True, eq=False)

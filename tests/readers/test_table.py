@@ -7,8 +7,9 @@ import sys
 
 import pytest
 
+from viscofric import files
 from viscofric.errors import DataFileError
-from viscofric.readers import read_dma, table
+from viscofric.readers import read_dma
 
 HEADER = "temperature (degC);frequency (Hz);storage modulus (MPa);loss modulus (MPa)"
 
@@ -65,6 +66,6 @@ def test_devices_and_pipes_are_refused(tmp_path):
 
 
 def test_a_file_too_large_for_measurements_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(table, "LARGEST_FILE", 10)
+    monkeypatch.setattr(files, "LARGEST_FILE", 10)
     with pytest.raises(DataFileError, match="a table of measurements has at most"):
         read_dma(write(tmp_path, HEADER, "20;1;5;0.5"))

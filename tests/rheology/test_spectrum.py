@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
+from viscofric.data import MasterCurve
 from viscofric.errors import InputError
-from viscofric.rheology import MasterCurve, RetardationSpectrum, fit_retardation_spectrum
+from viscofric.rheology import RetardationSpectrum, fit_retardation_spectrum
 
 modes = st.lists(st.tuples(st.floats(0.0, 10.0), st.floats(-6.0, 6.0)), min_size=1, max_size=12)
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 import csv
 import math
 import re
-import stat
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_text
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
@@ -31,8 +30,6 @@ _UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>°?[CKF]|deg[CFK]|[mkM]?Hz|ra
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
 
 _COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
-#: A table of measurements is far smaller; what is larger was chosen by mistake.
-LARGEST_FILE = 200_000_000  # bytes
 
 
 @dataclass(frozen=True)
@@ -183,7 +180,7 @@ def read_table(path: str | PathLike[str]) -> Table:
     shown = str(path)
     lines = [
         (number, line)
-        for number, line in enumerate(_text(shown).splitlines(), start=1)
+        for number, line in enumerate(read_text(shown).splitlines(), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
     if not lines:
@@ -208,37 +205,6 @@ def read_table(path: str | PathLike[str]) -> Table:
     comma = delimiter != "," and any(_COMMA_NUMBER.fullmatch(row[place]) for row in rows for place in measured)
     numbers = np.array([number for number, _ in lines[1:]], dtype=np.int64)
     return Table(shown, columns, tuple(rows), numbers, comma)
-
-
-def _text(path: str) -> str:
-    file = Path(path)
-    try:
-        status = file.stat()
-        if stat.S_ISDIR(status.st_mode):
-            raise DataFileError(path, "is a folder, not a data file.")
-        if not stat.S_ISREG(status.st_mode):  # a device or a pipe may never end
-            raise DataFileError(path, "is a device or a pipe, not a data file.")
-        if status.st_size > LARGEST_FILE:
-            size, most = status.st_size / 1e6, LARGEST_FILE / 1e6
-            raise DataFileError(path, f"holds {size:.0f} MB; a table of measurements has at most {most:.0f} MB.")
-        data = file.read_bytes()
-    except FileNotFoundError:
-        raise DataFileError(path, "no such file.") from None
-    except ValueError as error:
-        if isinstance(error, DataFileError):
-            raise
-        raise DataFileError(path.replace("\0", "\\0"), f"is not the name of a file ({error}).") from None
-    except OSError as error:
-        raise DataFileError(path, f"cannot be opened ({error.strerror or error}).") from None
-    try:
-        text = data.decode("utf-16") if data.startswith((b"\xff\xfe", b"\xfe\xff")) else data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        # Instrument software under Windows; the five bytes that its code page leaves open stand for no letter.
-        text = data.decode("cp1252", errors="replace")
-    # Text has no control characters but tabs and ends of lines; a workbook or an image is full of them.
-    if any(ord(character) < 32 and character not in "\t\r\n\f\v" for character in text):
-        raise DataFileError(path, "is a binary file; a text table is wanted (export it as CSV).")
-    return text
 
 
 def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:

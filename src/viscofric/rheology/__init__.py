@@ -6,12 +6,11 @@ from viscofric.rheology.shift_factors import ShiftFactors
 from viscofric.rheology.shift_laws import WLF, Arrhenius, ShiftLaw, WLFArrhenius
 from viscofric.rheology.spectrum import RetardationSpectrum, SpectrumFit
 from viscofric.rheology.spectrum_fit import fit_retardation_spectrum
-from viscofric.rheology.superposition import MasterCurve, Superposition, superpose
+from viscofric.rheology.superposition import Superposition, superpose
 
 __all__ = [
     "WLF",
     "Arrhenius",
-    "MasterCurve",
     "Material",
     "RetardationSpectrum",
     "ShiftFactors",

@@ -14,7 +14,7 @@ from viscofric.threads import one_blas_thread
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.superposition import MasterCurve
+    from viscofric.data import MasterCurve
 
     Array = NDArray[np.float64]
     Complex = NDArray[np.complex128]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.data import MasterCurve
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.rheology.common_curve import common_shifts
 from viscofric.rheology.overlap import Join, LogSweep, OverlapQuality, failures, join, overlap_quality
@@ -25,54 +26,6 @@ if TYPE_CHECKING:
 
 #: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
 LARGEST_MISFIT = 0.15
-
-
-@dataclass(frozen=True, eq=False)
-class MasterCurve:
-    """Tensile modulus at one reference temperature, every measured point moved by its isotherm's shift.
-
-    Parameters
-    ----------
-    angular_frequency : (n,) array
-        Reduced, α(T) ω, ascending, rad/s.
-    storage_modulus, loss_modulus : (n,) array
-        Pa.
-    temperature : (n,) array
-        Of the isotherm that each point comes from, K.
-    reference : float
-        K.
-    """
-
-    angular_frequency: Array
-    storage_modulus: Array
-    loss_modulus: Array
-    temperature: Array
-    reference: float
-
-    def __post_init__(self) -> None:
-        shape = np.shape(self.angular_frequency)
-        for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
-            column = np.array(getattr(self, name), dtype=float)
-            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(f"{name} of a master curve must be one row of positive numbers, one per point.")
-            column.flags.writeable = False
-            object.__setattr__(self, name, column)
-        object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
-        if np.any(np.diff(self.angular_frequency) < 0):
-            raise InputError("the frequencies of a master curve must ascend.")
-
-    def __len__(self) -> int:
-        return len(self.angular_frequency)
-
-    @property
-    def complex_modulus(self) -> NDArray[np.complex128]:
-        """E' + iE'', Pa."""
-        return np.asarray(self.storage_modulus + 1j * self.loss_modulus)
-
-    @property
-    def loss_tangent(self) -> Array:
-        """E''/E'."""
-        return np.asarray(self.loss_modulus / self.storage_modulus)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,61 @@
+"""What a reader of one DMA format hands on: the points of a file in SI units, not yet sorted into isotherms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from viscofric.data import Deformation
+
+    Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """Points of frequency sweeps as one file holds them; nothing is left out, sorted or judged yet.
+
+    Parameters
+    ----------
+    source : str
+        The file, as the user named it.
+    format : str
+        What it was taken for, in words: ``"TA Instruments TRIOS text (LIMS export)"``.
+    places : tuple of str
+        Where each point stands, for notes: ``"line 18"``, ``"sheet 'Exported Data', row 4"``.
+    temperature : (n,) array
+        As measured at the sample, K.
+    angular_frequency : (n,) array
+        rad/s.
+    storage_modulus, loss_modulus : (n,) array
+        As printed, of any sign, Pa.
+    deformation : {"tension", "shear"} or None
+        None where the file does not say it.
+    said_by : str
+        What in the file says so: ``"the heading G' (MPa)"``.
+    strain_amplitude : (n,) array, optional
+        Of the oscillation, as a fraction (0.01 is 1 %); NaN where a point has none.
+    step : (n,) array of int, optional
+        Number of the step of the instrument's programme that each point belongs to.
+    notes : tuple of str
+        What was doubtful or passed over while reading: one sentence each.
+    """
+
+    source: str
+    format: str
+    places: tuple[str, ...]
+    temperature: Array
+    angular_frequency: Array
+    storage_modulus: Array
+    loss_modulus: Array
+    deformation: Deformation | None = None
+    said_by: str = ""
+    strain_amplitude: Array | None = None
+    step: NDArray[np.int64] | None = None
+    notes: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.temperature)
