@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 from viscofric.errors import InputError
-from viscofric.units import conversion, kelvin_hint, positive, registry, to_si, to_si_array
+from viscofric.units import angular_frequency, conversion, kelvin_hint, positive, registry, to_si, to_si_array
 
 
 @pytest.mark.parametrize(
@@ -131,3 +133,16 @@ def test_positive_insists():
 def test_the_hint_to_write_degrees_comes_with_small_numbers_only():
     assert kelvin_hint(300.0) == ""
     assert "write '60 degC'" in kelvin_hint(60.0)
+
+
+def test_hertz_count_two_pi_radians_each():
+    assert angular_frequency("10 Hz", "frequency") == pytest.approx(20.0 * math.pi, rel=1e-15)
+    assert angular_frequency("2 kHz", "frequency") == pytest.approx(4000.0 * math.pi, rel=1e-15)
+    assert angular_frequency("10 rad/s", "frequency") == pytest.approx(10.0, rel=1e-15)
+    assert angular_frequency(10.0, "frequency") == 10.0
+
+
+@pytest.mark.parametrize("wrong", ["10", "10 1/s", "10 s", "0 Hz", "-1 rad/s", "ten Hz", "10 rad"])
+def test_what_is_no_frequency_is_refused(wrong):
+    with pytest.raises(InputError, match="frequency"):
+        angular_frequency(wrong, "frequency")

@@ -1,8 +1,10 @@
-"""Files as users hand them over: opened with care, limited in size, decoded whatever instrument wrote them."""
+"""Files of users: opened with care, decoded whatever instrument wrote them, written whole or not at all."""
 
 from __future__ import annotations
 
+import os
 import stat
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -79,3 +81,37 @@ def decoded(data: bytes, path: str | PathLike[str]) -> str:
 def read_text(path: str | PathLike[str]) -> str:
     """Return a text file; see `read_bytes` and `decoded`."""
     return decoded(read_bytes(path), path)
+
+
+def _umask() -> int:
+    """Return the process's file mode mask, which can only be read by setting it."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Write a file by way of a temporary one beside it, moved into place when it is complete.
+
+    Raises
+    ------
+    DataFileError
+        If the folder or the file cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        temporary = Path(name)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                # Temporary files are for their owner alone; what is written here is to be handed on.
+                temporary.chmod(0o666 & ~_umask())
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            temporary.replace(path)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error

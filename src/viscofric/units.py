@@ -7,6 +7,7 @@ unit, and is imported only when a unit has to be understood.
 
 from __future__ import annotations
 
+import math
 import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -250,6 +251,24 @@ def positive(value: Quantity, unit: str, name: str) -> float:
     if number <= 0.0:
         raise _wrong(name, value, unit, "must be above zero")
     return number
+
+
+def angular_frequency(value: Quantity, name: str) -> float:
+    """Return an angular frequency in rad/s; hertz count 2π each, plain numbers are rad/s.
+
+    pint holds the radian for a pure number, so that it would take one hertz for one radian per second.
+
+    Raises
+    ------
+    InputError
+        If it is not above zero, or its unit is neither one of hertz nor rad/s.
+    """
+    if isinstance(value, str):
+        if value.rstrip().lower().endswith("hz"):
+            return 2.0 * math.pi * positive(value, "Hz", name)
+        if "rad" not in value:
+            raise _wrong(name, value, "Hz", "must be a frequency in Hz or rad/s")
+    return positive(value, "rad/s", name)
 
 
 def celsius(kelvin: float) -> float:

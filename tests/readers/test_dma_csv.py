@@ -10,7 +10,7 @@ import pytest
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers import read_dma, read_mtm
-from viscofric.readers.dma_csv import deformation_is_told
+from viscofric.readers.isotherms import deformation_is_told
 
 HEADER = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
 ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
@@ -134,13 +134,21 @@ def test_a_temperature_ramp_is_refused(tmp_path):
 
 
 def test_a_loss_modulus_below_zero_is_left_out_and_named(tmp_path):
-    sweeps = read_dma(write(tmp_path, HEADER, *ROWS, "30,20,7,-0.1", "30,30,7,0"))
+    sweeps = read_dma(write(tmp_path, HEADER, *ROWS, "30,20,7,-0.1"))
     assert_is_the_table(sweeps)
-    named = [note for note in sweeps.notes if "left out" in note]
-    assert len(named) == 2
-    assert "Line 6" in named[0]
-    assert "30.0 °C" in named[0]
-    assert "20 Hz" in named[0]
+    named = "Line 6 left out: its loss modulus is not above zero (-1e+05 Pa at 30.0 °C, 20 Hz)."
+    assert [note for note in sweeps.notes if "left out" in note] == [named]
+    several = read_dma(write(tmp_path, HEADER, *ROWS, "30,20,7,-0.1", "30,30,7,0"))
+    assert_is_the_table(several)
+    together = "2 points left out: their loss moduli are not above zero (lines 6 and 7; at 30.0 °C)."
+    assert [note for note in several.notes if "left out" in note] == [together]
+
+
+@pytest.mark.parametrize("cell", ["", "---", "-", "NaN", "n/a", "#N/A"])
+def test_cells_that_say_there_is_no_number_are_left_out_and_named(tmp_path, cell):
+    sweeps = read_dma(write(tmp_path, HEADER, *ROWS, f"30,20,{cell},0.7"))
+    assert_is_the_table(sweeps)
+    assert "Line 6 left out: a value is missing in it." in sweeps.notes
 
 
 def test_the_header_says_tension_or_shear(tmp_path):
@@ -195,7 +203,7 @@ def test_without_a_word_in_the_header_the_caller_says_it_or_a_note_does(tmp_path
             "no column for loss modulus.*this one has .*tan delta",
         ),
         ([HEADER.replace("loss", "storage"), *ROWS], "could each be the storage modulus"),
-        (["just text"], "no columns separated"),
+        (["just text"], "no columns separated by commas, semicolons, tabs or blanks that name a modulus"),
         ([""], "the file is empty"),
     ],
 )
@@ -236,3 +244,188 @@ def test_real_sweeps_are_read_with_the_bad_point_named(real_data):
     assert len(sweeps) == 20
     assert sum(map(len, sweeps.isotherms)) == 339
     assert sum("left out" in note and "-40.0 °C, 20 Hz" in note for note in sweeps.notes) == 1
+
+
+@pytest.mark.parametrize(
+    ("names", "units"),
+    [
+        ("T,f,E_stor,E_loss", "C,Hz,MPa,MPa"),
+        ("Temperature,Frequency,Storage modulus,Loss modulus", "[°C],[Hz],[N/mm²],[N/mm²]"),
+        ("T,f,E',E''", "degC, Hz, MPa, MPa"),
+    ],
+)
+def test_names_and_units_may_stand_in_two_rows(tmp_path, names, units):
+    assert_is_the_table(read_dma(write(tmp_path, names, units, *ROWS)))
+    assert_is_the_table(read_dma(write(tmp_path, names, units, *ROWS, encoding="utf-8-sig")))
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "Temperatur (°C);Frequenz (Hz);Speichermodul (MPa);Verlustmodul (MPa)",
+        "Température (°C);Fréquence (Hz);Module de conservation (MPa);Module de perte (MPa)",
+        "Temperatura (°C);Frecuencia (Hz);Módulo de almacenamiento (MPa);Módulo de pérdida (MPa)",
+        "Temperatura (°C);Frequenza (Hz);Modulo conservativo (MPa);Modulo dissipativo (MPa)",
+        "Temperatura (°C);Frequência (Hz);Módulo de armazenamento (MPa);Módulo de perda (MPa)",
+        "Temperatuur (°C);Frequentie (Hz);Opslagmodulus (MPa);Verliesmodulus (MPa)",
+        "温度 (°C);频率 (Hz);储能模量 (MPa);损耗模量 (MPa)",
+    ],
+)
+def test_columns_are_known_in_the_users_language(tmp_path, header):
+    lines = [header, *(row.replace(",", ";").replace(".", ",") for row in ROWS)]
+    assert_is_the_table(read_dma(write(tmp_path, *lines)))
+    if "温" not in header:  # which the Windows code page does not have
+        assert_is_the_table(read_dma(write(tmp_path, *lines, encoding="latin-1")))
+
+
+def test_angular_frequency_is_known_in_the_users_language(tmp_path):
+    rows = ["20;1;5;0,5", "20;10;6;0,7"]
+    for name in ("Kreisfrequenz", "pulsation", "frecuencia angular"):
+        header = f"Temperatur (°C);{name} (rad/s);Speichermodul (MPa);Verlustmodul (MPa)"
+        sweeps = read_dma(write(tmp_path, header, *rows))
+        assert sweeps.isotherms[0].angular_frequency == pytest.approx([1.0, 10.0], rel=1e-12)
+
+
+def test_shear_and_tension_are_told_in_the_users_language(tmp_path):
+    header = "Temperatur (°C);Frequenz (Hz);Speicherschubmodul (MPa);Verlustschubmodul (MPa)"
+    assert read_dma(write(tmp_path, header, *(row.replace(",", ";") for row in ROWS))).deformation == "shear"
+
+
+@pytest.mark.parametrize(
+    ("names", "row", "computed"),
+    [
+        ("storage modulus (MPa),tan delta", "8,0.75", True),  # 8, 6, 10: a right triangle
+        ("loss modulus (MPa),tan δ", "6,0.75", True),
+        ("|E*| (MPa),loss factor", "10,0.75", True),
+        ("storage modulus (MPa),loss modulus (MPa),tan delta", "8,6,0.1", False),  # the printed modulus counts
+    ],
+)
+def test_the_loss_tangent_stands_for_a_modulus_that_is_missing(tmp_path, names, row, computed):
+    sweeps = read_dma(write(tmp_path, f"T (degC),f (Hz),{names}", f"20,1,{row}", f"20,2,{row}"))
+    # exact formulas; rounding only
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([8e6, 8e6], rel=1e-12)
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([6e6, 6e6], rel=1e-12)
+    assert any("computed" in note for note in sweeps.notes) == computed
+
+
+def test_strain_amplitudes_are_kept_as_fractions(tmp_path):
+    rows = [f"{row},{amplitude}" for row, amplitude in zip(ROWS, (0.1, 0.1, 0.1, "---"), strict=True)]
+    first, second = read_dma(write(tmp_path, HEADER + ",strain amplitude (%)", *rows)).isotherms
+    assert first.strain_amplitude == pytest.approx([1e-3, 1e-3])
+    assert second.strain_amplitude == pytest.approx([1e-3, np.nan], nan_ok=True)
+
+
+def test_lines_above_the_header_are_passed_over_but_not_numbers(tmp_path):
+    above = ["Report 12", "Operator;nobody", "Sample, synthetic, 2 mm"]
+    assert_is_the_table(read_dma(write(tmp_path, *above, HEADER, *ROWS)))
+    with pytest.raises(DataFileError, match="line 2: a row of numbers stands above the header"):
+        read_dma(write(tmp_path, "Report 12", ROWS[0], HEADER, *ROWS[1:]))
+
+
+@pytest.mark.parametrize("blanks", [" ", "   "])
+def test_columns_may_be_parted_by_blanks(tmp_path, blanks):
+    rows = [f"  {row.replace(',', blanks)}  " for row in ROWS]
+    assert_is_the_table(read_dma(write(tmp_path, "T_C f_Hz E'_MPa E''_MPa", *rows)))
+    assert_is_the_table(read_dma(write(tmp_path, "T (°C)   f (Hz)   E' (MPa)   E'' (MPa)", *rows)))
+    prose = ["We swept the frequency and found the storage modulus", "20 1 5 0.5"]
+    with pytest.raises(DataFileError, match="what can be read"):
+        read_dma(write(tmp_path, *prose))
+
+
+def test_the_measured_temperature_counts_before_that_of_the_programme(tmp_path):
+    header = HEADER.replace("temperature", "set temperature") + ",temperature (degC)"
+    rows = [f"{row},{float(row[:2]) + 1.5}" for row in ROWS]
+    assert read_dma(write(tmp_path, header, *rows)).temperatures == pytest.approx([294.65, 304.65])
+    assert_is_the_table(read_dma(write(tmp_path, HEADER.replace("temperature", "set temperature"), *ROWS)))
+
+
+def test_tables_put_one_below_the_other_may_repeat_their_header(tmp_path):
+    assert_is_the_table(read_dma(write(tmp_path, HEADER, *ROWS[:2], HEADER, *ROWS[2:])))
+
+
+def test_a_modulus_without_unit_is_read_in_the_unit_that_is_given(tmp_path):
+    bare = HEADER.replace(" (MPa)", "")
+    with pytest.raises(DataFileError, match="modulus_unit='MPa'"):
+        read_dma(write(tmp_path, bare, *ROWS))
+    sweeps = read_dma(write(tmp_path, bare, *ROWS), modulus_unit="MPa")
+    assert_is_the_table(sweeps)
+    assert any("read in MPa, as asked" in note for note in sweeps.notes)
+    with pytest.raises(InputError, match="the files name the units of their moduli"):
+        read_dma(write(tmp_path, HEADER, *ROWS), modulus_unit="MPa")
+    with pytest.raises(InputError, match="modulus_unit"):
+        read_dma(write(tmp_path, bare, *ROWS), modulus_unit="mm")
+
+
+def test_a_temperature_is_given_or_told_by_the_name_of_the_file(tmp_path):
+    lines = ["frequency (Hz),E' (MPa),E'' (MPa)", "1,5,0.5", "2,6,0.6"]
+    told = read_dma(write(tmp_path, *lines, name="foam_-25C.csv"))
+    assert told.temperatures == pytest.approx([248.15])
+    assert any("taken from the file's name" in note for note in told.notes)
+    given = read_dma(write(tmp_path, *lines, name="foam_30C.csv"), temperature="-25 degC")
+    assert given.temperatures == pytest.approx([248.15])
+    assert any("given by the user" in note for note in given.notes)
+    for name in ("foam.csv", "foam-25C.csv", "foam_20C_to_30C.csv"):  # none, a minus or a dash, two
+        with pytest.raises(DataFileError, match=r"temperature='25 degC'.*read_master_curve"):
+            read_dma(write(tmp_path, *lines, name=name))
+    with pytest.raises(DataFileError, match=r"holds the temperatures; leave out temperature"):
+        read_dma(write(tmp_path, HEADER, *ROWS), temperature="20 degC")
+
+
+def test_temperatures_may_be_given_for_each_file(tmp_path):
+    lines = ["frequency (Hz),E' (MPa),E'' (MPa)", "1,5,0.5", "2,6,0.6"]
+    first = write(tmp_path, *lines, name="a.csv")
+    second = write(tmp_path, *lines, "3,7,0.7", name="b.csv")
+    third = write(tmp_path, HEADER.replace("storage", "tensile storage"), "50,1,5,0.5", "50,2,6,0.6", name="c.csv")
+    sweeps = read_dma([first, second], third, temperature=["20 degC", 303.15, None])
+    assert sweeps.temperatures == pytest.approx([293.15, 303.15, 323.15])
+    with pytest.raises(InputError, match="holds 2 values for 3 files"):
+        read_dma(first, second, third, temperature=["20 degC", "30 degC"])
+    with pytest.raises(InputError, match="write '20 degC'"):
+        read_dma(first, second, temperature=20)
+
+
+def test_a_master_curve_is_sent_to_its_own_reader(tmp_path):
+    rows = [f"1e{power},5,0.5" for power in range(-6, 6)]
+    with pytest.raises(DataFileError, match=r"11 decades of frequency.*use read_master_curve"):
+        read_dma(write(tmp_path, "f (Hz),E' (MPa),E'' (MPa)", *rows, name="foam_20C.csv"))
+
+
+def test_foam_with_rad_per_s_and_temperatures_in_the_names_of_its_files(real_data):
+    files = sorted((real_data / "instruments" / "rad_per_s_tsv").glob("*C.csv"))
+    with pytest.raises(DataFileError, match="modulus_unit='MPa'"):
+        read_dma(files)
+    sweeps = read_dma(files, modulus_unit="MPa", deformation="shear")
+    assert len(sweeps) == 19
+    assert [len(one) for one in sweeps.isotherms] == [11] * 19
+    assert sweeps.temperatures[[0, 1, -1]] - 273.15 == pytest.approx([-35.0, -30.0, 60.0])
+    assert sweeps.isotherms[2].angular_frequency[:2] == pytest.approx([0.3, 0.475468])  # at -25 °C
+    assert sweeps.isotherms[2].storage_modulus[0] == pytest.approx(77.6574e6)
+    assert sweeps.isotherms[2].loss_modulus[0] == pytest.approx(3.57905e6)
+    assert len(sweeps.notes) <= 8
+
+
+def test_the_layout_of_two_rows_of_a_real_file(real_data):
+    sweeps = read_dma(real_data / "instruments" / "two_row_csv" / "freq_user_raw.csv")
+    assert [len(one) for one in sweeps.isotherms] == [10] * 21
+    assert sweeps.deformation == "tension"
+    assert sweeps.isotherms[0].angular_frequency[0] == pytest.approx(2 * math.pi * 0.1)
+    assert sweeps.isotherms[0].storage_modulus[0] == pytest.approx(8097.175545e6)
+    assert sweeps.isotherms[0].loss_modulus[0] == pytest.approx(93.07449045e6)
+
+
+@pytest.mark.parametrize(
+    ("name", "isotherms", "points", "outliers"),
+    [
+        ("acrylic_468mp", 20, 339, ["2 loss moduli"]),
+        ("adhesive_ems_ca", 21, 210, []),
+        ("eva_shear", 19, 183, ["2 storage moduli", "2 loss moduli"]),
+        ("vinyl_nitrile_foam", 19, 209, ["The loss modulus at -35.0"]),
+    ],
+)
+def test_real_tables_are_read_and_few_of_their_points_are_doubted(real_data, name, isotherms, points, outliers):
+    sweeps = read_dma(real_data / "dma" / f"{name}.csv")
+    assert len(sweeps) == isotherms
+    assert sum(map(len, sweeps.isotherms)) == points
+    doubted = [note for note in sweeps.notes if "far off" in note]
+    assert len(doubted) == len(outliers)
+    assert all(note.startswith(start) for note, start in zip(doubted, outliers, strict=True))

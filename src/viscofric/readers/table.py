@@ -12,9 +12,11 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
+from viscofric.readers.names import quantity
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from os import PathLike
 
     from numpy.typing import NDArray
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>°?[CKF]|deg[CFK]|[mkM]?Hz|rad/s|[kMG]?Pa|m?N|[mc]?m/s|1/s)$")
+#: How instruments and people print that there is no number.
+MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n/a", "#n/a", "n.a.", "null", "none", "*"})
 
 # How instruments write the units of temperature that pint would take for coulomb, farad or nothing at all.
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
@@ -86,6 +90,16 @@ class Table:
             [self._number(row[column], heading, int(line)) for row, line in zip(self.rows, self.lines, strict=True)]
         )
 
+    def numbers_or_missing(self, column: int) -> Array:
+        """Return a column as printed, NaN where a cell is empty or says that there is no number."""
+        heading = self.columns[column].heading
+        return np.array(
+            [
+                math.nan if row[column].strip().lower() in MISSING else self._number(row[column], heading, int(line))
+                for row, line in zip(self.rows, self.lines, strict=True)
+            ]
+        )
+
     def _number(self, cell: str, heading: str, line: int) -> float:
         text = cell.strip()
         if not text:
@@ -125,14 +139,30 @@ class Table:
         DataFileError
             If a cell is not a finite number, or the heading's unit is missing or of the wrong kind.
         """
-        factor, offset = self._conversion(self.columns[column], unit)
+        factor, offset = self.conversion(self.columns[column], unit)
         return factor * self.numbers(column) + offset
 
-    def _conversion(self, column: Column, unit: str) -> tuple[float, float]:
+    def conversion(self, column: Column, unit: str, hint: str = "") -> tuple[float, float]:
+        """Return ``(factor, offset)`` that turn a column as printed into an SI unit.
+
+        Parameters
+        ----------
+        column : Column
+            One of `columns`.
+        unit : str
+            The SI unit wanted.
+        hint : str
+            What the user may do where the heading has no unit, besides adding it: the end of a sentence.
+
+        Raises
+        ------
+        DataFileError
+            If the heading's unit is missing or of the wrong kind.
+        """
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s"}.get(unit, unit)
         if not column.unit:
             right = f"{column.name} ({example})"
-            raise DataFileError(self.path, f"column {column.heading!r} has no unit; write it as {right!r}.")
+            raise DataFileError(self.path, f"column {column.heading!r} has no unit; write it as {right!r}{hint}.")
         text = column.unit
         if unit == "K":
             text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]|℃", "", text.replace("℃", "C")).lower(), text)
@@ -178,49 +208,78 @@ def read_table(path: str | PathLike[str]) -> Table:
         as its header.
     """
     shown = str(path)
-    lines = [
-        (number, line)
-        for number, line in enumerate(read_text(shown).splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
+    lines = text_lines(read_text(shown))
     if not lines:
         raise DataFileError(shown, "the file is empty; it must hold a header and rows of numbers.")
     first, header = lines[0]
     delimiter = max("\t;,", key=header.count)
     if delimiter not in header:
         raise DataFileError(shown, "the header has no columns separated by commas, semicolons or tabs.", first)
-    columns = tuple(_column(heading) for heading in _cells(shown, first, header, delimiter))
+    columns = tuple(heading(cell) for cell in split_cells(shown, first, header, delimiter))
+    rows = [(number, split_cells(shown, number, line, delimiter)) for number, line in lines[1:]]
+    return make_table(shown, columns, rows, comma_is_free=delimiter != ",")
+
+
+def text_lines(text: str) -> list[tuple[int, str]]:
+    """Return the lines that are neither blank nor remarks (``#``), each with its number."""
+    numbered = enumerate(text.splitlines(), start=1)
+    return [(number, line) for number, line in numbered if line.strip() and not line.lstrip().startswith("#")]
+
+
+def make_table(
+    path: str, columns: tuple[Column, ...], numbered: Sequence[tuple[int, Sequence[str]]], *, comma_is_free: bool = True
+) -> Table:
+    """Put rows of cells under their headings.
+
+    Parameters
+    ----------
+    path : str
+        Named in errors.
+    columns : tuple of Column
+        The headings.
+    numbered : list of (int, list of str)
+        Each row with its number in the file.
+    comma_is_free : bool
+        Whether a comma may stand for the decimal point.
+
+    Raises
+    ------
+    DataFileError
+        If there is no row, or one is not as long as the header.
+    """
     rows = []
-    for number, line in lines[1:]:
-        cells = _cells(shown, number, line, delimiter)
+    for number, row in numbered:
+        cells = list(row)
         while len(cells) > len(columns) and not cells[-1].strip():  # delimiters that close a row
             cells.pop()
         if len(cells) != len(columns):
             problem = f"the row has {len(cells)} cells where the header names {len(columns)} columns."
-            raise DataFileError(shown, problem, number)
+            raise DataFileError(path, problem, number)
         rows.append(tuple(cells))
     if not rows:
-        raise DataFileError(shown, "there is a header, but no row of numbers under it.")
-    measured = [place for place, column in enumerate(columns) if column.unit]  # a remark may hold any comma
-    comma = delimiter != "," and any(_COMMA_NUMBER.fullmatch(row[place]) for row in rows for place in measured)
-    numbers = np.array([number for number, _ in lines[1:]], dtype=np.int64)
-    return Table(shown, columns, tuple(rows), numbers, comma)
+        raise DataFileError(path, "there is a header, but no row of numbers under it.")
+    # a remark may hold any comma
+    measured = [place for place, column in enumerate(columns) if column.unit or quantity(column.name)]
+    comma = comma_is_free and any(_COMMA_NUMBER.fullmatch(row[place]) for row in rows for place in measured)
+    return Table(path, columns, tuple(rows), np.array([number for number, _ in numbered], dtype=np.int64), comma)
 
 
-def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
+def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
+    """Split one line, quoted cells included, or raise `DataFileError`."""
     try:
         return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
     except csv.Error as error:
         raise DataFileError(path, f"the row cannot be split into cells ({error}).", number) from None
 
 
-def _column(heading: str) -> Column:
-    heading = heading.strip()
-    plain = re.sub(r"[’′‘`´]", "'", heading).replace("″", "''").replace("”", "''").replace('"', "''")
+def heading(text: str) -> Column:
+    """Part a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``."""
+    text = text.strip()
+    plain = re.sub(r"[’′‘`´]", "'", text).replace("″", "''").replace("”", "''").replace('"', "''")
     name, unit = plain, ""
     for pattern in (_BRACKETED, _SLASHED, _UNDERSCORED):
         match = pattern.match(plain)
         if match:
             name, unit = match["name"], match["unit"]
             break
-    return Column(heading, " ".join(name.replace("_", " ").split()), unit)
+    return Column(text, " ".join(name.replace("_", " ").split()), unit)

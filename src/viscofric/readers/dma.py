@@ -1,0 +1,140 @@
+"""Frequency sweeps of a dynamic mechanical analyser from any file that is known, recognised by its content."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_bytes
+from viscofric.readers.dma_columns import unit_as_asked
+from viscofric.readers.formats import format_of
+from viscofric.readers.isotherms import isothermal_sweeps
+from viscofric.readers.source import Source
+from viscofric.units import celsius, conversion, kelvin_hint, positive
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from os import PathLike
+
+    from viscofric.data import Deformation, IsothermalSweeps
+    from viscofric.readers.readings import Readings
+    from viscofric.units import Quantity
+
+
+def read_dma(
+    *paths: str | PathLike[str] | Sequence[str | PathLike[str]],
+    deformation: Deformation | None = None,
+    temperature: Quantity | Sequence[Quantity | None] | None = None,
+    modulus_unit: str | None = None,
+) -> IsothermalSweeps:
+    """Read frequency sweeps at several temperatures from files of a dynamic mechanical analyser or a rheometer.
+
+    The format is told by the content, never by the name: exports of instruments, Excel workbooks, and text tables
+    with a header that names temperature, frequency (``f (Hz)``) or angular frequency (``omega (rad/s)``), storage
+    and loss modulus, each with its unit in the same row or the row below; rows in any order.
+
+    Parameters
+    ----------
+    *paths : str or path, or a list of them
+        One or many files of one specimen; units may differ between them, the kind of deformation may not.
+    deformation : {"tension", "shear"}, optional
+        What the moduli are, where the files do not say it (E' or G'); tension if nobody says it, with a note.
+    temperature : float, str or quantity, or a list with one (or None) per file, optional
+        Of files that hold none, K if a plain number.  Without it the temperature in a file's name
+        (``foam_-25C.csv``) is taken, with a note.
+    modulus_unit : str, optional
+        Of files that do not name it: ``"MPa"``.
+
+    Returns
+    -------
+    IsothermalSweeps
+        In SI units; `format` says what the files were taken for.  Its notes name every point left out (a value
+        missing or not above zero, recorded while the temperature was moving), averaged or reordered, and what is
+        doubtful.
+
+    Raises
+    ------
+    DataFileError
+        If a file cannot be read or is not recognised, a column or unit is missing or wrong, a cell is no number,
+        most storage moduli or frequencies are not above zero, files contradict each other or are given twice, or
+        the temperatures form a ramp, not isotherms.
+    InputError
+        If no file is given, or an argument is wrong.
+    """
+    if deformation not in (None, "tension", "shear"):
+        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")
+    files = _files(paths)
+    given = _temperatures(temperature, len(files))
+    if modulus_unit is not None:
+        conversion(modulus_unit, "Pa", "modulus_unit")
+    sources = [
+        Source(path, _bytes(path), kelvin, modulus_unit or "") for path, kelvin in zip(files, given, strict=True)
+    ]
+    _insist_on_different(sources)
+    readings = [_read(source) for source in sources]
+    if modulus_unit is not None and not any(unit_as_asked(modulus_unit) in one.notes for one in readings):
+        raise InputError(f"modulus_unit = {modulus_unit!r}: the files name the units of their moduli; leave it out.")
+    return isothermal_sweeps(readings, deformation)
+
+
+def _files(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]]) -> list[str]:
+    files: list[str] = []
+    for path in paths:
+        if isinstance(path, (str, Path)) or hasattr(path, "__fspath__"):
+            files.append(str(path))
+            continue
+        try:
+            files += [str(one) for one in path]
+        except TypeError:
+            raise InputError(f"{path!r} is not the name of a file, nor a list of such.") from None
+    if not files:
+        raise InputError("read_dma needs at least one file.")
+    return files
+
+
+def _temperatures(given: Quantity | Sequence[Quantity | None] | None, count: int) -> list[float | None]:
+    """Return one temperature, K, or None per file."""
+    if not isinstance(given, (list, tuple, np.ndarray)):
+        return [None if given is None else _kelvin(cast("Quantity", given))] * count
+    if len(given) != count:
+        raise InputError(f"temperature holds {len(given)} values for {count} files; give one for all, or one for each.")
+    return [None if one is None else _kelvin(one) for one in given]
+
+
+def _kelvin(value: Quantity) -> float:
+    kelvin = positive(value, "K", "temperature")
+    hint = kelvin_hint(kelvin) if isinstance(value, (int, float)) else ""
+    if hint:
+        raise InputError(f"temperature = {value!r}: is {celsius(kelvin):.4g} °C{hint}.")
+    return kelvin
+
+
+def _bytes(path: str) -> bytes:
+    if "\0" not in path and Path(path).is_dir():
+        raise DataFileError(path, "is a folder, not a data file; give its files, e.g. *sorted(Path(folder).glob('*')).")
+    return read_bytes(path)
+
+
+def _insist_on_different(sources: Sequence[Source]) -> None:
+    """Refuse readings that would count twice."""
+    seen: dict[object, Source] = {}
+    for source in sources:
+        for key, problem in (
+            (Path(source.path).resolve(), "is given twice; name each file once."),
+            (source.data, "holds the same as {}; give one of them only."),
+        ):
+            if key in seen:
+                raise DataFileError(source.path, problem.format(seen[key].path))
+            seen[key] = source
+
+
+def _read(source: Source) -> Readings:
+    """Read one file, and see that what the user said of it was wanted."""
+    readings = format_of(source).read(source)
+    told = source.temperature
+    if told is not None and not np.all(np.isclose(readings.temperature, told, rtol=0.0, atol=1e-9)):
+        raise DataFileError(source.path, f"holds temperatures itself ({readings.format}); leave out temperature.")
+    return readings

@@ -1,0 +1,175 @@
+"""Which column of a DMA table is what, and the frequencies and moduli that follow from them, in SI units."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.readers.names import (
+    ANGULAR_FREQUENCY,
+    COMPLEX_MODULUS,
+    FREQUENCY,
+    LOSS_MODULUS,
+    LOSS_TANGENT,
+    SET_TEMPERATURE,
+    STORAGE_MODULUS,
+    TEMPERATURE,
+    deformation_of,
+    quantity,
+)
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import Deformation
+    from viscofric.readers.source import Source
+    from viscofric.readers.table import Table
+
+    Array = NDArray[np.float64]
+
+#: Hz and rad/s of one row, both printed with two digits or so, agree within this (relative).
+PRINTED_FREQUENCY = 0.05
+
+_HINT = ", or say it by modulus_unit='MPa'"
+_MODULI = ("storage modulus", "loss modulus", "complex modulus")
+
+
+def find_columns(table: Table) -> dict[str, int]:
+    """Return the places of the columns by what they hold, or say which are missing and what there is.
+
+    Raises
+    ------
+    DataFileError
+        If there is no frequency, or the columns do not give both moduli.
+    """
+    angular = table.find(ANGULAR_FREQUENCY, "angular frequency")
+    found = {
+        "temperature": table.find(TEMPERATURE, "temperature"),
+        "frequency": table.find(FREQUENCY, "frequency") if angular is None else angular,
+        "storage modulus": table.find(STORAGE_MODULUS, "storage modulus"),
+        "loss modulus": table.find(LOSS_MODULUS, "loss modulus"),
+        "complex modulus": table.find(COMPLEX_MODULUS, "complex modulus"),
+        "tan delta": table.find(LOSS_TANGENT, "tan delta"),
+    }
+    if found["temperature"] is None:
+        found["temperature"] = table.find(SET_TEMPERATURE, "set temperature")
+    places = {what: place for what, place in found.items() if place is not None}
+    tangent = places.get("tan delta")
+    if tangent is not None and table.columns[tangent].unit not in ("", "1"):  # a tangent has no unit
+        del places["tan delta"]
+    missing = [] if "frequency" in places else ["frequency"]
+    if "tan delta" not in places or not any(modulus in places for modulus in _MODULI):
+        missing += [modulus for modulus in _MODULI[:2] if modulus not in places]
+    if missing and "temperature" not in places:
+        missing.insert(0, "temperature")
+    if missing:
+        raise DataFileError(
+            table.path,
+            f"no column for {' or '.join(missing)}; a DMA table has e.g. 'temperature (degC)', 'frequency (Hz)', "
+            f"'storage modulus (MPa)', 'loss modulus (MPa)', this one has {table.headings()}.",
+        )
+    return places
+
+
+def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) -> Array:
+    """Return rad/s, NaN where a cell is missing; adds a note where the unit follows from the name only."""
+    place = places["frequency"]
+    if not table.columns[place].unit and quantity(table.columns[place].name) == "angular frequency":
+        shown = table.columns[place].heading
+        notes.append(f"The column {shown!r} has no unit; it was read in rad/s, as its name implies.")
+        return table.numbers_or_missing(place)
+    return _in_rad_per_second(table, place)
+
+
+def _in_rad_per_second(table: Table, place: int) -> Array:
+    """Return rad/s.  pint holds the radian for a pure number, so hertz and rad/s are told apart here."""
+    column = table.columns[place]
+    named_angular = quantity(column.name) == "angular frequency"
+    unit = column.unit.replace(" ", "")
+    hertz = re.fullmatch(r"[mkM]?Hz", unit, re.IGNORECASE)
+    bare = re.fullmatch(r"1/s|s\^?-1|s⁻¹", unit)
+    if re.fullmatch(r"rad(/s|/sec|s\^?-1|·s⁻¹|s⁻¹|\*s\^-1)", unit) or (bare and named_angular):
+        return table.numbers_or_missing(place)
+    if (hertz and not named_angular) or bare:
+        prefix = {"m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6}[unit[0]] if hertz and len(unit) == 3 else 1.0
+        return 2.0 * math.pi * prefix * table.numbers_or_missing(place)
+    right = "'rad/s'" if named_angular else "'Hz' or 'rad/s'"
+    shown = f"the unit {column.unit!r}" if column.unit else "no unit"
+    raise DataFileError(table.path, f"column {column.heading!r} has {shown}; it must be {right}.")
+
+
+def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array) -> None:
+    """Raise `DataFileError` where a second column of frequency contradicts the first."""
+    used, other = places["frequency"], table.find(FREQUENCY, "frequency")
+    if other is None or other == used:
+        return
+    apart = np.abs(_in_rad_per_second(table, other) - angular) > PRINTED_FREQUENCY * np.abs(angular)
+    if np.any(apart):
+        row = int(np.argmax(apart))
+        told = [
+            f"{table.rows[row][place].strip()} in column {table.columns[place].heading!r}" for place in (other, used)
+        ]
+        problem = f"{' and '.join(told)} contradict each other (ω = 2πf); correct or leave out one of them."
+        raise DataFileError(table.path, problem, int(table.lines[row]))
+
+
+def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str]) -> tuple[Array, Array]:
+    """Return storage and loss modulus, Pa, as printed or from tan δ; adds notes on what was computed.
+
+    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ give the others exactly.
+    """
+    values = {what: _modulus(table, places[what], source, notes) for what in _MODULI if what in places}
+    if "storage modulus" in values and "loss modulus" in values:
+        return values["storage modulus"], values["loss modulus"]
+    tangent = table.numbers_or_missing(places["tan delta"])
+    if "storage modulus" in values:
+        notes.append("The loss moduli were computed as storage modulus times tan δ.")
+        return values["storage modulus"], values["storage modulus"] * tangent
+    if "loss modulus" in values:
+        notes.append("The storage moduli were computed as loss modulus over tan δ.")
+        tangent = np.where(tangent == 0.0, np.nan, tangent)
+        return values["loss modulus"] / tangent, values["loss modulus"]
+    notes.append("Storage and loss moduli were computed from the absolute value of the complex modulus and tan δ.")
+    storage = values["complex modulus"] / np.hypot(1.0, tangent)
+    return storage, storage * tangent
+
+
+def unit_as_asked(unit: str) -> str:
+    """Return the note on moduli whose unit only the user told."""
+    return f"The moduli have no unit in the file; they were read in {unit}, as asked."
+
+
+def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Array:
+    """Return a column in Pa, by its own unit or by the one that the user gave."""
+    column = table.columns[place]
+    if source.modulus_unit and not column.unit:
+        factor, offset = conversion(source.modulus_unit, "Pa", "modulus_unit")
+        note = unit_as_asked(source.modulus_unit)
+        if note not in notes:
+            notes.append(note)
+    else:
+        factor, offset = table.conversion(column, "Pa", _HINT)
+    return factor * table.numbers_or_missing(place) + offset
+
+
+def deformation(table: Table, places: dict[str, int]) -> tuple[Deformation | None, str]:
+    """Return what the headings say of the deformation, and by which words.
+
+    Raises
+    ------
+    DataFileError
+        If one modulus is called tensile and another one shear.
+    """
+    said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
+    known = [(kind, place) for kind, place in said if kind is not None]
+    if len({kind for kind, _ in known}) > 1:
+        raise DataFileError(table.path, "one modulus is headed as tensile (E), the other as shear (G).")
+    if not known:
+        return None, ""
+    kind, place = known[0]
+    return kind, f"the heading {table.columns[place].heading!r}"

@@ -1,0 +1,168 @@
+"""Points of frequency sweeps out of a table with units: temperature, strain amplitude and step beside the moduli."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.readers.dma_columns import (
+    angular_frequency,
+    deformation,
+    find_columns,
+    insist_on_one_frequency,
+    moduli,
+)
+from viscofric.readers.names import STEP, quantity, temperature_in_name
+from viscofric.readers.plausibility import doubts
+from viscofric.readers.readings import Readings
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.readers.source import Source
+    from viscofric.readers.table import Table
+
+    Array = NDArray[np.float64]
+
+#: No sweep of an instrument spans as many decades of frequency as master curves do.
+WIDEST_SWEEP = 7.0  # decades
+
+
+def read_points(table: Table, source: Source, format: str, name: str, where: str = "line") -> Readings:  # noqa: A002
+    """Return the points of one table.
+
+    Parameters
+    ----------
+    table : Table
+        With temperature, frequency, storage and loss modulus; one modulus or both may be given by tan δ and the
+        absolute value |E*|.
+    source : Source
+        The file, with what the user said of it.
+    format : str
+        What it was taken for.
+    name : str
+        Of the file or sheet, without folder and ending: it may tell a temperature that no column holds.
+    where : str
+        What the numbers of rows count: lines or rows.
+
+    Raises
+    ------
+    DataFileError
+        If a column or unit is missing or wrong, a cell is not a number, frequencies contradict each other, or the
+        moduli are called tensile and shear at once.
+    """
+    places = find_columns(table)
+    notes: list[str] = []
+    frequency = angular_frequency(table, places, notes)
+    insist_on_one_frequency(table, places, frequency)
+    storage, loss = moduli(table, places, source, notes)
+    temperature = _temperature(table, places, source, name, frequency, notes)
+    _insist_on_most(table, places, "frequency", frequency)
+    _insist_on_most(table, places, "storage modulus", storage)
+    kind, said_by = deformation(table, places)
+    return Readings(
+        source=source.path,
+        format=format,
+        places=tuple(f"{where} {number}" for number in table.lines),
+        temperature=temperature,
+        angular_frequency=frequency,
+        storage_modulus=storage,
+        loss_modulus=loss,
+        deformation=kind,
+        said_by=said_by,
+        strain_amplitude=_strain_amplitude(table),
+        step=_step(table),
+        notes=(*notes, *doubts(table, places, temperature, storage)),
+    )
+
+
+def _temperature(
+    table: Table, places: dict[str, int], source: Source, name: str, angular: Array, notes: list[str]
+) -> Array:
+    """Return K: from the column, else as the user gave it, else as the file's name tells it, with a note."""
+    if "temperature" in places:
+        if source.temperature is not None:
+            heading = table.columns[places["temperature"]].heading
+            problem = f"column {heading!r} holds the temperatures; leave out temperature for this file."
+            raise DataFileError(table.path, problem)
+        factor, offset = table.conversion(table.columns[places["temperature"]], "K")
+        kelvin = factor * table.numbers_or_missing(places["temperature"]) + offset
+        cold = np.flatnonzero(kelvin <= 0.0)
+        if cold.size:
+            row, place = int(cold[0]), places["temperature"]
+            problem = f"{_cell(table, row, place)} in column {table.columns[place].heading!r} must be above "
+            raise DataFileError(table.path, problem + "absolute zero.", int(table.lines[row]))
+        return kelvin
+    if source.temperature is not None:
+        notes.append("No column holds a temperature; it was given by the user.")
+        return np.full(len(angular), source.temperature)
+    told, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
+    swept = angular[angular > 0.0]
+    decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
+    if told is None or decades > WIDEST_SWEEP:
+        raise _no_temperature(table, decades)
+    notes.append(f"No column holds a temperature; it was taken from the {named} name.")
+    return np.full(len(angular), told)
+
+
+def _no_temperature(table: Table, decades: float) -> DataFileError:
+    if decades > WIDEST_SWEEP:
+        return DataFileError(
+            table.path,
+            f"no column for temperature, and {decades:.0f} decades of frequency: this looks like a master curve; "
+            "use read_master_curve with its reference temperature.",
+        )
+    return DataFileError(
+        table.path,
+        f"no column for temperature, this table has {table.headings()}; for a sweep at one temperature say it, "
+        "temperature='25 degC', and a master curve is read by read_master_curve.",
+    )
+
+
+def _cell(table: Table, row: int, place: int) -> str:
+    return table.rows[row][place].strip()
+
+
+def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Array) -> None:
+    """Refuse a column of which most is missing or not above zero; single points are left out later, with a note."""
+    place = places.get(what)
+    bad = np.flatnonzero(~(values > 0.0))
+    if place is None or 2 * len(bad) <= len(values):
+        return
+    table.numbers(place)  # tells the first cell that is empty or no number
+    row = int(bad[0])
+    problem = f"{_cell(table, row, place)} in column {table.columns[place].heading!r} must be above zero."
+    raise DataFileError(table.path, problem, int(table.lines[row]))
+
+
+def _strain_amplitude(table: Table) -> Array | None:
+    """Return fractions, None where no one column tells them with a unit that is understood."""
+    found = [p for p, column in enumerate(table.columns) if quantity(column.name) == "strain amplitude"]
+    if len(found) != 1:
+        return None
+    unit = table.columns[found[0]].unit.strip()
+    factor = {"%": 1e-2, "": 1.0, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0}.get(unit)
+    if factor is None:
+        return None
+    try:
+        values = factor * table.numbers_or_missing(found[0])
+    except DataFileError:  # words in a column that is not needed
+        return None
+    return np.where(values >= 0.0, values, np.nan)
+
+
+def _step(table: Table) -> NDArray[np.int64] | None:
+    """Return the numbers of steps, None where no one column holds whole numbers for them."""
+    found = [p for p, column in enumerate(table.columns) if column.name.lower() in STEP]
+    if len(found) != 1:
+        return None
+    try:
+        numbers = table.numbers(found[0])
+    except DataFileError:
+        return None
+    if np.any(numbers != np.round(numbers)) or np.any(np.abs(numbers) > 1e9):
+        return None
+    return numbers.astype(np.int64)

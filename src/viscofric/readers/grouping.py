@@ -1,0 +1,201 @@
+"""Which points belong to one isotherm: by measured temperature, and by the steps of the instrument's programme."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.readers.points import Points
+
+    Indices = NDArray[np.intp]
+
+#: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.
+ISOTHERM_GAP = 1.0  # K
+#: A step of the programme whose temperature ranges no further than this is one isotherm, settling included.
+ONE_STEP = 2.0  # K
+#: A group without gaps wider than this is not one temperature but a ramp.
+WIDEST_ISOTHERM = 5.0  # K
+#: The temperature of a sample that is held moves by less than one of these from one point to the next, that of a
+#: sample that is heated by more; which of them parts the two depends on how often points were recorded.
+HELD = (0.3, 0.15, 0.08, 0.04, 0.02)  # K
+#: A sample is held where at least so many frequencies follow each other at one temperature.
+SHORTEST_HOLD = 3
+#: Temperatures that are held lie further apart than they wander, by this factor: those of a noisy ramp do not.
+APART = 3.0
+#: At a held temperature there are more points by this factor than elsewhere, within so many kelvin on either side.
+CROWDED, NEAR = 2.0, 0.25  # 1, K
+#: Each isotherm of a programme has at least this share of the frequencies of all.
+SWEPT = 0.8
+#: So many temperatures with one frequency each are a temperature sweep.
+TEMPERATURE_SWEEP = 5
+
+
+def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[Indices], list[str]]:
+    """Return the points of each isotherm, in the order of reading, and notes on points that belong to none.
+
+    Points of one file and step are parted where their temperatures leave a gap.  Where they leave none over more
+    than `WIDEST_ISOTHERM`, the sample was heated between its isotherms while points were recorded: what was
+    recorded while the temperature was held is kept.  Groups of equal temperature, of one file or several, become
+    one isotherm; groups of hardly any frequency, beside isotherms with several, are left out.
+
+    Parameters
+    ----------
+    points : Points
+        As read.
+    keep : (m,) array of int
+        Which of them can be used.
+    source : str
+        Named in errors.
+
+    Raises
+    ------
+    DataFileError
+        If the temperatures form a ramp, or a temperature sweep at one frequency.
+    """
+    groups: list[Indices] = []
+    moving: list[int] = []
+    for block in _blocks(points, keep):
+        for group in _by_gaps(points, block):
+            if np.ptp(points.temperature[group]) <= WIDEST_ISOTHERM:
+                groups.append(group)
+                continue
+            held = _holds(points, group, source)
+            groups += held
+            moving += sorted(set(group.tolist()) - {index for one in held for index in one.tolist()})
+    notes = []
+    if moving:
+        what = "1 point left out: its" if len(moving) == 1 else f"{len(moving)} points left out: their"
+        notes.append(f"{what} temperature was moving between two isotherms ({points.named(sorted(moving))}).")
+    merged = _merged(points, groups)
+    kept = _insist_on_several(points, merged, source)
+    notes += _on_small_groups(points, merged, kept)
+    return kept, notes
+
+
+def _blocks(points: Points, keep: Indices) -> list[Indices]:
+    """Part the points by file and, where the file tells it, by step."""
+    keys = np.stack([points.file[keep], np.where(points.has_step[keep], points.step[keep], 0)], axis=1)
+    _, which = np.unique(keys, axis=0, return_inverse=True)
+    which = np.ravel(which)
+    return [keep[which == number] for number in range(int(which.max()) + 1)]
+
+
+def _by_gaps(points: Points, block: Indices) -> list[Indices]:
+    """Part points where neighbours in temperature differ by more than a gap."""
+    kelvin = points.temperature[block]
+    if points.has_step[block[0]] and np.ptp(kelvin) <= ONE_STEP:
+        return [block]
+    order = np.argsort(kelvin, kind="stable")
+    cuts = np.flatnonzero(np.diff(kelvin[order]) > ISOTHERM_GAP) + 1
+    return [np.sort(block[part]) for part in np.split(order, cuts)]
+
+
+def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
+    """Return the stretches of a heated sample's points in which its temperature was held."""
+    for step in HELD:
+        held = _stretches(points, group, step)
+        if len(held) < 2 or not _lie_apart(points, held):
+            continue
+        if _are_sweeps(points, held) and _are_crowded(points, group, held):
+            return held
+    kelvin = points.temperature[group]
+    low, high = float(kelvin.min()), float(kelvin.max())
+    raise DataFileError(
+        source,
+        f"the temperatures from {celsius(low):z.1f} to {celsius(high):z.1f} °C run on without a gap of "
+        f"{ISOTHERM_GAP:g} K; isothermal sweeps are wanted, not a temperature ramp.",
+    )
+
+
+def _stretches(points: Points, group: Indices, step: float) -> list[Indices]:
+    """Return runs of points that follow each other by less than a step, those at one temperature joined."""
+    runs = np.split(group, np.flatnonzero(np.abs(np.diff(points.temperature[group])) > step) + 1)
+    held: list[Indices] = []
+    for run in runs:
+        if len(_printed_frequencies(points, run)) < SHORTEST_HOLD:
+            continue
+        if held and abs(_mean(points, run) - _mean(points, held[-1])) <= ISOTHERM_GAP:
+            held[-1] = np.concatenate([held[-1], run])
+        else:
+            held.append(run)
+    return held
+
+
+def _lie_apart(points: Points, held: list[Indices]) -> bool:
+    """Return whether temperatures lie much further apart than each wanders while it is held."""
+    wander = [float(np.ptp(points.temperature[run])) for run in held]
+    between = [abs(_mean(points, run) - _mean(points, after)) for run, after in pairwise(held)]
+    return max(wander) <= ONE_STEP and all(
+        distance > APART * max(pair) for distance, pair in zip(between, pairwise(wander), strict=True)
+    )
+
+
+def _are_crowded(points: Points, group: Indices, held: list[Indices]) -> bool:
+    """Return whether points crowd at the held temperatures; along a ramp they lie as close everywhere."""
+    kelvin = points.temperature[group]
+    near = [int(np.sum(np.abs(kelvin - _mean(points, run)) <= NEAR)) for run in held]
+    rest = max(len(group) - sum(len(run) for run in held), 0)
+    per_window = rest * 2.0 * NEAR / float(np.ptp(kelvin))
+    return min(near) >= CROWDED * per_window
+
+
+def _are_sweeps(points: Points, held: list[Indices]) -> bool:
+    """Return whether nearly the same frequencies, three or more, were swept at each temperature."""
+    swept = [_printed_frequencies(points, run) for run in held]
+    programme = len(np.unique(np.concatenate(swept)))
+    return all(len(one) >= max(SHORTEST_HOLD, SWEPT * programme) for one in swept)
+
+
+def _mean(points: Points, rows: Indices) -> float:
+    return float(np.mean(points.temperature[rows]))
+
+
+def _merged(points: Points, groups: list[Indices]) -> list[Indices]:
+    """Join groups of equal mean temperature, ascending."""
+    means = [_mean(points, group) for group in groups]
+    merged: list[Indices] = []
+    first = -np.inf
+    for number in np.argsort(means, kind="stable"):
+        if means[number] - first <= ISOTHERM_GAP:
+            merged[-1] = np.sort(np.concatenate([merged[-1], groups[number]]))
+        else:
+            first = means[number]
+            merged.append(groups[number])
+    return merged
+
+
+def _printed_frequencies(points: Points, group: Indices) -> NDArray[np.float64]:
+    """Return the frequencies of a group once each (logarithms, rounded to what is printed)."""
+    return np.unique(np.round(np.log(points.angular_frequency[group]), 2))
+
+
+def _insist_on_several(points: Points, groups: list[Indices], source: str) -> list[Indices]:
+    """Leave out groups of one or two frequencies beside isotherms with several; refuse a temperature sweep."""
+    counts = [len(_printed_frequencies(points, group)) for group in groups]
+    if len(groups) >= TEMPERATURE_SWEEP and max(counts) == 1:
+        problem = f"each of the {len(groups)} temperatures has one frequency; frequency sweeps are wanted, not a "
+        raise DataFileError(source, problem + "temperature sweep.")
+    # one frequency beside three, two beside six
+    needed = min(3, 1 + max(counts) // 3)
+    return [group for group, count in zip(groups, counts, strict=True) if count >= needed]
+
+
+def _on_small_groups(points: Points, groups: list[Indices], kept: list[Indices]) -> list[str]:
+    ids = {id(group) for group in kept}
+    small = [group for group in groups if id(group) not in ids]
+    if not small:
+        return []
+    rows = sorted(int(index) for group in small for index in group)
+    low, high = (f"{celsius(float(f(points.temperature[rows]))):z.1f}" for f in (np.min, np.max))
+    where = f"{low} °C" if low == high else f"between {low} and {high} °C"
+    what = "1 point" if len(rows) == 1 else f"{len(rows)} points"
+    alone = "it belongs" if len(rows) == 1 else "they belong"
+    return [f"{what} left out: {alone} to no isotherm with several frequencies ({points.named(rows)}; {where})."]

@@ -1,0 +1,195 @@
+"""Isotherms out of the points that a format's reader hands on: grouped, sorted, averaged, and told where doubtful."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.data import Isotherm, IsothermalSweeps
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers.grouping import ISOTHERM_GAP, isotherm_groups
+from viscofric.readers.points import at, joined, listed
+from viscofric.readers.sweep_checks import Sorted, notes_on
+from viscofric.readers.usable import usable
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.data import Deformation
+    from viscofric.readers.points import Points
+    from viscofric.readers.readings import Readings
+
+    Array = NDArray[np.float64]
+    Indices = NDArray[np.intp]
+
+#: Frequencies closer than this (relative) are the same one, printed or measured twice.
+SAME_FREQUENCY = 1e-4
+#: Repeated readings that differ by more than this are told.
+REPEATS_DIFFER = 0.05
+
+#: The note where neither the file nor the caller says what the moduli are; see `deformation_is_told`.
+UNTOLD_DEFORMATION = "The file does not say whether its moduli are tensile or shear; taken as tensile."
+
+
+def deformation_is_told(sweeps: IsothermalSweeps) -> bool:
+    """Return whether the file or the caller of `read_dma` said that the moduli are tensile or shear.
+
+    Parameters
+    ----------
+    sweeps : IsothermalSweeps
+        As `read_dma` returned them.
+    """
+    return UNTOLD_DEFORMATION not in sweeps.notes
+
+
+def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> IsothermalSweeps:
+    """Sort the points of one or several files into isotherms.
+
+    Parameters
+    ----------
+    readings : sequence of Readings
+        One per file, all of one specimen.
+    deformation : {"tension", "shear"}, optional
+        What the moduli are, where the files do not say it; tension if nobody says it, with a note.
+
+    Returns
+    -------
+    IsothermalSweeps
+        Its notes name what was left out, averaged or reordered, and what is doubtful: temperatures that drift
+        within an isotherm, points far off their neighbours, strain amplitudes that differ between isotherms.
+
+    Raises
+    ------
+    DataFileError
+        If the files contradict each other or `deformation`, too few points can be used, or the temperatures form a
+        ramp.
+    InputError
+        If there is no file, or `deformation` is neither "tension" nor "shear".
+    """
+    if not readings:
+        raise InputError("at least one file of DMA sweeps is needed.")
+    source = _source(readings)
+    kind, on_deformation = _deformation(readings, deformation)
+    points = joined(readings)
+    keep, on_left_out = usable(points, source)
+    groups, on_groups = isotherm_groups(points, keep, source)
+    sweeps = [_isotherm(points, rows) for rows in groups]
+    notes = [
+        *_on_formats(readings),
+        *on_deformation,
+        *_own_notes(readings),
+        *on_left_out,
+        *on_groups,
+        *_on_order(points, keep, sweeps, len(readings)),
+        *notes_on(points, sweeps),
+    ]
+    formats = list(dict.fromkeys(one.format for one in readings))
+    isotherms = tuple(one.isotherm for one in sweeps)
+    return IsothermalSweeps(isotherms, kind, source, tuple(notes), format=", ".join(formats))
+
+
+def _source(readings: Sequence[Readings]) -> str:
+    names = [one.source for one in readings]
+    return ", ".join(names) if len(names) <= 3 else f"{names[0]} and {len(names) - 1} more files"
+
+
+def _names(readings: Sequence[Readings]) -> str:
+    names = [Path(one.source).name for one in readings]
+    return listed(names[:3], len(names) - 3) if len(names) > 3 else listed(names)
+
+
+def _on_formats(readings: Sequence[Readings]) -> list[str]:
+    formats = list(dict.fromkeys(one.format for one in readings))
+    if len(formats) == 1:
+        what = "The file was" if len(readings) == 1 else f"All {len(readings)} files were"
+        return [f"{what} taken for: {formats[0]}."]
+    taken = [(name, [one for one in readings if one.format == name]) for name in formats]
+    return ["; ".join(f"{_names(some)} taken for: {name}" for name, some in taken) + "."]
+
+
+def _own_notes(readings: Sequence[Readings]) -> list[str]:
+    """Return what the readers noted; a note that several files share stands once."""
+    if len(readings) == 1:
+        return list(readings[0].notes)
+    shared: dict[str, list[Readings]] = {}
+    for one in readings:
+        for note in one.notes:
+            shared.setdefault(note, []).append(one)
+    return [f"{'All files' if len(some) == len(readings) else _names(some)}: {note}" for note, some in shared.items()]
+
+
+def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[str]]:
+    """Decide between tension and shear: what the files say, else what the caller says, else tension."""
+    if asked not in (None, "tension", "shear"):
+        raise InputError(f"deformation = {asked!r}: must be 'tension' or 'shear'.")
+    said = [one for one in readings if one.deformation is not None]
+    if not said:
+        if asked is not None:
+            return asked, [f"The moduli are taken as measured in {asked}, as asked; the file does not say it."]
+        return "tension", [UNTOLD_DEFORMATION]
+    kind = said[0].deformation or "tension"
+    by = f" ({said[0].said_by})" if said[0].said_by else ""
+    other = next((one for one in said if one.deformation != kind), None)
+    if other is not None:
+        other_by = f" ({other.said_by})" if other.said_by else ""
+        problem = f"says {other.deformation}{other_by}, but {said[0].source} says {kind}{by}; read them apart."
+        raise DataFileError(other.source, problem)
+    if asked not in (None, kind):
+        raise DataFileError(said[0].source, f"the header says {kind}{by}, but deformation={asked!r} was asked.")
+    notes = [f"The file's header says that the moduli were measured in {kind}{by}."]
+    silent = [one for one in readings if one.deformation is None]
+    if silent:
+        notes.append(f"{_names(silent)}: does not say whether the moduli are tensile or shear; taken as {kind}.")
+    return kind, notes
+
+
+def _isotherm(points: Points, rows: Indices) -> Sorted:
+    """Sort one isotherm by frequency and average repeats."""
+    frequency = points.angular_frequency[rows]
+    order = np.argsort(frequency, kind="stable")
+    ordered = frequency[order]
+    group = np.concatenate([[0], np.cumsum(np.diff(ordered) > SAME_FREQUENCY * ordered[1:])])
+    count = np.bincount(group)
+    columns = (points.angular_frequency, points.storage_modulus, points.loss_modulus)
+    mean_frequency, storage, loss = (np.bincount(group, column[rows][order]) / count for column in columns)
+    amplitude = points.strain_amplitude[rows][order]
+    known = np.isfinite(amplitude)
+    mean_amplitude = None
+    if known.any():
+        total = np.bincount(group, np.where(known, amplitude, 0.0))
+        known_count = np.bincount(group, known)
+        mean_amplitude = np.where(known_count > 0, total / np.maximum(known_count, 1), np.nan)
+    isotherm = Isotherm(float(np.mean(points.temperature[rows])), mean_frequency, storage, loss, mean_amplitude)
+    origins = tuple(np.split(rows[order], np.cumsum(count)[:-1]))
+    return Sorted(isotherm, rows, origins)
+
+
+def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: int) -> list[str]:
+    """Tell what was sorted and averaged."""
+    notes = []
+    unsorted = [one for one in sweeps if np.any(np.diff(points.angular_frequency[one.rows]) < 0)]
+    averaged = [one for one in sweeps if len(one.rows) > len(one.origins)]
+    if unsorted:
+        notes.append(f"The rows {at([one.isotherm.temperature for one in unsorted])} were sorted by frequency.")
+    if averaged:
+        repeated = sum(len(one.rows) - len(one.origins) for one in averaged)
+        what = "1 repeated frequency" if repeated == 1 else f"{repeated} repeated frequencies"
+        were = "was" if repeated == 1 else "were"
+        notes.append(f"{what} {at([one.isotherm.temperature for one in averaged])} {were} averaged.")
+        worst, where = max(_disagreement(points, one) for one in averaged)
+        if worst > REPEATS_DIFFER:
+            notes.append(f"Repeated readings differ by up to {100 * worst:.0f} % of their modulus {at([where])}.")
+    if files == 1 and np.any(np.diff(points.temperature[keep]) < -ISOTHERM_GAP):
+        notes.append("The isotherms were sorted by temperature.")
+    return notes
+
+
+def _disagreement(points: Points, one: Sorted) -> tuple[float, float]:
+    """Return by how much repeated readings of |E*| differ at most (relative), and the temperature, K."""
+    size = np.hypot(points.storage_modulus, points.loss_modulus)
+    worst = max(float(np.ptp(size[rows]) / np.mean(size[rows])) for rows in one.origins)
+    return worst, one.isotherm.temperature

@@ -1,0 +1,116 @@
+"""Where a table of DMA sweeps stands among rows of cells: lines above it, one row of headings, or names and units."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from viscofric.errors import DataFileError
+from viscofric.readers.names import quantity
+from viscofric.readers.table import Column, Table, heading, make_table
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    #: Cells of one row, with its number in the file.
+    NumberedRow = tuple[int, Sequence[str]]
+
+#: A table that begins further down is none that a person or an instrument wrote.
+DEEPEST_HEADER = 300
+_MODULI = {"storage modulus", "loss modulus", "complex modulus"}
+_FREQUENCIES = {"frequency", "angular frequency"}
+
+
+def header_row(rows: Sequence[NumberedRow]) -> int | None:
+    """Return which row names the columns of a DMA table, None if no row does.
+
+    It is the first that names a frequency and a modulus; without such a row, the first that names two
+    quantities of `viscofric.readers.names`, or a traction: that a column is missing is said later.
+    """
+    second_best = None
+    for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
+        found = quantities(cells)
+        if found & _MODULI and found & _FREQUENCIES:
+            return place
+        if second_best is None and (len(found) > 1 or any("traction" in cell.lower() for cell in cells[1:])):
+            second_best = place
+    return second_best
+
+
+def insist_on_moduli(path: str, cells: Sequence[str]) -> None:
+    """Raise `DataFileError` if a header is that of traction runs."""
+    if not quantities(cells) & _MODULI and any("traction" in cell.lower() for cell in cells):
+        raise DataFileError(
+            path,
+            "this is a table of traction runs, not of DMA sweeps; use read_mtm, or name it as mtm under "
+            "[measurement] of a run file.",
+        )
+
+
+def quantities(cells: Sequence[str]) -> set[str]:
+    """Return what the cells of one row name, in the words of `viscofric.readers.names.QUANTITIES`."""
+    found = (quantity(heading(cell).name) for cell in cells if 0 < len(cell) < 100)
+    return {what for what in found if what is not None}
+
+
+def table_under(path: str, rows: Sequence[NumberedRow], header: int, *, comma_is_free: bool = True) -> Table:
+    """Return the table under a header.
+
+    Parameters
+    ----------
+    path : str
+        Named in errors.
+    rows : list of (int, list of str)
+        All rows that are not blank, each with its number in the file.
+    header : int
+        Which of them is the header, see `header_row`.
+    comma_is_free : bool
+        Whether a comma may stand for the decimal point.
+
+    Raises
+    ------
+    DataFileError
+        If rows of numbers stand above the header, there is none below it, or one is not as long as the header.
+    """
+    _insist_on_text(path, rows[:header])
+    names = list(rows[header][1])
+    while names and not names[-1].strip():
+        names.pop()
+    columns = tuple(heading(cell) for cell in names)
+    body = list(rows[header + 1 :])
+    if body and _is_row_of_units(columns, body[0][1]):
+        units = body.pop(0)[1]
+        columns = tuple(
+            column if column.unit else replace(column, unit=_unit(cell))
+            for column, cell in zip(columns, [*units, *[""] * len(columns)], strict=False)
+        )
+    repeated = [list(rows[header][1])]  # tables put one below the other repeat their header
+    return make_table(path, columns, [row for row in body if list(row[1]) not in repeated], comma_is_free=comma_is_free)
+
+
+def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
+    for number, cells in above:
+        if sum(is_number(cell) for cell in cells) > 2:
+            raise DataFileError(path, "a row of numbers stands above the header; put the header first.", number)
+
+
+def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
+    """Return whether a row under headings without units gives them."""
+    known = [place for place, column in enumerate(columns) if quantity(column.name)]
+    if any(columns[place].unit for place in known) or any(is_number(cell) for cell in cells):
+        return False
+    return len(cells) <= len(columns) + 1 and any(_unit(cells[place]) for place in known if place < len(cells))
+
+
+def _unit(cell: str) -> str:
+    plain = cell.strip().strip("[]()").strip()
+    return "" if plain in ("-", "–", "1") else plain
+
+
+def is_number(cell: str) -> bool:
+    """Return whether a cell is a number, with a decimal point or comma."""
+    try:
+        float(cell.strip().replace(",", "."))
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,146 @@
+"""Master curves that a user or the software of an instrument has made, from a text table, a workbook or RepTate."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.data import MasterCurve
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_bytes
+from viscofric.readers import delimited, dma_columns, reptate, workbook
+from viscofric.readers.formats import format_of
+from viscofric.readers.source import Source
+from viscofric.units import celsius, conversion, positive
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import NDArray
+
+    from viscofric.data import Deformation
+    from viscofric.readers.table import Table
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+
+
+def read_master_curve(
+    path: str | PathLike[str],
+    reference: Quantity,
+    deformation: Deformation | None = None,
+    poisson_ratio: float = 0.5,
+    *,
+    modulus_unit: str | None = None,
+) -> MasterCurve:
+    """Read a master curve: moduli over reduced frequency at one reference temperature.
+
+    Parameters
+    ----------
+    path : str or path
+        Text table or workbook with frequency, storage and loss modulus and their units, as for `read_dma`, or a
+        .tts file of RepTate.
+    reference : float, str or quantity
+        Temperature that the curve holds for, K if a plain number.
+    deformation : {"tension", "shear"}, optional
+        What the moduli are, where the headings do not say it.
+    poisson_ratio : float
+        ν of E = 2(1+ν)G, for moduli in shear.
+    modulus_unit : str, optional
+        Of the moduli, where the headings have none.
+
+    Returns
+    -------
+    MasterCurve
+        Tensile, in SI units, ascending in frequency.  Its `temperature`, that of the isotherm that each point comes
+        from, is `reference` for all points where the file has no column for it.
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be read, a value is missing or not above zero, nobody says whether the moduli are tensile
+        or shear, or the file tells another reference temperature.
+    InputError
+        If an argument is wrong.
+    """
+    kelvin = positive(reference, "K", "reference")
+    if deformation not in (None, "tension", "shear"):
+        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")
+    if not -1.0 < poisson_ratio <= 0.5:
+        raise InputError(f"poisson_ratio = {poisson_ratio!r}: must be above -1 and at most 0.5.")
+    if modulus_unit is not None:
+        conversion(modulus_unit, "Pa", "modulus_unit")
+    source = Source(str(path), read_bytes(path), modulus_unit=modulus_unit or "")
+    if reptate.recognises(source):
+        said: Deformation | None = "shear"  # RepTate knows G' and G'' only
+        frequency, storage, loss, temperature = _of_reptate(source, kelvin)
+    else:
+        table = _table(source)
+        said, _ = dma_columns.deformation(table, dma_columns.find_columns(table))
+        frequency, storage, loss, temperature = _of_table(table, source, kelvin)
+    kind = _kind(source, said, deformation)
+    factor = 1.0 if kind == "tension" else 2.0 * (1.0 + poisson_ratio)
+    order = np.argsort(frequency, kind="stable")
+    return MasterCurve(frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin)
+
+
+def _table(source: Source) -> Table:
+    """Return the one table of a text file or a workbook."""
+    found = format_of(source)
+    if found.NAME == delimited.NAME:
+        return delimited.delimited_table(source)
+    if found.NAME != workbook.NAME:
+        problem = f"is a file of an instrument ({found.NAME}), not a table of a master curve; use read_dma."
+        raise DataFileError(source.path, problem)
+    tables = workbook.tables(source)
+    if len(tables) > 1:
+        problem = f"the sheets {', '.join(map(repr, tables))} each hold a table with moduli; keep one of them."
+        raise DataFileError(source.path, problem)
+    return next(iter(tables.values()))
+
+
+def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
+    places = dma_columns.find_columns(table)
+    frequency = dma_columns.angular_frequency(table, places, [])
+    storage, loss = dma_columns.moduli(table, places, source, [])
+    temperature = np.full(len(frequency), reference)
+    if "temperature" in places:
+        factor, offset = table.conversion(table.columns[places["temperature"]], "K")
+        temperature = factor * table.numbers(places["temperature"]) + offset
+    named = {"frequency": frequency, "storage modulus": storage, "loss modulus": loss, "temperature": temperature}
+    _insist_on_positive(table.path, table.lines, named)
+    return frequency, storage, loss, temperature
+
+
+def _of_reptate(source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
+    found = reptate.columns(source)
+    if not found.is_master_curve:
+        raise DataFileError(source.path, "is a sweep at one temperature (RepTate .osc), no master curve; use read_dma.")
+    told = float(found.temperature[0])
+    if np.isfinite(told) and abs(told - reference) > 0.01:  # K; the file gives few digits
+        problem = f"holds for {celsius(told):.4g} °C, as its first line says, not for {celsius(reference):.4g} °C."
+        raise DataFileError(source.path, problem)
+    columns = (found.angular_frequency, found.storage_modulus, found.loss_modulus)
+    named = dict(zip(("frequency", "storage modulus", "loss modulus"), columns, strict=True))
+    _insist_on_positive(source.path, found.lines, named)
+    return *columns, np.full(len(columns[0]), reference)
+
+
+def _insist_on_positive(path: str, lines: NDArray[np.int64], named: dict[str, Array]) -> None:
+    for name, values in named.items():
+        bad = np.flatnonzero(~(values > 0.0))
+        if bad.size:
+            problem = f"the {name} is missing or not above zero; correct or leave out the row."
+            raise DataFileError(path, problem, int(lines[bad[0]]))
+
+
+def _kind(source: Source, said: Deformation | None, asked: Deformation | None) -> Deformation:
+    """Return what the moduli are; a master curve carries no notes, so that nothing is assumed."""
+    if said is not None and asked not in (None, said):
+        raise DataFileError(source.path, f"the headings say {said}, but deformation={asked!r} was asked.")
+    kind = said or asked
+    if kind is None:
+        problem = "does not say whether its moduli are tensile or shear; say deformation='tension' or 'shear'."
+        raise DataFileError(source.path, problem)
+    return kind

@@ -1,0 +1,127 @@
+"""Parse a workbook from standard input in a process of its own, with bounded memory; `workbook` starts it.
+
+A crafted workbook can make any parser ask for hundreds of gigabytes, which ends the process that runs it.  This
+script imports nothing of viscofric, so that it starts quickly.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import sys
+import zipfile
+
+#: What all parts of a workbook may hold when unpacked, and by how much they may have been packed.
+LARGEST_UNPACKED = 500_000_000  # bytes
+LARGEST_RATIO = 400
+#: A workbook of measurements has far fewer cells; a sheet is held whole, empty cells included.
+MOST_CELLS = 5_000_000
+LARGEST_MEMORY = 3_000_000_000  # bytes
+
+_CELL = re.compile(rb"""\sr\s*=\s*["']([A-Z]{1,3})([0-9]{1,7})["']""")
+
+
+class RefusalError(Exception):
+    """The workbook is not one of measurements."""
+
+
+def main() -> None:
+    """Write the sheets as JSON: ``{"sheets": {name: rows}}``, or ``{"problem": sentence}``."""
+    _limit_memory()
+    try:
+        answer: dict[str, object] = {"sheets": _sheets(sys.stdin.buffer.read())}
+    except RefusalError as error:
+        answer = {"problem": str(error)}
+    except MemoryError:
+        answer = {"problem": "needs more memory than a workbook of measurements would."}
+    sys.stdout.buffer.write(json.dumps(answer).encode())
+
+
+def _limit_memory() -> None:
+    try:
+        import resource
+    except ImportError:  # Windows has no such limit; sizes are checked all the same
+        return
+    try:
+        resource.setrlimit(resource.RLIMIT_AS, (LARGEST_MEMORY, LARGEST_MEMORY))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    except (ValueError, OSError):  # a lower limit is set already
+        return
+
+
+def _sheets(data: bytes) -> dict[str, list[list[object]]]:
+    import python_calamine
+
+    if data.startswith(b"PK"):
+        _insist_on_sense(data)
+    try:
+        workbook = python_calamine.CalamineWorkbook.from_filelike(io.BytesIO(data))
+        kinds = python_calamine.SheetTypeEnum
+        names = [one.name for one in workbook.sheets_metadata if one.typ == kinds.WorkSheet]
+        sheets, cells = {}, 0
+        for name in names:
+            sheet = workbook.get_sheet_by_name(name)
+            height, width = sheet.end or (0, 0)
+            cells += (height + 1) * (width + 1)
+            if cells > MOST_CELLS:
+                raise RefusalError(_too_many_cells(cells))
+            rows = sheet.to_python(skip_empty_area=False)
+            sheets[name] = [[_plain(cell) for cell in row] for row in rows]
+    except (MemoryError, RefusalError):
+        raise
+    except BaseException as error:  # noqa: BLE001 - a panic of the parser is no Exception
+        raise RefusalError(f"is a damaged or protected workbook ({_first_line(error)}).") from None
+    return sheets
+
+
+def _first_line(error: BaseException) -> str:
+    return (str(error).splitlines() or [type(error).__name__])[0][:120].rstrip(".")
+
+
+def _too_many_cells(cells: int) -> str:
+    return f"has sheets of {cells:.3g} cells; a workbook of measurements has at most {MOST_CELLS:.3g}."
+
+
+def _plain(cell: object) -> object:
+    """Keep numbers and text; dates and times become text."""
+    return cell if isinstance(cell, (float, int, str)) else str(cell)
+
+
+def _insist_on_sense(data: bytes) -> None:
+    """Refuse an archive that unpacks to far more than measurements need, or a sheet of billions of cells."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            parts = archive.infolist()
+            size = sum(part.file_size for part in parts)
+            packed = max(1, sum(part.compress_size for part in parts))
+            if size > LARGEST_UNPACKED or (size > 10_000_000 and size / packed > LARGEST_RATIO):
+                raise RefusalError(
+                    f"would unpack to {size / 1e6:.0f} MB, far more than a workbook of measurements does."
+                )
+            for part in parts:
+                if part.filename.lower().endswith(".xml") and "worksheets/" in part.filename.lower():
+                    cells = _extent(archive.read(part))
+                    if cells > MOST_CELLS:
+                        raise RefusalError(_too_many_cells(cells))
+    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError, ValueError, KeyError) as error:
+        raise RefusalError(f"is a damaged workbook ({_first_line(error)}).") from None
+    except Exception as error:  # zlib.error and what else a torn archive raises
+        if isinstance(error, RefusalError):
+            raise
+        raise RefusalError(f"is a damaged workbook ({_first_line(error)}).") from None
+
+
+def _extent(sheet: bytes) -> int:
+    """Return rows times columns of the smallest block from the first cell on that holds all cells."""
+    width = height = 0
+    for letters, digits in _CELL.findall(sheet):
+        column = 0
+        for letter in letters:
+            column = 26 * column + letter - 64
+        width, height = max(width, column), max(height, int(digits))
+    return width * height
+
+
+if __name__ == "__main__":
+    main()

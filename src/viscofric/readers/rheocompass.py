@@ -1,0 +1,205 @@
+"""Anton Paar RheoCompass text exports: the frequency sweeps among their intervals.
+
+No genuine file of this format was at hand when this was written.  The layout (see `rheocompass_intervals`) and the
+English, German, French and Portuguese names are those that published programs for such files expect; the names in
+other languages are the usual words of the field.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers import names
+from viscofric.readers.readings import Readings
+from viscofric.readers.rheocompass_intervals import Decimals, Interval, has_intervals, intervals
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import Deformation
+    from viscofric.readers.source import Source
+
+    Array = NDArray[np.float64]
+    #: Line and cells of points.
+    Rows = list[tuple[int, tuple[str, ...]]]
+
+NAME = "Anton Paar RheoCompass text"
+
+#: Frequencies of one interval that differ by less (relative) are one frequency held: no sweep.
+_SAME_FREQUENCY = 1e-3
+_SHARE = {"%": 0.01, "1": 1.0, "-": 1.0, "": 1.0}
+_SHEAR = re.compile(r"shear|scher|schub|cisaillement|cizall|cortante|taglio|cisalh", re.IGNORECASE)
+
+
+def recognises(source: Source) -> bool:
+    """Return whether the text has an interval of numbered points."""
+    return source.text is not None and has_intervals(source.text)
+
+
+def read(source: Source) -> Readings:
+    """Return the points of all frequency sweeps of a RheoCompass export.
+
+    Parameters
+    ----------
+    source : Source
+        The file; its `temperature` stands for a column of temperatures that was not exported.
+
+    Returns
+    -------
+    Readings
+        One step for each interval.  Intervals that are no frequency sweeps are told of in a note.
+
+    Raises
+    ------
+    DataFileError
+        If no interval is a frequency sweep, the temperature or a unit is missing, a cell is not a finite number, or
+        the last interval is cut off.
+    """
+    found = intervals(source)
+    oscillating = [interval for interval in found if interval.oscillates]
+    decimals = Decimals.of(source.path, oscillating)
+    notes: list[str] = []
+    tables, lines, steps = [], [], []
+    sweeps: list[Interval] = []
+    for interval in oscillating:
+        rows = _complete(interval)
+        frequency = _column(source.path, interval, "angular frequency", rows, decimals)
+        if frequency.size < 2 or np.ptp(frequency) <= _SAME_FREQUENCY * np.max(np.abs(frequency)):
+            continue
+        tables.append(_table(source, interval, rows, frequency, decimals))
+        lines += [line for line, _ in rows]
+        steps += [len(sweeps)] * len(rows)
+        sweeps.append(interval)
+        notes += _doubts(interval)
+    if not tables:
+        headings = ", ".join(repr(column) for column in found[0].columns[1:] if column)
+        raise DataFileError(
+            source.path,
+            f"no interval of {len(found)} is a frequency sweep, with frequency, storage and loss modulus; the first "
+            f"has the columns {headings}.",
+        )
+    others = len(found) - len(sweeps)
+    if others:
+        what = "1 interval that is no frequency sweep was"
+        what = what if others == 1 else f"{others} intervals that are no frequency sweeps were"
+        notes.insert(0, f"{what} passed over.")
+    deformation, said_by = _deformation(sweeps)
+    temperature, frequency, storage, loss, amplitude = np.concatenate(tables, axis=1)
+    return Readings(
+        source.path,
+        NAME,
+        tuple(f"line {line}" for line in lines),
+        temperature,
+        frequency,
+        storage,
+        loss,
+        deformation,
+        said_by,
+        amplitude if np.any(np.isfinite(amplitude)) else None,
+        np.array(steps, dtype=np.int64),
+        tuple(notes),
+    )
+
+
+def _needed(interval: Interval) -> list[int]:
+    whats = ("angular frequency", "storage modulus", "loss modulus", "temperature")
+    return [interval.places[what] for what in whats if what in interval.places]
+
+
+def _complete(interval: Interval) -> Rows:
+    """Return the points with all that is needed; without torque, say, the instrument leaves the moduli empty."""
+    return [(line, row) for line, row in interval.rows if all(row[place] for place in _needed(interval))]
+
+
+def _column(path: str, interval: Interval, what: str, rows: Rows, decimals: Decimals) -> Array:
+    """Return the numbers of a column as printed."""
+    place = interval.places[what]
+    heading = interval.columns[place]
+    return np.array([decimals.number(path, row[place], heading, line) for line, row in rows])
+
+
+def _table(source: Source, interval: Interval, rows: Rows, frequency: Array, decimals: Decimals) -> Array:
+    """Return temperature, angular frequency, moduli and strain amplitude in five rows."""
+    path = source.path
+    frequency = frequency * _to_angular(path, interval)
+    storage, loss = (
+        _conversion(path, interval, what, "Pa")[0] * _column(path, interval, what, rows, decimals)
+        for what in ("storage modulus", "loss modulus")
+    )
+    if "temperature" in interval.places:
+        factor, offset = _conversion(path, interval, "temperature", "K")
+        temperature = factor * _column(path, interval, "temperature", rows, decimals) + offset
+    elif source.temperature is not None:
+        temperature = np.full(frequency.shape, source.temperature)
+    else:
+        problem = "the interval has no column of temperatures; export it, or give temperature= of all points."
+        raise DataFileError(path, problem, interval.line)
+    for values, what, bound in ((frequency, "frequency", "zero"), (temperature, "temperature", "absolute zero")):
+        if np.any(values <= 0.0):
+            raise DataFileError(path, f"the {what} must be above {bound}.", rows[int(np.argmax(values <= 0.0))][0])
+    amplitude = np.full(frequency.shape, np.nan)
+    place = interval.places.get("strain amplitude")
+    if place is not None and interval.units[place] in _SHARE:
+        told = [index for index, (_, row) in enumerate(rows) if row[place]]
+        numbers = _column(path, interval, "strain amplitude", [rows[index] for index in told], decimals)
+        amplitude[told] = np.abs(numbers) * _SHARE[interval.units[place]]
+    return np.array([temperature, frequency, storage, loss, amplitude])
+
+
+def _doubts(interval: Interval) -> list[str]:
+    complete = {line for line, _ in _complete(interval)}
+    empty = [line for line, _ in interval.rows if line not in complete]
+    notes = []
+    marked = (list(interval.invalid), "marked beside the number, as invalid ones are")
+    for lines, why in (marked, (empty, "a cell being empty")):
+        if lines:
+            shown = ", ".join(str(line) for line in lines[:3]) + (" and more" if len(lines) > 3 else "")
+            what = "1 point was" if len(lines) == 1 else f"{len(lines)} points were"
+            notes.append(f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown}).")
+    if interval.missing:
+        notes.append(
+            f"The interval in line {interval.line} announces {interval.announced} points, {interval.missing} of which "
+            "are not in the file."
+        )
+    return notes
+
+
+def _to_angular(path: str, interval: Interval) -> float:
+    place = interval.places["angular frequency"]
+    heading, unit = interval.columns[place], interval.units[place].replace(" ", "")
+    angular = names.quantity(heading) == "angular frequency"
+    if unit == "rad/s" or (angular and unit in ("1/s", "s^-1", "s⁻¹")):
+        return 1.0
+    if not angular and unit in ("Hz", "1/s", "s^-1", "s⁻¹"):
+        return 2.0 * math.pi
+    raise DataFileError(path, f"column {heading!r} has the unit {unit!r}; it must be 'rad/s' or 'Hz'.", interval.line)
+
+
+def _conversion(path: str, interval: Interval, what: str, unit: str) -> tuple[float, float]:
+    place = interval.places[what]
+    heading, text = interval.columns[place], interval.units[place]
+    try:
+        return conversion(text, unit, heading)
+    except InputError:
+        example = {"K": "°C"}.get(unit, unit)
+        problem = f"column {heading!r} has the unit {text!r}; it must be one like {example!r}."
+        raise DataFileError(path, problem, interval.line) from None
+
+
+def _deformation(sweeps: list[Interval]) -> tuple[Deformation | None, str]:
+    """Return what the headings say: those of the moduli first, then any strain, stress or rate of shear."""
+    for interval in sweeps:
+        heading = interval.columns[interval.places["storage modulus"]]
+        kind = names.deformation_of(heading)
+        if kind is not None:
+            return kind, f"the heading {heading!r}"
+    for heading in (column for interval in sweeps for column in interval.columns[1:]):
+        if _SHEAR.search(heading):
+            return "shear", f"the heading {heading!r}"
+    return None, ""

@@ -1,0 +1,227 @@
+"""The layout of an Anton Paar RheoCompass text export: intervals of numbered points, whatever the user's language.
+
+An interval begins with its number and count of points; then come the names of the columns, a row of qualifiers,
+units in brackets, and one row for each point, its first cell empty::
+
+    Interval and data points:   1           31
+    Interval data:              Point No.   Angular Frequency   Storage Modulus   ...   Status
+                                            [rad/s]             [Pa]
+                                1           100                 12345
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from viscofric.errors import DataFileError
+from viscofric.readers import names
+
+if TYPE_CHECKING:
+    from viscofric.readers.source import Source
+
+_INTERVAL = re.compile(
+    r'^"?[^\t;,:"\r\n]{3,60}:"?(?P<mark>[\t;,])"?\d{1,6}"?(?P=mark)"?\d{1,6}"?[\t;, ]*\r?\n(?:[\t;, ]*\r?\n)?'
+    r'"?[^\t;,:"\r\n]{3,60}:"?(?P=mark)',
+    re.MULTILINE,
+)
+#: What RheoCompass calls the strain, beside the names that all formats share.
+_STRAIN = frozenset(
+    {"shear strain", "scherdeformation", "déformation de cisaillement", "deformação de cisalhamento"}
+    | {"déformation en cisaillement", "deformación de cizalla", "deformación de corte", "deformazione di taglio"}
+)
+_SWEEP = ("storage modulus", "loss modulus")
+#: What a unit multiplies by at most, so that a damaged number shows before that.
+_LARGEST_FACTOR = 1e12
+#: Between the names of the columns and the first point stand qualifiers and units.
+_ROWS_BEFORE_POINTS = 3
+#: Of the number of an interval, and of its points.
+_MOST_DIGITS = 6
+
+_THOUSANDS_COMMA = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d*)?([eE][+-]?\d+)?")
+_THOUSANDS_POINT = re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True, eq=False)
+class Interval:
+    """One interval, its numbers still as text.
+
+    Parameters
+    ----------
+    line : int
+        Line of the file that it begins on.
+    announced : int
+        Number of points that the file says it has.
+    columns, units : tuple of str
+        Left to right; the first stands for the empty cell that rows begin with.
+    rows : tuple of (int, tuple of str)
+        Line and cells of each numbered point.
+    invalid : tuple of int
+        Lines of points that the instrument marked beside their number.
+    """
+
+    line: int
+    announced: int
+    columns: tuple[str, ...]
+    units: tuple[str, ...]
+    rows: tuple[tuple[int, tuple[str, ...]], ...]
+    invalid: tuple[int, ...]
+
+    @cached_property
+    def places(self) -> dict[str, int]:
+        """Columns by what they hold, in the words of `names.QUANTITIES`; the first of several."""
+        found: dict[str, int] = {}
+        for place, column in enumerate(self.columns[1:], start=1):
+            what = "strain amplitude" if column.lower() in _STRAIN else names.quantity(column)
+            if what is not None:
+                found.setdefault(what, place)
+        if "angular frequency" not in found and "frequency" in found:
+            found["angular frequency"] = found["frequency"]
+        return found
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether there are a frequency and both moduli."""
+        return "angular frequency" in self.places and all(what in self.places for what in _SWEEP)
+
+    @property
+    def missing(self) -> int:
+        """How many points fewer than announced the file holds."""
+        return max(self.announced - len(self.rows) - len(self.invalid), 0)
+
+
+def has_intervals(text: str) -> bool:
+    """Return whether the text has an interval of numbered points: two labels that end in a colon, one with counts."""
+    return _INTERVAL.search(text) is not None
+
+
+def intervals(source: Source) -> list[Interval]:
+    """Split an export into its intervals.
+
+    Parameters
+    ----------
+    source : Source
+        The file.
+
+    Raises
+    ------
+    DataFileError
+        If an interval has no names of columns or no units, or the last one breaks off.
+    """
+    text = source.text or ""
+    first = _INTERVAL.search(text)
+    if first is None:
+        raise DataFileError(source.path, "holds no interval of numbered points.")
+    lines = text.splitlines()
+    cells = [_cells(line, first["mark"]) for line in lines]
+    found = []
+    for start in (place for place, row in enumerate(cells) if _begins(row)):
+        named = next((place for place in range(start + 1, min(start + 3, len(cells))) if cells[place][0]), None)
+        if named is None or not cells[named][0].endswith(":") or _begins(cells[named]):
+            raise DataFileError(source.path, "the names of the columns must follow the number of points.", start + 1)
+        found.append(_interval(source.path, cells, start, named))
+    broken = found[-1].missing > 0 or len(cells[-1]) < len(found[-1].columns)
+    if broken and not text.endswith(("\n", "\r")):
+        problem = f"the last interval announces {found[-1].announced} points, but the file breaks off; export it anew."
+        raise DataFileError(source.path, problem, len(lines))
+    return found
+
+
+def _begins(row: list[str]) -> bool:
+    counts = [cell.isdecimal() and len(cell) <= _MOST_DIGITS for cell in row[1:3]]
+    return row[0].endswith(":") and counts == [True, True] and not any(row[3:])
+
+
+def _cells(line: str, mark: str) -> list[str]:
+    try:
+        row = next(csv.reader([line], delimiter=mark), [])
+    except csv.Error:
+        row = line.split(mark)
+    return [cell.strip() for cell in row] or [""]
+
+
+def _interval(path: str, cells: list[list[str]], start: int, named: int) -> Interval:
+    columns = tuple(" ".join(cell.split()) for cell in cells[named])
+    units_at = next(
+        (place for place in range(named + 1, min(named + 1 + _ROWS_BEFORE_POINTS, len(cells))) if _units(cells[place])),
+        None,
+    )
+    if units_at is None:
+        raise DataFileError(path, "a row of units in brackets must stand below the names of the columns.", named + 1)
+    rows, invalid = [], []
+    for place in range(units_at + 1, len(cells)):
+        row = cells[place]
+        if row[0]:
+            break  # the next interval, result or test
+        number = row[1] if len(row) > 1 else ""
+        if number.isdecimal():
+            rows.append((place + 1, tuple(_padded(row, len(columns)))))
+        elif re.match(r"\d+\D", number):
+            invalid.append(place + 1)  # "3 (invalid)", in the user's language
+        # A row without a number is empty, or one of the wave form of the point above.
+    units = tuple(cell.strip("[] ") for cell in _padded(cells[units_at], len(columns)))
+    return Interval(start + 1, int(cells[start][2]), columns, units, tuple(rows), tuple(invalid))
+
+
+def _units(row: list[str]) -> bool:
+    return not row[0] and any(cell.startswith("[") and cell.endswith("]") for cell in row)
+
+
+def _padded(row: list[str], size: int) -> list[str]:
+    return (row + [""] * size)[:size]
+
+
+@dataclass(frozen=True)
+class Decimals:
+    """How the numbers of one file are written.
+
+    Parameters
+    ----------
+    thousands, point : str
+        What parts thousands (nothing, as a rule) and what parts decimals.
+    """
+
+    thousands: str = ""
+    point: str = "."
+
+    @classmethod
+    def of(cls, path: str, found: list[Interval]) -> Decimals:
+        """Tell it from all numbers of the intervals together, or raise `DataFileError` if they contradict."""
+        numbers = [
+            (row[place], line)
+            for interval in found
+            for place in set(interval.places.values())
+            for line, row in interval.rows
+        ]
+        commas = [number for number in numbers if "," in number[0]]
+        points = [number for number in numbers if "." in number[0]]
+        if not commas:
+            return cls()
+        if not points:
+            return cls("", ",")
+        if all(_THOUSANDS_COMMA.fullmatch(number) for number, _ in commas):
+            return cls(",", ".")
+        if all(_THOUSANDS_POINT.fullmatch(number) for number, _ in points):
+            return cls(".", ",")
+        raise DataFileError(
+            path,
+            f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals cannot be "
+            "told from thousands; export all decimals in one way.",
+            points[0][1],
+        )
+
+    def number(self, path: str, cell: str, heading: str, line: int) -> float:
+        """Return a cell as a finite number, or raise `DataFileError`."""
+        plain = cell.replace(self.thousands, "") if self.thousands else cell
+        plain = plain.replace(",", ".") if self.point == "," else plain
+        try:
+            value = float(plain)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value * _LARGEST_FACTOR) or "_" in plain:
+            raise DataFileError(path, f"{cell!r} in column {heading!r} is not a finite number.", line)
+        return value

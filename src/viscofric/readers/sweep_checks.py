@@ -1,0 +1,193 @@
+"""Notes on sweeps that are usable but doubtful: drifting temperature, outliers, strain amplitudes that differ."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.readers.points import at
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.data import Isotherm
+    from viscofric.readers.points import Points
+
+    Array = NDArray[np.float64]
+    Indices = NDArray[np.intp]
+
+#: A temperature that ranges further within one isotherm shifts its ends against each other visibly.
+WIDE = 1.0  # K
+#: So does one that moves steadily by this from the first point to the last, with this share of its variance.
+DRIFT, STEADY = 0.5, 0.8  # K, 1
+#: A point is an outlier where it is off its neighbours by so many standard deviations of all points,
+SIGMAS = 8.0
+#: and by at least this, which smooth curves do not show between neighbours of a sweep.
+LEAST_OUTLIER = 0.04  # decades
+#: Strain amplitudes of isotherms that differ by more than this factor are told.
+AMPLITUDES_DIFFER = 1.2
+
+
+@dataclass(frozen=True, eq=False)
+class Sorted:
+    """One isotherm and where its points come from.
+
+    Parameters
+    ----------
+    isotherm : Isotherm
+        Sorted and averaged.
+    rows : (m,) array of int
+        All its points in the order of reading.
+    origins : tuple of (k,) array of int
+        The points that each frequency was averaged from.
+    """
+
+    isotherm: Isotherm
+    rows: Indices
+    origins: tuple[Indices, ...]
+
+
+def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
+    """Return a sentence on each sort of doubt; nothing is left out or changed."""
+    return [*_on_temperature(points, sweeps), *_on_outliers(points, sweeps), *_on_amplitudes(sweeps)]
+
+
+def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
+    wide, drifting, furthest, fastest = [], [], 0.0, 0.0
+    for one in sweeps:
+        # of several files, each has its own course of temperature
+        spans = [
+            points.temperature[one.rows[points.file[one.rows] == file]] for file in np.unique(points.file[one.rows])
+        ]
+        span, drift = max(float(np.ptp(kelvin)) for kelvin in spans), max(_drift(kelvin) for kelvin in spans)
+        if span > WIDE:
+            wide.append(one.isotherm.temperature)
+            furthest = max(furthest, span)
+        elif drift > DRIFT:
+            drifting.append(one.isotherm.temperature)
+            fastest = max(fastest, drift)
+    notes = []
+    if wide:
+        notes.append(f"The temperature ranges over up to {furthest:.1f} K within the {_isotherm(wide)} {at(wide)}.")
+    if drifting:
+        told = f"drifts steadily, by up to {fastest:.1f} K, within the {_isotherm(drifting)} {at(drifting)}"
+        notes.append(f"The temperature {told}.")
+    return notes
+
+
+def _isotherm(some: Sequence[float]) -> str:
+    return "isotherm" if len(some) == 1 else "isotherms"
+
+
+def _drift(kelvin: Array) -> float:
+    """Return how far a temperature moves steadily over a row of points, K; 0 if it only scatters."""
+    if len(kelvin) < 5 or np.ptp(kelvin) == 0.0:
+        return 0.0
+    place = np.linspace(-0.5, 0.5, len(kelvin))
+    about = kelvin - kelvin.mean()
+    slope = float(place @ about / (place @ place))
+    return abs(slope) if slope**2 * (place @ place) > STEADY * (about @ about) else 0.0
+
+
+def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
+    notes = []
+    for name in ("storage", "loss"):
+        found = outliers([one.isotherm for one in sweeps], name)
+        if not found:
+            continue
+        rows = sorted(int(index) for number, place in found for index in sweeps[number].origins[place])
+        number, place = found[0]
+        isotherm = sweeps[number].isotherm
+        hertz = isotherm.angular_frequency[place] / (2 * math.pi)
+        where = f"{celsius(isotherm.temperature):z.1f} °C, {hertz:.4g} Hz"
+        if len(found) == 1:
+            told = f"The {name} modulus at {where} ({points.named(rows)}) lies far off its neighbours; it was kept."
+        else:
+            told = f"{len(found)} {name} moduli lie far off their neighbours, the first at {where}; they were kept "
+            told += f"({points.named(rows)})."
+        notes.append(told)
+    return notes
+
+
+def outliers(isotherms: Sequence[Isotherm], name: str) -> list[tuple[int, int]]:
+    """Return isotherm and place of points far off the smooth course of their neighbours in log modulus.
+
+    Each point is compared with the parabola through its nearest neighbours, two on either side, in log frequency
+    and log modulus; the yardstick is the scatter of all points of all isotherms (median absolute deviation).  The
+    worst point is set aside and its neighbours are judged anew, so that it does not blame them.
+
+    Parameters
+    ----------
+    isotherms : sequence of Isotherm
+        Of one specimen.
+    name : {"storage", "loss"}
+        Which modulus.
+    """
+    curves = [
+        (np.log10(one.angular_frequency), np.log10(getattr(one, f"{name}_modulus")), np.arange(len(one)))
+        for one in isotherms
+    ]
+    residuals = [_residuals(x, y) for x, y, _ in curves]
+    every = np.concatenate([r for r in residuals if r.size] or [np.zeros(0)])
+    if every.size < 8:
+        return []
+    limit = max(SIGMAS * 1.4826 * float(np.median(np.abs(every))), LEAST_OUTLIER)
+    found = []
+    for number, (x, y, places) in enumerate(curves):
+        allowed = max(1, len(x) // 8)
+        r = residuals[number]
+        while r.size and np.max(np.abs(r)) > limit and allowed > 0:
+            worst = int(np.argmax(np.abs(r)))
+            found.append((number, int(places[worst])))
+            x, y, places = (np.delete(column, worst) for column in (x, y, places))
+            r, allowed = _residuals(x, y), allowed - 1
+    return sorted(found)
+
+
+def _residuals(x: Array, y: Array) -> Array:
+    """Return each point's distance from the parabola of its four nearest neighbours, over its standard deviation.
+
+    The ends of a sweep are left out (zero): beyond the last neighbour a parabola says little.
+    """
+    n = len(x)
+    if n < 7:
+        return np.zeros(0)
+    here = np.arange(1, n - 1)
+    first = np.clip(here - 2, 0, n - 5)
+    five = first[:, None] + np.arange(5)
+    others = five[five != here[:, None]].reshape(-1, 4)
+    distance = x[others] - x[here, None]
+    distance /= np.max(np.abs(distance), axis=1, keepdims=True)
+    # the coefficient of the first power is the parabola's value at the point itself
+    powers = np.stack([np.ones_like(distance), distance, distance**2], axis=-1)
+    gram = np.swapaxes(powers, 1, 2) @ powers
+    weights = (powers @ np.linalg.pinv(gram, rcond=1e-12, hermitian=True)[:, :, :1])[:, :, 0]
+    r = np.zeros(n)
+    r[1:-1] = (y[here] - np.sum(weights * y[others], axis=1)) / np.sqrt(1.0 + np.sum(weights**2, axis=1))
+    return r
+
+
+def _on_amplitudes(sweeps: Sequence[Sorted]) -> list[str]:
+    """Tell strain amplitudes that differ between isotherms: the modulus of a filled rubber falls with amplitude.
+
+    A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57, doi:10.1002/app.1962.070061906.
+    """
+    known = []
+    for one in sweeps:
+        amplitude = one.isotherm.strain_amplitude
+        if amplitude is not None and np.any(amplitude > 0.0):
+            known.append((float(np.nanmedian(amplitude[amplitude > 0.0])), one.isotherm.temperature))
+    if len(known) < 2:
+        return []
+    (least, at_least), (most, at_most) = min(known), max(known)
+    if most <= AMPLITUDES_DIFFER * least:
+        return []
+    told = f"The strain amplitudes of the isotherms differ, from {100 * least:.3g} % {at([at_least])} to "
+    told += f"{100 * most:.3g} % {at([at_most])}; the modulus of a filled rubber falls with amplitude (Payne effect), "
+    return [told + "which superposition would take for temperature."]

@@ -1,0 +1,240 @@
+"""Frequency sweeps among the steps of a TA Instruments file, in SI units."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers.readings import Readings
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.readers.source import Source
+    from viscofric.readers.ta_steps import Said, Signal, Step
+
+    Array = NDArray[np.float64]
+
+#: ω and f of one row, printed with two digits or so, agree within this (relative).
+_PRINTED_FREQUENCY = 0.05
+
+_HERTZ = {"Hz": 1.0, "mHz": 1e-3, "kHz": 1e3}
+_STRAIN = {"%": 0.01, "m/m": 1.0, "mm/mm": 1.0, "µm/µm": 1.0}
+
+
+@dataclass(frozen=True, eq=False)
+class _Points:
+    """Points of one sweep: temperature (K), angular frequency (rad/s), storage and loss modulus (Pa), strain (1)."""
+
+    places: list[str]
+    left_out: list[str]
+    columns: tuple[Array, ...]
+
+
+def readings_of(source: Source, kind: str, steps: Sequence[Step], tool: Said, notes: Sequence[str]) -> Readings:
+    """Return the points of all frequency sweeps among the steps of a file.
+
+    Parameters
+    ----------
+    source : Source
+        The file.
+    kind : str
+        What it was taken for, in words.
+    steps : sequence of Step
+        All of them, in the order of the file.
+    tool : pair
+        What the header says of the deformation; see `viscofric.readers.ta_steps.tool_says`.
+    notes : sequence of str
+        What was doubtful before.
+
+    Raises
+    ------
+    DataFileError
+        If no step is a frequency sweep with points, a column or unit is missing or wrong, or two columns of
+        frequency contradict each other.
+    """
+    sweeps = [(number, step) for number, step in enumerate(steps, start=1) if step.is_frequency_sweep]
+    if not sweeps:
+        raise DataFileError(source.path, f"holds no frequency sweep of an oscillation; {_told(steps)}.")
+    notes = [*notes, *_passed_over(steps)]
+    with np.errstate(all="ignore"):  # what overflows is no modulus and is left out
+        parts = [_points(source, step, notes) for _, step in sweeps]
+    left_out = [place for part in parts for place in part.left_out]
+    if left_out:
+        points = "1 point was" if len(left_out) == 1 else f"{len(left_out)} points were"
+        want = "for want of a temperature, modulus or frequency that is a number (the frequency above zero)"
+        notes.append(f"{points} left out {want}: {_listed(left_out)}.")
+    places = tuple(place for part in parts for place in part.places)
+    if not places:
+        raise DataFileError(
+            source.path, "no point of its frequency sweeps has all of temperature, frequency and moduli."
+        )
+    temperature, frequency, storage, loss, strain = (
+        np.concatenate(columns) for columns in zip(*(part.columns for part in parts), strict=True)
+    )
+    deformation, said_by = _deformation([step for _, step in sweeps], tool)
+    return Readings(
+        source=source.path,
+        format=kind,
+        places=places,
+        temperature=temperature,
+        angular_frequency=frequency,
+        storage_modulus=storage,
+        loss_modulus=loss,
+        deformation=deformation,
+        said_by=said_by,
+        strain_amplitude=strain if np.any(np.isfinite(strain)) else None,
+        step=np.repeat([number for number, _ in sweeps], [len(part.places) for part in parts]).astype(np.int64),
+        notes=tuple(dict.fromkeys(notes)),
+    )
+
+
+def _told(steps: Sequence[Step]) -> str:
+    """Say what there is instead of a frequency sweep."""
+    if not steps:
+        return "it has no steps with data"
+    names = [repr(step.name) for step in steps]
+    have = [repr(step.name) for step in steps if step.has_moduli]
+    listed = f"its step{' is' if len(steps) == 1 else 's are'} {_listed(names)}"
+    if not have:
+        return f"{listed}, without moduli"
+    which = "" if have == names else f" of which {_listed(have)}"
+    return f"{listed},{which} with moduli, but not over frequency"
+
+
+def _passed_over(steps: Sequence[Step]) -> list[str]:
+    others = [repr(step.name) for step in steps if not step.is_frequency_sweep]
+    if not others:
+        return []
+    count = "1 step was" if len(others) == 1 else f"{len(others)} steps were"
+    return [f"{count} passed over as no frequency sweep{'' if len(others) == 1 else 's'}: {_listed(others)}."]
+
+
+def _listed(names: Sequence[str], most: int = 6) -> str:
+    """Name the first few."""
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
+
+
+def _points(source: Source, step: Step, notes: list[str]) -> _Points:
+    temperature = _temperature(source, step, notes)
+    frequency = _angular_frequency(source, step)
+    storage = _modulus(source, step, "storage modulus", notes)
+    if "loss modulus" in step.signals:
+        loss = _modulus(source, step, "loss modulus", notes)
+    else:
+        loss = storage * step.signals["tan delta"].values
+        notes.append("The file holds no loss modulus; it was taken as the storage modulus times tan δ.")
+    good = (
+        np.isfinite(temperature) & np.isfinite(frequency) & np.isfinite(storage) & np.isfinite(loss) & (frequency > 0)
+    )
+    columns = (temperature, frequency, storage, loss, _strain(step, notes))
+    places = list(zip(step.places, good, strict=True))
+    return _Points(
+        [place for place, kept in places if kept],
+        [place for place, kept in places if not kept],
+        tuple(column[good] for column in columns),
+    )
+
+
+def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
+    signal = step.signals.get("temperature")
+    if signal is not None:
+        if source.temperature is not None:
+            problem = f"column {signal.heading!r} holds the temperatures; leave out temperature for this file."
+            raise DataFileError(source.path, problem)
+        factor, offset = _conversion(source, step, signal, "K", "°C")
+        return factor * signal.values + offset
+    if source.temperature is None:
+        problem = f"step {step.name!r} has no column 'Temperature'; say it, such as temperature='25 degC'."
+        raise DataFileError(source.path, problem)
+    notes.append(f"No column holds a temperature; {source.temperature - 273.15:z.1f} °C was given by the user.")
+    return np.full(len(step.places), source.temperature)
+
+
+def _modulus(source: Source, step: Step, role: str, notes: list[str]) -> Array:
+    signal = step.signals[role]
+    if source.modulus_unit and signal.unit:
+        problem = f"column {signal.heading!r} has the unit {signal.unit!r}; leave out modulus_unit."
+        raise DataFileError(source.path, problem)
+    if source.modulus_unit:
+        notes.append(f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked.")
+        return conversion(source.modulus_unit, "Pa", "modulus_unit")[0] * signal.values
+    return _conversion(source, step, signal, "Pa", "MPa")[0] * signal.values
+
+
+def _conversion(source: Source, step: Step, signal: Signal, unit: str, example: str) -> tuple[float, float]:
+    try:
+        return _factor_and_offset(signal.unit, unit)
+    except InputError:
+        raise _wrong_unit(source, step, signal, f"one like {example!r}") from None
+
+
+@lru_cache(maxsize=64)  # a file may have hundreds of steps, all in the same units
+def _factor_and_offset(text: str, unit: str) -> tuple[float, float]:
+    return conversion(re.sub(r"(?<=[cm]m)\^?2$", "²", text), unit)  # dyne/cm2
+
+
+def _wrong_unit(source: Source, step: Step, signal: Signal, right: str) -> DataFileError:
+    shown = f"the unit {signal.unit!r}" if signal.unit else "no unit"
+    where = f"column {signal.heading!r} of step {step.name!r}"
+    return DataFileError(source.path, f"{where} has {shown}; it must be {right}.")
+
+
+def _angular_frequency(source: Source, step: Step) -> Array:
+    """Return rad/s.  pint holds the radian for a pure number, so hertz and rad/s are told apart here."""
+    found = []
+    for role in ("angular frequency", "frequency"):
+        signal = step.signals.get(role)
+        if signal is None:
+            continue
+        if signal.unit == "rad/s" or (signal.unit == "1/s" and role == "angular frequency"):
+            found.append(signal.values)
+        elif signal.unit in _HERTZ and role == "frequency":
+            found.append(2.0 * math.pi * _HERTZ[signal.unit] * signal.values)
+        else:
+            raise _wrong_unit(source, step, signal, "'rad/s'" if role == "angular frequency" else "'Hz' or 'rad/s'")
+    apart = np.abs(found[-1] - found[0]) > _PRINTED_FREQUENCY * np.abs(found[0])
+    if np.any(apart):
+        place = step.places[int(np.argmax(apart))]
+        raise DataFileError(source.path, f"angular frequency and frequency contradict each other in {place} (ω = 2πf).")
+    return found[0]
+
+
+def _strain(step: Step, notes: list[str]) -> Array:
+    """Return the amplitude of the oscillation as a fraction, NaN where it is not known."""
+    signal = step.signals.get("strain")
+    nothing = np.full(len(step.places), math.nan)
+    if signal is None:
+        return nothing
+    factor = _STRAIN.get(signal.unit)
+    if factor is None:
+        shown = f"the unit {signal.unit!r}" if signal.unit else "no unit"
+        notes.append(f"The strain amplitudes were not read: column {signal.heading!r} has {shown}, not '%'.")
+        return nothing
+    return np.where(signal.values >= 0.0, factor * signal.values, math.nan)
+
+
+def _deformation(sweeps: Sequence[Step], tool: Said) -> Said:
+    """Decide between E and G: the heading of the moduli, else the tool, else a torque where there is no force."""
+    for step in sweeps:
+        heading = step.signals["storage modulus"].heading
+        plain = heading.lower()
+        if "shear" in plain or re.search(r"\bg['’′]", plain):
+            return "shear", f"the heading {heading!r}"
+        if "tensi" in plain or "young" in plain or re.search(r"\be['’′]", plain):
+            return "tension", f"the heading {heading!r}"
+    if tool[0] is not None:
+        return tool
+    if all("oscillation torque" in step.signals and "oscillation force" not in step.signals for step in sweeps):
+        heading = sweeps[0].signals["oscillation torque"].heading
+        return "shear", f"the column {heading!r}, as only a rotational rheometer writes it"
+    return None, ""

@@ -1,0 +1,189 @@
+"""JSON exports of TA Instruments TRIOS (schema ``TRIOSJSONExportSchema``): original or processed results of all steps.
+
+The vendor's own reader, tadatakit, does the work where it can.  It insists on every part that the schema requires
+and on a header for every cell, so that files of other versions of TRIOS, or such as were edited, fail in it; their
+stated structure is then read directly.
+
+No genuine file with a frequency sweep was at hand: the reader was tried on the vendor's sample of a strain sweep and
+on files written after it.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.readers.ta_steps import Signal, Step, roles, tool_says
+from viscofric.readers.ta_sweeps import readings_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from viscofric.readers.readings import Readings
+    from viscofric.readers.source import Source
+
+NAME = "TA Instruments TRIOS JSON"
+
+#: Sections of the results, in the order in which they are preferred: as measured first.
+_SECTIONS = ("Original", "Raw", "Processed")
+_STEP_ID = "Results Step Id"
+#: tadatakit makes an object of every row, some 0.2 ms each; longer files are read directly, to the same effect.
+_MOST_ROWS = 10_000
+_HEAD = 20000  # characters that tell the layout
+#: Names of the classification of results that nobody has changed.
+_AS_MEASURED = frozenset({"Unmodified", ""})
+
+
+@dataclass(frozen=True)
+class _Results:
+    """One section of the results: names and units of the columns, cells by column, and the name of each row's step."""
+
+    headings: list[str]
+    units: list[str]
+    columns: list[Sequence[Any]]
+    step_ids: list[str]
+    step_names: dict[str, str]
+
+
+def recognises(source: Source) -> bool:
+    """Return whether the file is JSON that names the vendor's schema or has its results."""
+    text = source.text or ""
+    if not text[:_HEAD].lstrip().startswith("{"):
+        return False
+    return "TRIOSJSONExportSchema" in text[:_HEAD] or ('"ResultsSteps"' in text and '"ColumnHeaders"' in text)
+
+
+def read(source: Source) -> Readings:
+    """Read all frequency sweeps of an export; see `viscofric.readers.formats.Format`.
+
+    Raises
+    ------
+    DataFileError
+        If the file is no whole JSON, has no results, or holds no frequency sweep (the message says what it holds).
+    """
+    try:
+        document = json.loads(source.text or "")
+    except json.JSONDecodeError as error:
+        problem = f"is not whole JSON ({error.msg}); the file may have been cut short."
+        raise DataFileError(source.path, problem, error.lineno) from None
+    except ValueError as error:  # a number of thousands of digits
+        raise DataFileError(source.path, f"is no JSON of an instrument ({error}).") from None
+    except RecursionError:
+        raise DataFileError(source.path, "is nested too deeply for an export of TRIOS.") from None
+    held = _part(document, "Results")
+    name = next((one for one in _SECTIONS if _part(_part(held, one), "ColumnHeaders")), None)
+    if name is None:
+        raise DataFileError(source.path, f"has no results under any of {', '.join(_SECTIONS)}; export them with them.")
+    section = held[name]
+    results = _as_stated(section)
+    if len(results.step_ids) <= _MOST_ROWS:
+        results = _by_vendor(document, name) or results
+    steps = _steps(results, f"{name.lower()} results")
+    return readings_of(source, NAME, steps, tool_says(_geometry(document)), _notes(name, section))
+
+
+def _part(parent: Any, key: str) -> Any:
+    """Return a part that is itself an object, else an empty one."""
+    part = parent.get(key) if isinstance(parent, dict) else None
+    return part if isinstance(part, dict) else {}
+
+
+def _notes(name: str, section: Mapping[str, Any]) -> list[str]:
+    classification = _part(section, "Classification")
+    if name == "Processed":
+        return ["The file holds processed results only, which may not be as they were measured."]
+    if str(classification.get("Id") or "") in _AS_MEASURED:
+        return []
+    return [f"The results may not be as they were measured: {str(classification.get('Description', ''))!r}."]
+
+
+def _by_vendor(document: Mapping[str, Any], name: str) -> _Results | None:
+    """Read with tadatakit, or return None where it cannot."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # its doubts about the results' origin stand in the notes
+            from tadatakit.classes import Experiment
+
+            experiment = Experiment.from_dict(document)
+            section = getattr(experiment.results, name.lower())
+            frame = experiment.get_dataframe(name.lower())
+        headers = section.column_headers.__dict__
+        names = {str(step.id): str(step.name) for step in section.results_steps}
+        headings, units, columns = [], [], []
+        for header in headers.values():
+            unit = header.unit.name if header.unit else ""
+            heading = f"{header.display_name} / {unit}" if header.unit else header.display_name
+            if heading in frame.columns and header.value_type == "Number":
+                headings.append(str(header.display_name))
+                units.append(str(unit))
+                columns.append(frame[heading].to_numpy(dtype=float))
+        ids = [str(one) for one in frame[_STEP_ID]]
+    except (ImportError, TypeError, KeyError, ValueError, AttributeError, IndexError, OverflowError, RecursionError):
+        return None
+    return _Results(headings, units, columns, ids, names)
+
+
+def _as_stated(section: Mapping[str, Any]) -> _Results:
+    """Read the structure itself: headers by key, rows of cells by key, names of the steps by their id."""
+    headers = {key: header for key, header in section["ColumnHeaders"].items() if isinstance(header, dict)}
+    listed = section.get("Rows")
+    rows = [row for row in listed if isinstance(row, dict)] if isinstance(listed, list) else []
+    steps = section.get("ResultsSteps")
+    names = {
+        str(step.get("Id")): str(step.get("Name", ""))
+        for step in (steps if isinstance(steps, list) else [])
+        if isinstance(step, dict)
+    }
+    return _Results(
+        [str(header.get("DisplayName", key)) for key, header in headers.items()],
+        [str(_part(header, "Unit").get("Name") or "") for header in headers.values()],
+        [[row.get(key) for row in rows] for key in headers],
+        [str(row.get(_STEP_ID)) for row in rows],
+        names,
+    )
+
+
+def _steps(results: _Results, where: str) -> list[Step]:
+    """Part the rows by their step, in the order of the list of steps."""
+    places = roles(results.headings)
+    values = {role: np.array([_number(cell) for cell in results.columns[place]]) for role, place in places.items()}
+    order = list(dict.fromkeys([*results.step_names, *results.step_ids]))
+    rows_of: dict[str, list[int]] = {one: [] for one in order}
+    for row, one in enumerate(results.step_ids):
+        rows_of[one].append(row)
+    steps = []
+    for one, rows in rows_of.items():
+        signals = {
+            role: Signal(results.headings[place], results.units[place], values[role][rows])
+            for role, place in places.items()
+            if np.any(np.isfinite(values[role][rows]))  # the headers are those of all steps together
+        }
+        name = results.step_names.get(one) or "(without a name)"
+        steps.append(Step(name, signals, tuple(f"row {row + 1} of the {where}" for row in rows)))
+    return steps
+
+
+def _number(cell: object) -> float:
+    """Return a finite number, or NaN."""
+    try:
+        number = float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else math.nan
+    except OverflowError:
+        return math.nan
+    return number if math.isfinite(number) else math.nan
+
+
+def _geometry(document: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Return what the file says of the tool that held the sample."""
+    listed = _part(_part(document, "Procedure"), "Configuration").get("InstrumentConfigurations")
+    for instrument in listed if isinstance(listed, list) else []:
+        for part in ("Geometry", "Clamp"):
+            for key in ("Type", "Name"):
+                value = _part(instrument, part).get(key)
+                if isinstance(value, str):
+                    yield f"{part} {key}", value

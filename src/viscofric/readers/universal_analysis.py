@@ -1,0 +1,199 @@
+"""DMA files of TA Instruments' Universal Analysis (Q800 and its kin): text exports and the binary files themselves.
+
+Both begin with the same header: ``CLOSED``, the version, lines of tag and value, ``Nsig`` and the list of signals
+``Sig1`` … with their units, which alone says what stands in which column.  In the text export ``StartOfData`` and
+tab-separated rows follow, of which those with a negative time mark events.  The binary file holds its header as
+UTF-16, then little-endian float32 records of one number per signal, up to the first record with a negative time.
+
+No genuine DMA file was at hand for either: the readers were written from descriptions of the layout and tried on
+files written from them.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.files import decoded
+from viscofric.readers.ta_cells import Table, steps_of
+from viscofric.readers.ta_steps import Signal, Step, roles, tool_says
+from viscofric.readers.ta_sweeps import readings_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.readers.readings import Readings
+    from viscofric.readers.source import Source
+
+NAME = "TA Instruments Universal Analysis (Q800) text or binary"
+
+_UTF16 = b"\xff\xfe"
+#: Ends the header of a binary file: end of line and form feed in UTF-16; one more byte follows.
+_END_OF_HEADER = b"\r\0\n\0\f\0"
+_FIRST_LINES = re.compile(r"\s*CLOSED\s*[\r\n]+\s*Version\b", re.IGNORECASE)
+#: Tags in which the instrument, not the user, may name the clamp.
+_CLAMP_TAGS = re.compile(r"mode|module|xcomment|.*(clamp|geometry|fixture).*", re.IGNORECASE)
+#: Universal Analysis calls the amplitude of the oscillation's strain just strain.
+_ALSO = {"strain": "oscillation strain"}
+
+
+def recognises(source: Source) -> bool:
+    """Return whether the file begins with ``CLOSED`` and ``Version``."""
+    start = source.data[:200]
+    wide = start.startswith((_UTF16, b"\xfe\xff"))
+    text = start.decode("utf-16" if wide else "utf-8-sig", "replace")
+    return bool(_FIRST_LINES.match(text.replace("\0", "")))
+
+
+def read(source: Source) -> Readings:
+    """Read all points of a file that oscillate; see `viscofric.readers.formats.Format`.
+
+    Raises
+    ------
+    DataFileError
+        If the header is cut short or contradicts itself, the file holds no frequency sweep (the message says what
+        it holds), or a row is wrong.
+    """
+    end = _end_of_header(source.data)
+    notes: list[str] = []
+    if end < 0:
+        kind = "TA Instruments Universal Analysis text"
+        header, rows = _split(source.path, _text(source))
+        names, units = _signals(source.path, header)
+        step = _step_of_text(source.path, _title(header), names, units, rows, notes)
+    else:
+        kind = "TA Instruments Q800 binary"
+        start = len(_UTF16) if source.data.startswith(_UTF16) else 0
+        header = [_tag(line) for line in source.data[start:end].decode("utf-16-le", "replace").splitlines()]
+        names, units = _signals(source.path, header)
+        step = _step_of_records(_title(header), names, units, source.data[end + len(_END_OF_HEADER) + 1 :], notes)
+    if not step.has_moduli:
+        instrument = next((value for tag, value in header if tag.lower() == "instrument"), "the instrument")
+        raise DataFileError(
+            source.path, f"holds no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}."
+        )
+    tool = tool_says((tag, value) for tag, value in header if _CLAMP_TAGS.fullmatch(tag))
+    # The file does not tell the steps of its programme apart.
+    return replace(readings_of(source, kind, [step], tool, notes), step=None)
+
+
+def _end_of_header(data: bytes) -> int:
+    """Return where the header of a binary file ends, or -1: the marker stands at a whole character of UTF-16."""
+    if b"\0" not in data[:20]:
+        return -1
+    place = data.find(_END_OF_HEADER)
+    while place >= 0 and place % 2:
+        place = data.find(_END_OF_HEADER, place + 1)
+    return place
+
+
+def _text(source: Source) -> str:
+    data = source.data
+    if not data.startswith(_UTF16) and data[1:2] == b"\0":  # UTF-16 without its mark
+        data = _UTF16 + data
+    return decoded(data[: len(data) - len(data) % 2] if data.startswith(_UTF16) else data, source.path)
+
+
+def _tag(line: str) -> tuple[str, str]:
+    """Part a line of the header into tag and value; exports part them by a tab, binary files by a blank."""
+    tag, _, value = line.strip().replace("\t", " ", 1).partition(" ")
+    return tag, value.strip()
+
+
+def _split(path: str, text: str) -> tuple[list[tuple[str, str]], list[tuple[int, list[str]]]]:
+    """Part a text export into the tags of its header and the cells of its rows with their lines."""
+    lines = re.split(r"\r\n|\r|\n", text)
+    start = next((place for place, line in enumerate(lines) if line.strip().lower() == "startofdata"), None)
+    if start is None:
+        raise DataFileError(path, "has no line 'StartOfData'; the file ends within its header.")
+    body = [(number, line) for number, line in enumerate(lines[start + 1 :], start + 2) if line.strip()]
+    rows = [(number, line.rstrip(" ").split("\t") if "\t" in line else line.split()) for number, line in body]
+    return [_tag(line) for line in lines[:start]], rows
+
+
+def _title(header: Sequence[tuple[str, str]]) -> str:
+    """Name the one programme of the file by its method."""
+    found = dict(reversed(header))
+    return next((found[tag] for tag in ("Method", "ProcName", "Mode") if found.get(tag)), "(without a method)")
+
+
+def _signals(path: str, header: Sequence[tuple[str, str]]) -> tuple[list[str], list[str]]:
+    """Return names and units of the signals in the order of the columns."""
+    stated = next((value for tag, value in header if tag.lower() == "nsig"), "")
+    if not re.fullmatch(r"[0-9]{1,3}", stated) or int(stated) == 0:
+        shown = f"'Nsig {stated[:20]}'" if stated else "no line 'Nsig'"
+        raise DataFileError(path, f"the header has {shown}; it must give the number of signals, such as 'Nsig 17'.")
+    found = {tag.lower(): value for tag, value in header if re.fullmatch(r"sig\d+", tag, re.IGNORECASE)}
+    missing = [f"Sig{k}" for k in range(1, int(stated) + 1) if f"sig{k}" not in found]
+    if missing:
+        raise DataFileError(path, f"the header states {int(stated)} signals but has no line {missing[0]!r}.")
+    parts = [_name_and_unit(found[f"sig{k}"]) for k in range(1, int(stated) + 1)]
+    if not re.match("time", parts[0][0], re.IGNORECASE):
+        raise DataFileError(path, f"the first signal is {parts[0][0]!r}; it must be the time, whose sign marks events.")
+    return [name for name, _ in parts], [unit for _, unit in parts]
+
+
+def _name_and_unit(signal: str) -> tuple[str, str]:
+    name, bracket, unit = signal.rpartition("(")
+    return (name.strip(), unit.strip(") ")) if bracket and signal.endswith(")") else (signal, "")
+
+
+def _step_of_text(
+    path: str, title: str, names: list[str], units: list[str], rows: list[tuple[int, list[str]]], notes: list[str]
+) -> Step:
+    measured = [row for row in rows if not row[1][0].strip().startswith(("-", "−"))]
+    events = len(rows) - len(measured)
+    if events:
+        marks = (
+            "1 row with a negative time marks an event"
+            if events == 1
+            else f"{events} rows with a negative time mark events"
+        )
+        notes.append(f"{marks}; no point was read there.")
+    if measured and rows[-1] is measured[-1] and len(rows[-1][1]) < len(names):
+        line, _ = measured.pop()
+        notes.append(f"The last row (line {line}) is torn and was left out; the file may have been cut short.")
+    for line, cells in measured:
+        if len(cells) < len(names):
+            problem = f"the row has {len(cells)} cells where the header names {len(names)} signals."
+            raise DataFileError(path, problem, line)
+    step = steps_of(path, [Table(title, names, units, measured)], _ALSO)[0]
+    return replace(step, named_by_instrument=False)
+
+
+def _step_of_records(title: str, names: list[str], units: list[str], data: bytes, notes: list[str]) -> Step:
+    size = 4 * len(names)
+    count = len(data) // size
+    with np.errstate(invalid="ignore"):  # what is no number is sorted out below
+        records = np.frombuffer(data[: count * size], dtype="<f4").reshape(count, len(names)).astype(float)
+    negative = np.flatnonzero(records[:, 0] < 0)
+    if negative.size:
+        _note_records_behind(records, int(negative[0]), notes)
+        records = records[: negative[0]]
+    elif len(data) % size:
+        notes.append(f"Record {count + 1} is torn and was left out; the file may have been cut short.")
+    else:
+        notes.append("No record with a negative time closes the data; the file may have been cut short.")
+    records = np.where(np.isfinite(records), records, np.nan)
+    places = roles([_ALSO.get(name.lower(), name) for name in names])
+    signals = {role: Signal(names[place], units[place], records[:, place]) for role, place in places.items()}
+    return Step(title, signals, tuple(f"record {number}" for number in range(1, len(records) + 1)), False)
+
+
+def _note_records_behind(records: NDArray[np.float64], end: int, notes: list[str]) -> None:
+    """Say it where what follows the record that ends the data goes on in time like data."""
+    time = records[:, 0]
+    last = time[end - 1] if end else 0.0
+    behind = time[end + 1 :]
+    like_data = int(np.sum(np.isfinite(behind) & (behind >= last) & (behind < last + 1e6)))
+    if like_data:
+        notes.append(
+            f"Record {end + 1} has a negative time and ends the data; {like_data} later records look like data "
+            "and were not read."
+        )

@@ -1,0 +1,100 @@
+"""Points that can be used, and notes on those left out: missing values, moduli and frequencies not above zero."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.readers.points import Points
+
+    Indices = NDArray[np.intp]
+
+
+def usable(points: Points, source: str) -> tuple[Indices, list[str]]:
+    """Return which points can be used, and a note on each sort of those left out.
+
+    Parameters
+    ----------
+    points : Points
+        As read.
+    source : str
+        Named in errors.
+
+    Raises
+    ------
+    DataFileError
+        If most points lack a value, or most frequencies or storage moduli, or all loss moduli, are not above zero;
+        if a temperature is not above absolute zero.
+    """
+    if not len(points):
+        raise DataFileError(source, "holds no point of a frequency sweep.")
+    columns = (points.temperature, points.angular_frequency, points.storage_modulus, points.loss_modulus)
+    keep = np.all([np.isfinite(column) for column in columns], axis=0)
+    notes: list[str] = []
+    _leave_out(points, source, ~keep, notes, ("a value is missing in it", "a value is missing in each"), None)
+    cold = np.flatnonzero(keep & (points.temperature <= 0.0))
+    if cold.size:
+        problem = f"{points.places[cold[0]]} has a temperature of {points.temperature[cold[0]]:.4g} K; "
+        raise DataFileError(source, problem + "it must be above absolute zero.")
+    for name, plural, values, unit in (
+        ("frequency", "frequencies", points.angular_frequency / (2 * math.pi), "Hz"),
+        ("storage modulus", "storage moduli", points.storage_modulus, "Pa"),
+        ("loss modulus", "loss moduli", points.loss_modulus, "Pa"),
+    ):
+        bad = keep & (values <= 0.0)
+        told = (f"its {name} is not above zero", f"their {plural} are not above zero")
+        _leave_out(points, source, bad, notes, told, (values, unit), most=name != "loss modulus")
+        keep &= ~bad
+    if not keep.any():
+        raise DataFileError(source, "no row has a loss modulus above zero.")
+    return np.flatnonzero(keep), notes
+
+
+def _leave_out(
+    points: Points,
+    source: str,
+    bad: NDArray[np.bool_],
+    notes: list[str],
+    told: tuple[str, str],
+    values: tuple[NDArray[np.float64], str] | None,
+    *,
+    most: bool = True,
+) -> None:
+    """Add a note, or raise where most points would be left out."""
+    rows = np.flatnonzero(bad)
+    if not rows.size:
+        return
+    named = points.named(rows.tolist())
+    if most and 2 * len(rows) > len(points):
+        raise DataFileError(source, f"{len(rows)} of {len(points)} points cannot be used: {told[1]} ({named}).")
+    first = int(rows[0])
+    if len(rows) > 1:
+        notes.append(f"{len(rows)} points left out: {told[1]} ({named}{_span(points, rows)}).")
+    elif values is None:
+        notes.append(f"{_capital(named)} left out: {told[0]}.")
+    else:
+        hertz = points.angular_frequency[first] / (2 * math.pi)
+        where = f"{celsius(points.temperature[first]):z.1f} °C, {hertz:.4g} Hz"
+        notes.append(f"{_capital(named)} left out: {told[0]} ({values[0][first]:.4g} {values[1]} at {where}).")
+
+
+def _span(points: Points, rows: Indices) -> str:
+    kelvin = points.temperature[rows]
+    kelvin = kelvin[np.isfinite(kelvin)]
+    if not kelvin.size:
+        return ""
+    low, high = (f"{celsius(float(value)):z.1f}" for value in (kelvin.min(), kelvin.max()))
+    return f"; at {low} °C" if low == high else f"; {low} to {high} °C"
+
+
+def _capital(text: str) -> str:
+    """Begin a sentence, but leave the names of files as they are."""
+    return text[0].upper() + text[1:] if text.startswith(("line ", "row ", "point ", "sheet ")) else text

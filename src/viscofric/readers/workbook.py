@@ -1,0 +1,225 @@
+"""Excel workbooks: parsed in a process of its own, then read like a text table."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.readers.dma_table import read_points
+from viscofric.readers.layout import header_row, quantities, table_under
+from viscofric.readers.readings import Readings
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.readers.layout import NumberedRow
+    from viscofric.readers.source import Source
+    from viscofric.readers.table import Table
+
+    #: Rows of cells, each a number or text, empty text where the sheet has nothing.
+    Rows = list[list[float | int | str | bool]]
+
+NAME = "Excel workbook"
+
+#: A zip archive (.xlsx) and a compound document (.xls).
+MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")
+#: A workbook of measurements is parsed in a small part of this.
+LONGEST_PARSE = 30.0  # s
+
+_MODULI = {"storage modulus", "loss modulus", "complex modulus"}
+_COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
+_PARSER = Path(__file__).with_name("parse_workbook.py")
+_parsed: WeakKeyDictionary[Source, dict[str, Rows] | DataFileError] = WeakKeyDictionary()
+
+
+def is_workbook(source: Source) -> bool:
+    """Return whether the file begins as an Excel workbook does."""
+    return source.data.startswith(MAGIC)
+
+
+def sheet_names(source: Source) -> tuple[str, ...]:
+    """Return the names of the sheets, none if the file is no workbook that can be read; never raises."""
+    if not is_workbook(source):
+        return ()
+    try:
+        return tuple(sheets(source))
+    except DataFileError:
+        return ()
+
+
+def sheets(source: Source) -> dict[str, Rows]:
+    """Return the sheets of a workbook, in its order.
+
+    The file is parsed once, in a process of its own with limited memory and time: a crafted workbook can ask for
+    hundreds of gigabytes.
+
+    Parameters
+    ----------
+    source : Source
+        The file.
+
+    Returns
+    -------
+    dict
+        Name of the sheet -> rows of cells from the first row and column on: numbers as float, text, or ``""``.
+        Dates and times are text.
+
+    Raises
+    ------
+    DataFileError
+        If it is damaged, protected or far larger than a workbook of measurements.
+    """
+    if source not in _parsed:
+        try:
+            _parsed[source] = _parse(source)
+        except DataFileError as error:
+            _parsed[source] = error
+    found = _parsed[source]
+    if isinstance(found, DataFileError):
+        raise DataFileError(found.path, found.problem)
+    return found
+
+
+def _parse(source: Source) -> dict[str, Rows]:
+    # -P: modules beside the script must not stand in for those of Python
+    command = [sys.executable, "-P", str(_PARSER)]
+    try:
+        done = subprocess.run(command, input=source.data, capture_output=True, timeout=LONGEST_PARSE, check=False)
+        answer = json.loads(done.stdout)
+    except subprocess.TimeoutExpired:
+        problem = f"takes longer than {LONGEST_PARSE:.0f} s to parse; save the sheet of measurements alone, or as CSV."
+        raise DataFileError(source.path, problem) from None
+    except ValueError:  # the parser was ended, for want of memory as a rule
+        raise DataFileError(source.path, "is a workbook that cannot be parsed; save it anew, or as CSV.") from None
+    if "problem" in answer:
+        raise DataFileError(source.path, answer["problem"])
+    return dict(answer["sheets"])
+
+
+def recognises(source: Source) -> bool:
+    """Return whether the file begins as an Excel workbook does."""
+    return is_workbook(source)
+
+
+def read(source: Source) -> Readings:
+    """Return the points of all sheets that hold a DMA table.
+
+    Several sheets are taken for several temperatures of one specimen; if their temperatures overlap, they may as
+    well be several specimens, or one sheet a copy of the other, and are refused.
+
+    Raises
+    ------
+    DataFileError
+        If the workbook cannot be parsed, no sheet holds a DMA table, sheets overlap, or a table is wrong.
+    """
+    readings = {
+        name: read_points(table, source, NAME, name, where=f"sheet {name!r}, row")
+        for name, table in tables(source).items()
+    }
+    _insist_on_own_temperatures(source, readings)
+    return _joined(source, readings)
+
+
+def tables(source: Source) -> dict[str, Table]:
+    """Return the tables with moduli of a workbook by the names of their sheets.
+
+    Raises
+    ------
+    DataFileError
+        If the workbook cannot be parsed, no sheet holds such a table, or a row is wrong.
+    """
+    found = {}
+    for name, cells in sheets(source).items():
+        rows = _numbered(cells)
+        header = header_row(rows)
+        if header is not None:
+            found[name] = (rows, header)
+    if not found:
+        shown = ", ".join(repr(name) for name in sheets(source)) or "none"
+        raise DataFileError(
+            source.path,
+            "no sheet has a row that names temperature, frequency, storage and loss modulus, with their units there or "
+            f"in the row below; its sheets are {shown}.",
+        )
+    # a sheet of, say, shift factors names two quantities, but no modulus
+    whole = {name: one for name, one in found.items() if _MODULI & quantities(one[0][one[1]][1])}
+    return {
+        name: table_under(f"{source.path}, sheet {name!r}", rows, header)
+        for name, (rows, header) in (whole or found).items()
+    }
+
+
+def _numbered(cells: Rows) -> list[NumberedRow]:
+    """Return the rows that are not blank as text, with their numbers."""
+    comma = any(isinstance(cell, str) and _COMMA_NUMBER.fullmatch(cell) for row in cells for cell in row)
+    rows: list[NumberedRow] = []
+    for number, row in enumerate(cells, start=1):
+        shown = [_text(cell, comma=comma) for cell in row]
+        if any(cell.strip() for cell in shown) and not shown[0].lstrip().startswith("#"):
+            rows.append((number, shown))
+    return rows
+
+
+def _text(cell: float | str, *, comma: bool) -> str:
+    """Write a cell as a text table would, with the decimal mark of the sheet's other cells."""
+    if isinstance(cell, str):
+        return cell
+    return repr(float(cell)).removesuffix(".0").replace(".", "," if comma else ".")
+
+
+def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -> None:
+    spans = []
+    for name, one in readings.items():
+        known = one.temperature[np.isfinite(one.temperature)]
+        if known.size:
+            spans.append((float(known.min()), float(known.max()), name))
+    spans.sort()
+    for (low, high, name), (next_low, next_high, next_name) in pairwise(spans):
+        if next_low <= high:
+            told = f"{name!r} ({celsius(low):z.1f} to {celsius(high):z.1f} °C) and {next_name!r} "
+            told += f"({celsius(next_low):z.1f} to {celsius(next_high):z.1f} °C)"
+            problem = f"the sheets {told} each hold a DMA table and overlap; keep the one that is meant."
+            raise DataFileError(source.path, problem)
+
+
+def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
+    """Put the points of all sheets in one row."""
+    names, parts = list(readings), list(readings.values())
+    if len(parts) == 1:
+        return parts[0]
+    kinds = {part.deformation for part in parts}
+    if len(kinds) > 1:
+        raise DataFileError(source.path, f"the sheets {', '.join(map(repr, names))} differ in E and G; part them.")
+
+    def all_of(column: str) -> NDArray[np.float64]:
+        return np.concatenate([getattr(part, column) for part in parts])
+
+    nothing = [np.full(len(part), np.nan) for part in parts]
+    amplitudes = [
+        none if part.strain_amplitude is None else part.strain_amplitude
+        for part, none in zip(parts, nothing, strict=True)
+    ]
+    told = f"The sheets {', '.join(map(repr, names))} were taken for temperatures of one specimen."
+    return Readings(
+        source=source.path,
+        format=NAME,
+        places=tuple(place for part in parts for place in part.places),
+        temperature=all_of("temperature"),
+        angular_frequency=all_of("angular_frequency"),
+        storage_modulus=all_of("storage_modulus"),
+        loss_modulus=all_of("loss_modulus"),
+        deformation=parts[0].deformation,
+        said_by=parts[0].said_by,
+        strain_amplitude=np.concatenate(amplitudes) if any(p.strain_amplitude is not None for p in parts) else None,
+        notes=(told, *dict.fromkeys(note for part in parts for note in part.notes)),
+    )

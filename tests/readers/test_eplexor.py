@@ -1,0 +1,213 @@
+"""Eplexor workbooks: sweeps as measured, and master curves taken apart into the sweeps that they were made of."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from readers.samples.eplexor import SAMPLES, SHIFTS, master_tables, raw_tables, save
+from readers.samples.rubber import FREQUENCIES, TEMPERATURES, points
+from viscofric.errors import DataFileError
+from viscofric.readers import eplexor
+from viscofric.readers.eplexor_master import isotherm_of_each_row, programmed_frequencies
+from viscofric.readers.source import Source
+
+
+def source(path):
+    return Source(str(path), path.read_bytes())
+
+
+def read(path):
+    return eplexor.read(source(path))
+
+
+def table(readings):
+    """Return °C, Hz and Pa of each point, by temperature and frequency."""
+    columns = [readings.temperature - 273.15, readings.angular_frequency / (2 * np.pi)]
+    columns += [readings.storage_modulus, readings.loss_modulus]
+    return np.column_stack(columns)[np.lexsort((readings.angular_frequency, np.round(readings.temperature)))]
+
+
+def saved(folder, tables):
+    return save(folder / "changed.xlsx", tables)
+
+
+def test_planted_moduli_come_back(tmp_path):
+    readings = read(SAMPLES["eplexor raw"](tmp_path))
+    found, planted = table(readings), np.array(points())
+    assert np.allclose(found[:, 0], planted[:, 0], rtol=0.0, atol=0.0201)  # the sample scatters by 0.02 K
+    assert np.allclose(found[:, 1:], planted[:, 1:], rtol=1e-12)  # cells are doubles
+    assert readings.deformation == "tension"
+    assert "E' (MPa)" in readings.said_by
+    assert np.allclose(readings.strain_amplitude, 5e-4, rtol=1e-12)  # 0.05 %
+    assert readings.places[0] == "sheet 'Exported Data', row 3"
+
+
+def test_missing_number_in_a_column_that_is_not_needed_does_no_harm(tmp_path):
+    tables = raw_tables()
+    assert tables["Exported Data"][3][1] == "---"
+    assert len(read(saved(tmp_path, tables))) == len(points())
+
+
+def test_row_without_modulus_is_left_out_and_told(tmp_path):
+    tables = raw_tables()
+    tables["Exported Data"][4][6] = "---"
+    readings = read(saved(tmp_path, tables))
+    assert len(readings) == len(points()) - 1
+    assert any("row 5" in note and "Left out" in note for note in readings.notes)
+
+
+def test_row_without_strain_keeps_its_moduli(tmp_path):
+    tables = raw_tables()
+    tables["Exported Data"][2][2] = "---"
+    amplitude = read(saved(tmp_path, tables)).strain_amplitude
+    assert np.isnan(amplitude[0])
+    assert np.all(amplitude[1:] > 0)
+
+
+def test_shear_moduli_are_named_so(tmp_path):
+    readings = read(saved(tmp_path, raw_tables("G")))
+    assert readings.deformation == "shear"
+    assert "G' (MPa)" in readings.said_by
+
+
+def test_master_curve_is_taken_apart_into_its_isotherms(tmp_path):
+    readings = read(SAMPLES["eplexor master"](tmp_path))
+    assert np.allclose(table(readings), np.array(points()), rtol=1e-12, atol=1e-10)
+    assert "master curve" in readings.format
+    assert any("taken apart into 3 isotherms" in note for note in readings.notes)
+    assert len(set(readings.step.tolist())) == 3
+
+
+def test_time_decides_where_two_shifts_fit(tmp_path):
+    # The coldest isotherm is shifted by three steps of the programme: its first point looks like the fourth of another.
+    assert SHIFTS[TEMPERATURES[0]] == 1.5
+    tables = master_tables()
+    time = tables["Exported Data"][0].index("Time")
+    for row in tables["Exported Data"]:
+        del row[time]
+    with pytest.raises(DataFileError, match="several isotherms, and no column 'Time'"):
+        read(saved(tmp_path, tables))
+
+
+def test_frequency_that_no_shift_explains_is_refused(tmp_path):
+    tables = master_tables()
+    tables["Exported Data"][4][4] *= 1.2
+    with pytest.raises(DataFileError, match=r"row 5: no shift of the list .* read_master_curve"):
+        read(saved(tmp_path, tables))
+
+
+@pytest.mark.parametrize(("lost", "told"), [("Shiftlist", "Shiftlist"), ("Data header", "range of frequencies")])
+def test_master_curve_that_cannot_be_taken_apart_is_refused(tmp_path, lost, told):
+    tables = master_tables()
+    del tables[lost]
+    with pytest.raises(DataFileError, match=rf"master curve at 10.0 °C without the .*{told}.* read_master_curve"):
+        read(saved(tmp_path, tables))
+
+
+def test_single_isotherm_is_no_master_curve(tmp_path):
+    tables = raw_tables()
+    for row in tables["Exported Data"][2:]:
+        row[5] = 10.0
+    assert read(saved(tmp_path, tables)).step is None
+
+
+def test_list_may_name_isotherms_without_rows(tmp_path):
+    tables = master_tables()
+    tables["Shiftlist"].append([-40.0, 4.02, ""])
+    assert any("-40.0 °C, of which the workbook holds no rows" in note for note in read(saved(tmp_path, tables)).notes)
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "cell", "told"),
+    [
+        (1, 6, "N", "column \"E'\" of sheet 'Exported Data' has the unit 'N'"),
+        (1, 4, "min", "column 'f'.*unit 'min'"),
+        (2, 4, -1.0, "row 3: column 'f' must be above zero"),
+        (2, 5, -300.0, "row 3: column 'T' must be above absolute zero"),
+        (3, 7, "low", "row 4: 'low' in column \"E''\" is not a finite number"),
+        (3, 7, 1e305, "row 4: '1e\\+305' in column"),
+        (0, 7, "loss", "no column \"E''\""),
+    ],
+)
+def test_damaged_sheet_is_told(tmp_path, row, column, cell, told):
+    tables = raw_tables()
+    tables["Exported Data"][row][column] = cell
+    with pytest.raises(DataFileError, match=told):
+        read(saved(tmp_path, tables))
+
+
+def test_damaged_list_is_told(tmp_path):
+    tables = master_tables()
+    tables["Shiftlist"][4][1] = "much"
+    with pytest.raises(DataFileError, match="'Shiftlist', row 5 must hold a temperature"):
+        read(saved(tmp_path, tables))
+
+
+def test_other_workbooks_are_not_taken_for_eplexor(tmp_path):
+    assert eplexor.recognises(source(SAMPLES["eplexor raw"](tmp_path)))
+    other = saved(tmp_path, {"Sheet1": [["T", "f", "E'"], [1.0, 2.0, 3.0]]})
+    assert not eplexor.recognises(source(other))
+    assert not eplexor.recognises(Source("x.xls", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 600))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "density", "expected"),
+    [
+        (0.1, 10.0, 2.0, FREQUENCIES),
+        (0.1, 100.0, 3.0, 10.0 ** (np.arange(10) / 3 - 1)),
+        (1.0, 30.0, 2.0, [1.0, 10**0.5, 10.0, 30.0]),  # the last step is cut short
+        (1.0, 1.0, 2.0, None),
+        (0.0, 1.0, 2.0, None),
+        (1.0, "many", 2.0, None),
+    ],
+)
+def test_programme_is_read_from_the_header(low, high, density, expected):
+    header = [["", "Frequency range:", "", "Frequency increment:"], ["Values:", low, high, density]]
+    found = programmed_frequencies({"Data header": header})
+    if expected is None:
+        assert found is None
+    else:
+        assert np.allclose(found, expected, rtol=1e-5)  # FREQUENCIES carry six digits
+
+
+def test_table_of_any_length_is_bounded():
+    with pytest.raises(DataFileError, match="more than any sweep"):
+        isotherm_of_each_row(np.ones(10_000), None, np.zeros(1000), np.ones(2), "x.xls", [])
+
+
+def test_genuine_sweeps_are_read_as_printed(real_data):
+    readings = read(real_data / "instruments" / "eplexor" / "freq_Eplexor_raw.xls")
+    assert len(readings) == 210
+    assert readings.deformation == "tension"
+    assert readings.temperature[0] == pytest.approx(-49.9612 + 273.15, abs=1e-9)
+    assert readings.storage_modulus[0] == pytest.approx(8097.1755453452715e6, rel=1e-12)
+    assert readings.loss_modulus[0] == pytest.approx(93.0744904454984e6, rel=1e-12)
+    assert readings.strain_amplitude[0] == pytest.approx(1.8433441662706006e-5, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "undone", "rows", "isotherms", "deformation"),
+    [
+        ("freq_Eplexor_master.xls", "adhesive_ems_ca.csv", 210, 21, "tension"),
+        ("freq_Eplexor_master_shear.xls", "eva_shear.csv", 183, 19, "shear"),
+    ],
+)
+def test_genuine_master_curves_come_apart(real_data, name, undone, rows, isotherms, deformation):
+    readings = read(real_data / "instruments" / "eplexor" / name)
+    assert len(readings) == rows
+    assert readings.deformation == deformation
+    assert np.unique(readings.temperature).size == isotherms
+    independent = np.loadtxt(real_data / "dma" / undone, delimiter=",", skiprows=1)
+    independent = independent[np.lexsort((independent[:, 1], np.round(independent[:, 0])))]
+    found = table(readings) / [1.0, 1.0, 1e6, 1e6]
+    # That table holds eight digits and nominal frequencies, the workbook frequencies of six digits.
+    assert np.allclose(found, independent, rtol=3e-6, atol=1e-9)
+
+
+def test_genuine_master_curve_has_the_programme_of_the_genuine_sweeps(real_data):
+    # Of another specimen of the same adhesive: the same frequencies, and temperatures within some tenths of a kelvin.
+    folder = real_data / "instruments" / "eplexor"
+    raw, master = read(folder / "freq_Eplexor_raw.xls"), read(folder / "freq_Eplexor_master.xls")
+    assert np.allclose(master.angular_frequency, raw.angular_frequency, rtol=1e-9)
+    assert np.max(np.abs(master.temperature - raw.temperature)) < 0.5

@@ -1,0 +1,95 @@
+"""Master curves that others made, with the temperature that they hold for."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from readers.samples.workbook import write as write_workbook
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers.master_curves import read_master_curve
+
+ROWS = ["1e-3,5,0.5", "1e3,9,0.7", "1,6,0.9"]
+
+
+def write(tmp_path, *lines, name="master.csv"):
+    path = tmp_path / name
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return path
+
+
+def test_a_text_table_is_sorted_and_carries_its_reference(tmp_path):
+    curve = read_master_curve(write(tmp_path, "f,E_stor,E_loss", "Hz, MPa, MPa", *ROWS), "25 degC")
+    assert curve.reference == pytest.approx(298.15)
+    assert curve.angular_frequency == pytest.approx(2 * math.pi * np.array([1e-3, 1.0, 1e3]))
+    assert curve.storage_modulus == pytest.approx([5e6, 6e6, 9e6])
+    assert curve.loss_modulus == pytest.approx([5e5, 9e5, 7e5])
+    assert curve.temperature == pytest.approx([298.15] * 3)
+
+
+def test_temperatures_of_the_isotherms_are_kept_where_a_column_tells_them(tmp_path):
+    lines = ["f (Hz),E' (MPa),E'' (MPa),T (°C)", *(f"{row},{T}" for row, T in zip(ROWS, (60, -20, 25), strict=True))]
+    curve = read_master_curve(write(tmp_path, *lines), 298.15)
+    assert curve.temperature - 273.15 == pytest.approx([60.0, 25.0, -20.0])
+
+
+def test_shear_moduli_become_tensile_ones(tmp_path):
+    path = write(tmp_path, "ω (rad/s),G' (MPa),G'' (MPa)", *ROWS)
+    assert read_master_curve(path, 298.15).storage_modulus[0] == pytest.approx(15e6)  # 2(1 + 0.5) G
+    assert read_master_curve(path, 298.15, poisson_ratio=0.4).storage_modulus[0] == pytest.approx(14e6)
+    with pytest.raises(DataFileError, match="the headings say shear"):
+        read_master_curve(path, 298.15, "tension")
+
+
+def test_nothing_is_assumed_of_the_deformation(tmp_path):
+    path = write(tmp_path, "f (Hz),storage modulus (MPa),loss modulus (MPa)", *ROWS)
+    with pytest.raises(DataFileError, match="say deformation='tension' or 'shear'"):
+        read_master_curve(path, 298.15)
+    assert read_master_curve(path, 298.15, "shear").storage_modulus[0] == pytest.approx(15e6)
+
+
+def test_a_workbook_and_a_unit_that_is_given(tmp_path):
+    cells = [["f (Hz)", "E'", "E''"], *([float(cell) for cell in row.split(",")] for row in ROWS)]
+    path = write_workbook(tmp_path / "master.xlsx", {"25 C": cells})
+    curve = read_master_curve(path, "25 degC", modulus_unit="MPa")
+    assert curve.storage_modulus == pytest.approx([5e6, 6e6, 9e6])
+    with pytest.raises(DataFileError, match="has no unit"):
+        read_master_curve(path, "25 degC")
+    two = write_workbook(tmp_path / "two.xlsx", {"A": cells, "B": cells})
+    with pytest.raises(DataFileError, match="the sheets 'A', 'B' each hold a table"):
+        read_master_curve(two, "25 degC", modulus_unit="MPa")
+
+
+def test_a_master_curve_of_reptate_holds_for_its_own_temperature(tmp_path):
+    path = write(tmp_path, "T=-35;Mw=2.4;chem=PI;", " 1E0 2E3 3E4 -29.9 0 ", " 1E-1 1E3 1E4 -20.0 0 ", name="a.tts")
+    curve = read_master_curve(path, "-35 degC")
+    assert curve.angular_frequency == pytest.approx([0.1, 1.0])
+    assert curve.storage_modulus == pytest.approx([3e3, 6e3])  # 3 G
+    assert curve.temperature == pytest.approx([238.15, 238.15])
+    with pytest.raises(DataFileError, match="holds for -35 °C, as its first line says, not for 25 °C"):
+        read_master_curve(path, "25 degC")
+
+
+@pytest.mark.parametrize(("row", "says"), [("1,0,1", "line 5: the storage modulus"), ("1,5,", "line 5: the loss mod")])
+def test_a_value_that_is_missing_or_not_above_zero_is_refused(tmp_path, row, says):
+    with pytest.raises(DataFileError, match=says):
+        read_master_curve(write(tmp_path, "f (Hz),E' (MPa),E'' (MPa)", *ROWS, row), 298.15)
+
+
+def test_arguments_that_make_no_sense_are_refused(tmp_path):
+    path = write(tmp_path, "f (Hz),E' (MPa),E'' (MPa)", *ROWS)
+    for wrong in ({"deformation": "bending"}, {"poisson_ratio": 0.6}, {"modulus_unit": "mm"}):
+        with pytest.raises(InputError):
+            read_master_curve(path, 298.15, **wrong)
+    with pytest.raises(InputError, match="reference"):
+        read_master_curve(path, "cold")
+
+
+def test_a_real_master_curve(real_data):
+    curve = read_master_curve(real_data / "instruments" / "two_row_csv" / "freq_user_master.csv", "25 degC")
+    assert len(curve) == 206
+    assert curve.angular_frequency[0] == pytest.approx(2 * math.pi * 1e-12)
+    assert curve.storage_modulus[0] == pytest.approx(88.79651575665739e6)
+    assert curve.loss_modulus[0] == pytest.approx(10.502460140936773e6)

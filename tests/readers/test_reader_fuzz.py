@@ -1,0 +1,183 @@
+"""Damaged files of every format: a clear error or sweeps that look right, in bounded time, never anything else."""
+
+from __future__ import annotations
+
+import os
+import random
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from readers.samples import SAMPLES
+from readers.samples.workbook import write as write_workbook
+from viscofric.errors import DataFileError
+from viscofric.readers import read_dma
+from viscofric.readers.formats import FORMATS
+
+#: Processor time of one damaged file of a few kilobytes, s; whole ones take some milliseconds, a workbook 40 ms
+#: in a process of its own.  The time of the processor does not count what else the machine is doing.
+LONGEST = 1.0
+
+damage = settings(
+    max_examples=15,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+every_sample = pytest.mark.parametrize("name", sorted(SAMPLES))
+
+
+@pytest.fixture(scope="module")
+def sample_bytes(tmp_path_factory):
+    """Name of a sample -> ending and content of its file."""
+    folder = tmp_path_factory.mktemp("samples")
+    written = {name: write(folder) for name, write in SAMPLES.items()}
+    return {name: (path.suffix, path.read_bytes()) for name, path in written.items()}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def warm():
+    """Import what readers import at need, so that the first file does not count it."""
+    from viscofric.units import registry
+
+    registry()
+
+
+def read_or_refuse(tmp_path, suffix, data):
+    """Read what a damaged file holds, and insist on sweeps that look right or one clear sentence."""
+    path = tmp_path / f"damaged{suffix}"
+    path.write_bytes(data)
+    before = os.times()
+    sweeps, refusal = None, ""
+    try:
+        sweeps = read_dma(path)
+    except DataFileError as error:
+        refusal = str(error)
+    after = os.times()
+    assert sum(after[:4]) - sum(before[:4]) < LONGEST
+    if sweeps is None:
+        assert str(path) in refusal
+        assert "\n" not in refusal
+        assert len(refusal) < 1500
+        return
+    assert len(sweeps) >= 1
+    assert np.all(np.isfinite(sweeps.temperatures) & (sweeps.temperatures > 0))
+    for isotherm in sweeps.isotherms:
+        columns = (isotherm.angular_frequency, isotherm.storage_modulus, isotherm.loss_modulus)
+        assert len(isotherm) >= 1
+        for column in columns:
+            assert np.all(np.isfinite(column) & (column > 0))
+    assert sweeps.format
+    assert sweeps.notes
+    assert all("\n" not in note for note in sweeps.notes)
+
+
+@every_sample
+def test_a_whole_file_is_read(tmp_path, name):
+    sweeps = read_dma(SAMPLES[name](tmp_path))
+    assert sum(map(len, sweeps.isotherms)) >= 2
+    assert sweeps.format in sweeps.notes[0]
+
+
+def test_every_format_has_a_sample(tmp_path):
+    from viscofric.readers.formats import format_of
+    from viscofric.readers.source import Source
+
+    seen = set()
+    for write in SAMPLES.values():
+        path = write(tmp_path)
+        seen.add(format_of(Source(str(path), path.read_bytes())).NAME)
+    assert seen == {one.NAME for one in FORMATS}
+
+
+@every_sample
+@damage
+@given(share=st.floats(0.0, 1.0))
+def test_a_file_torn_off_anywhere(tmp_path, sample_bytes, name, share):
+    suffix, data = sample_bytes[name]
+    read_or_refuse(tmp_path, suffix, data[: int(share * len(data))])
+
+
+@every_sample
+@damage
+@given(seed=st.integers(0, 10**6), count=st.integers(1, 30))
+def test_flipped_bytes(tmp_path, sample_bytes, name, seed, count):
+    suffix, data = sample_bytes[name]
+    rng, damaged = random.Random(seed), bytearray(data)
+    for _ in range(count):
+        damaged[rng.randrange(len(damaged))] = rng.randrange(256)
+    read_or_refuse(tmp_path, suffix, bytes(damaged))
+
+
+@every_sample
+@damage
+@given(seed=st.integers(0, 10**6), kind=st.sampled_from(["shuffled", "doubled", "left out", "reversed"]))
+def test_lines_out_of_order(tmp_path, sample_bytes, name, seed, kind):
+    suffix, data = sample_bytes[name]
+    rng, lines = random.Random(seed), data.splitlines(keepends=True)
+    if kind == "shuffled":
+        rng.shuffle(lines)
+    elif kind == "doubled":
+        lines += rng.choices(lines, k=len(lines) // 2)
+    elif kind == "left out":
+        lines = [line for line in lines if rng.random() < 0.7]
+    else:
+        lines.reverse()
+    read_or_refuse(tmp_path, suffix, b"".join(lines))
+
+
+@every_sample
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-32", "cp437", "utf-7", "cp037"])
+def test_another_encoding(tmp_path, sample_bytes, name, encoding):
+    suffix, data = sample_bytes[name]
+    text = data.decode("utf-16" if data.startswith(b"\xff\xfe") else "cp1252", errors="replace")
+    read_or_refuse(tmp_path, suffix, text.encode(encoding, errors="replace"))
+
+
+@damage
+@given(
+    start=st.sampled_from(
+        [b"", b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", b"\xff\xfe", b"\xef\xbb\xbf", b"{"]
+    ),
+    junk=st.binary(max_size=3000),
+)
+def test_junk_with_the_first_bytes_of_a_format(tmp_path, start, junk):
+    read_or_refuse(tmp_path, ".xlsx", start + junk)
+
+
+@damage
+@given(
+    cells=st.lists(
+        st.lists(
+            st.one_of(st.sampled_from(["T (K)", "f (Hz)", "E' (Pa)", "E'' (Pa)"]), st.floats().map(str)), max_size=6
+        ),
+        max_size=12,
+    ),
+    delimiter=st.sampled_from(",;\t"),
+)
+def test_rows_of_headings_and_numbers_at_random(tmp_path, cells, delimiter):
+    read_or_refuse(tmp_path, ".csv", "\n".join(delimiter.join(row) for row in cells).encode())
+
+
+@damage
+@given(
+    cells=st.lists(
+        st.lists(
+            st.one_of(
+                st.sampled_from(["T (K)", "f (Hz)", "E' (Pa)", "E'' (Pa)", "1,5", "---"]),
+                st.floats(allow_nan=False, allow_infinity=False),
+                st.booleans(),
+                st.text(st.characters(min_codepoint=32, exclude_categories=["Cs", "Cn"]), max_size=5),
+            ),
+            max_size=5,
+        ),
+        max_size=10,
+    )
+)
+def test_sheets_of_headings_and_cells_at_random(tmp_path, cells):
+    header = ["T (K)", "f (Hz)", "E' (Pa)", "E'' (Pa)"]
+    path = write_workbook(tmp_path / "random.xlsx", {"A": [*cells, header, [300, 1, 2e6, 1e5], *cells]})
+    read_or_refuse(tmp_path, ".xlsx", path.read_bytes())

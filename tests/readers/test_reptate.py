@@ -1,0 +1,61 @@
+"""Text of RepTate: sweeps at one temperature, and master curves without headings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from readers.samples.reptate import sweep
+from readers.samples.rubber import FREQUENCIES, moduli
+from viscofric.errors import DataFileError
+from viscofric.readers import read_dma
+
+
+def write(tmp_path, *lines, name="a.osc"):
+    path = tmp_path / name
+    path.write_bytes("\n".join(lines).encode("latin-1"))
+    return path
+
+
+def test_a_sweep_is_read_with_its_measured_temperature_and_strain(tmp_path):
+    sweeps = read_dma(sweep(tmp_path))
+    assert sweeps.deformation == "shear"
+    (isotherm,) = sweeps.isotherms
+    assert isotherm.temperature - 273.15 == pytest.approx(-9.98)  # mean of -10.00 … -9.96
+    # five digits are printed
+    assert isotherm.angular_frequency == pytest.approx(2 * np.pi * np.array(FREQUENCIES), rel=1e-4)
+    assert isotherm.storage_modulus == pytest.approx([moduli(-10.0, f)[0] / 3 for f in FREQUENCIES], rel=1e-4)
+    assert isotherm.loss_modulus == pytest.approx([moduli(-10.0, f)[1] / 3 for f in FREQUENCIES], rel=1e-4)
+    assert isotherm.strain_amplitude == pytest.approx(np.full(5, 0.0199))
+
+
+def test_without_a_column_the_first_line_tells_the_temperature(tmp_path):
+    path = write(tmp_path, "T=40;Mw=88;", "Freq\tG'\tG''", "[Hz]\t[kPa]\t[kPa]", "1 5 0.5", "2 6 0.6")
+    (isotherm,) = read_dma(path).isotherms
+    assert isotherm.temperature == pytest.approx(313.15)
+    assert isotherm.angular_frequency == pytest.approx([2 * np.pi, 4 * np.pi])
+    assert isotherm.storage_modulus == pytest.approx([5e3, 6e3])
+
+
+def test_without_units_they_are_those_of_reptate(tmp_path):
+    path = write(tmp_path, "T=40;Mw=88;", "Freq\tG'\tG''", "1 5 0.5", "2 6 0.6")
+    (isotherm,) = read_dma(path).isotherms
+    assert isotherm.angular_frequency == pytest.approx([1.0, 2.0])
+    assert isotherm.storage_modulus == pytest.approx([5.0, 6.0])
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        (["T=40;Mw=88;", "1 5 0.5", "2 6 0.6"], "is a master curve of RepTate; use read_master_curve"),
+        (["T=40;Mw=88;"], "no row of numbers"),
+        (["T=40;Mw=88;", "Freq\tG'\tG''", "rad/s\tPa\tPa", "1 5"], "line 4: the row has fewer than 3 columns"),
+        (["T=40;Mw=88;", "Freq\tG'\tG''", "rad/s\tPa\tPa", "1 5 x"], "line 4: 'x' is not a finite number"),
+        (["T=40;Mw=88;", "Freq\tG'\teta", "rad/s\tPa\tPas", "1 5 2"], "no column for loss modulus"),
+        (["T=40;Mw=88;", "Freq\tG'\tG''", "rad/s\tmm\tPa", "1 5 2"], "unit 'mm' of the storage modulus"),
+        (["Mw=88;", "Freq\tG'\tG''", "rad/s\tPa\tPa", "1 5 2"], "tells no temperature"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_sentence(tmp_path, lines, says):
+    with pytest.raises(DataFileError, match=says):
+        read_dma(write(tmp_path, *lines))

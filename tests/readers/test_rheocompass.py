@@ -1,0 +1,182 @@
+"""RheoCompass exports: the sweeps among the intervals, in any language and encoding (synthetic files throughout)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from readers.samples.rheocompass import ENGLISH, FRENCH, GERMAN, LANGUAGES, SAMPLES, lines
+from readers.samples.rubber import points
+from viscofric.errors import DataFileError
+from viscofric.readers import rheocompass
+from viscofric.readers.source import Source
+
+
+def written(text, encoding="utf-16", **told):
+    body = text if isinstance(text, str) else "\n".join(text) + "\n"
+    return Source("export.csv", body.encode(encoding), **told)
+
+
+def table(readings):
+    columns = [readings.temperature - 273.15, readings.angular_frequency / (2 * np.pi)]
+    columns += [readings.storage_modulus, readings.loss_modulus]
+    return np.column_stack(columns)[np.lexsort((readings.angular_frequency, readings.temperature))]
+
+
+def sweep(rows, columns=("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus"), units=None):
+    """Return an export of one interval."""
+    units = units or ("[°C]", "[rad/s]", "[Pa]", "[Pa]")
+    head = [f"Interval and data points:\t1\t{len(rows)}", "\t".join(["Interval data:", "Point No.", *columns]), "\t"]
+    body = ["\t".join(["", str(number), *row]) for number, row in enumerate(rows, start=1)]
+    return [*head, "\t".join(["", "", *units]), *body]
+
+
+ROWS = [["25.0", "1", "1000", "100"], ["25.0", "10", "2000", "200"]]
+
+
+@pytest.mark.parametrize("name", LANGUAGES)
+def test_planted_moduli_come_back_in_every_language(tmp_path, name):
+    path = SAMPLES[f"rheocompass {name}"](tmp_path)
+    source = Source(str(path), path.read_bytes())
+    assert rheocompass.recognises(source)
+    readings = rheocompass.read(source)
+    assert np.allclose(table(readings), np.array(points()), rtol=1e-7)  # eight digits are printed
+    assert np.allclose(readings.strain_amplitude, 1e-3, rtol=1e-12)  # 0.1 %
+    assert readings.deformation == "shear"
+    assert LANGUAGES[name].strain in readings.said_by
+    assert readings.step.tolist() == [0] * 5 + [1] * 5 + [2] * 5
+
+
+def test_other_intervals_are_passed_over_with_one_note():
+    readings = rheocompass.read(written(lines(FRENCH)))
+    assert [note for note in readings.notes if "passed over" in note] == [
+        "2 intervals that are no frequency sweeps were passed over."
+    ]
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be", "utf-8", "utf-8-sig", "cp1252"])
+def test_encoding_does_not_matter(encoding):
+    body = "\n".join(lines(GERMAN)) + "\n"
+    if encoding == "utf-16-be":
+        body = "\ufeff" + body
+    assert np.allclose(table(rheocompass.read(written(body, encoding))), np.array(points()), rtol=1e-7)
+
+
+@pytest.mark.parametrize("mark", ["\t", ";"])
+def test_delimiter_is_that_of_the_file(mark):
+    text = [line.replace("\t", mark) for line in lines(GERMAN)]
+    assert np.allclose(table(rheocompass.read(written(text))), np.array(points()), rtol=1e-7)
+
+
+def test_thousands_are_told_from_decimals():
+    english = sweep([["25.0", "1", "1,234.5", "1,000"], ["25.0", "10", "12,345.6", "200"]])
+    german = sweep([["25,0", "1", "1.234,5", "1.000"], ["25,0", "10", "12.345,6", "200"]])
+    for text in (english, german):
+        readings = rheocompass.read(written(text))
+        assert readings.storage_modulus.tolist() == [1234.5, 12345.6]
+        assert readings.loss_modulus.tolist() == [1000.0, 200.0]
+
+
+def test_point_and_comma_that_contradict_are_refused():
+    with pytest.raises(DataFileError, match="decimals cannot be told from thousands"):
+        rheocompass.read(written(sweep([["25.0", "1", "1000,5", "100"], ["25.0", "10", "2000.5", "200"]])))
+
+
+def test_frequency_in_hertz_is_turned_into_radians():
+    columns = ("Temperature", "Frequency", "Storage Modulus", "Loss Modulus")
+    readings = rheocompass.read(written(sweep(ROWS, columns, ("[°C]", "[Hz]", "[Pa]", "[Pa]"))))
+    assert np.allclose(readings.angular_frequency, [2 * np.pi, 20 * np.pi], rtol=1e-12)
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("[1]", 1.0), ("[%]", 0.01)])
+def test_strain_is_a_fraction(unit, factor):
+    columns = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", "Shear Strain")
+    rows = [[*row, "0.5"] for row in ROWS]
+    readings = rheocompass.read(written(sweep(rows, columns, ("[°C]", "[rad/s]", "[Pa]", "[Pa]", unit))))
+    assert np.allclose(readings.strain_amplitude, 0.5 * factor, rtol=1e-12)
+
+
+def test_names_that_tell_no_deformation_leave_it_open():
+    assert rheocompass.read(written(sweep(ROWS))).deformation is None
+
+
+def test_tensile_names_are_known():
+    columns = ("Temperature", "Angular Frequency", "Tensile Storage Modulus", "Tensile Loss Modulus")
+    assert rheocompass.read(written(sweep(ROWS, columns))).deformation == "tension"
+
+
+def test_temperature_that_was_not_exported_is_asked_for():
+    text = sweep(
+        [row[1:] for row in ROWS], ("Angular Frequency", "Storage Modulus", "Loss Modulus"), ("[rad/s]", "[Pa]", "[Pa]")
+    )
+    with pytest.raises(DataFileError, match="no column of temperatures; export it, or give temperature="):
+        rheocompass.read(written(text))
+    assert rheocompass.read(written(text, temperature=300.0)).temperature.tolist() == [300.0, 300.0]
+
+
+def test_marked_points_and_wave_forms_are_no_points():
+    text = sweep([*ROWS, ["25.0", "100", "9", "9"]])
+    text[-1] = text[-1].replace("\t3\t", "\t3 (invalide)\t")
+    text.insert(-1, "\t\t\t\t\t\t0.1\t0.2")
+    readings = rheocompass.read(written(text))
+    assert len(readings) == 2
+    assert any(note.startswith("1 point was left out, marked") for note in readings.notes)
+
+
+def test_point_without_modulus_is_left_out_and_told():
+    readings = rheocompass.read(written(sweep([*ROWS, ["25.0", "100", "", "9"]])))
+    assert len(readings) == 2
+    assert any("a cell being empty (line 7)" in note for note in readings.notes)
+
+
+def test_interval_stopped_early_is_told():
+    text = sweep(ROWS)
+    text[0] = "Interval and data points:\t1\t20"
+    assert any("announces 20 points, 18 of which" in note for note in rheocompass.read(written(text)).notes)
+
+
+@pytest.mark.parametrize("cut", [3, 8, 200])
+def test_file_that_breaks_off_is_refused(cut):
+    whole = "\n".join(lines(ENGLISH)).rstrip("\n\t")
+    with pytest.raises(DataFileError):
+        rheocompass.read(written(whole[: len(whole) - len("\t0.1\tDy_auto") - cut]))
+
+
+@pytest.mark.parametrize(
+    ("row", "told"),
+    [
+        (["25.0", "0", "1000", "100"], "line 5: the frequency must be above zero"),
+        (["-300", "5", "1000", "100"], "line 5: the temperature must be above absolute zero"),
+        (["25.0", "5", "10oo", "100"], "line 5: '10oo' in column 'Storage Modulus' is not a finite number"),
+        (["25.0", "5", "1e305", "100"], "line 5: '1e305' in column"),
+        (["25.0", "5", "inf", "100"], "line 5: 'inf' in column"),
+    ],
+)
+def test_damaged_cell_is_told(row, told):
+    with pytest.raises(DataFileError, match=told):
+        rheocompass.read(written(sweep([row, *ROWS])))
+
+
+def test_unit_of_another_kind_is_told():
+    with pytest.raises(DataFileError, match=r"column 'Storage Modulus' has the unit 'N'"):
+        rheocompass.read(written(sweep(ROWS, units=("[°C]", "[rad/s]", "[N]", "[Pa]"))))
+    with pytest.raises(DataFileError, match=r"column 'Angular Frequency' has the unit 'Hz'"):
+        rheocompass.read(written(sweep(ROWS, units=("[°C]", "[Hz]", "[Pa]", "[Pa]"))))
+
+
+def test_export_without_sweep_is_refused_with_its_columns():
+    with pytest.raises(DataFileError, match=r"no interval of 1 is a frequency sweep.*'Shear Rate'"):
+        rheocompass.read(written(sweep(ROWS, ("Temperature", "Shear Rate", "Shear Stress", "Viscosity"))))
+
+
+def test_interval_without_units_is_refused():
+    text = sweep(ROWS)
+    del text[3]
+    with pytest.raises(DataFileError, match="line 2: a row of units in brackets"):
+        rheocompass.read(written(text))
+
+
+def test_other_text_is_not_taken_for_rheocompass():
+    assert not rheocompass.recognises(Source("x", b"T (degC),f (Hz),E' (MPa),E'' (MPa)\n1,2,3,4\n"))
+    assert not rheocompass.recognises(Source("x", b"Step:\t1\t2\n3\t4\n"))
+    assert not rheocompass.recognises(Source("x", b"\0\1\2"))

@@ -1,0 +1,380 @@
+"""TRIOS exports: genuine rheometer files where they are at hand, and synthetic ones of every layout."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from readers.samples import trios
+from readers.samples.rubber import points
+from viscofric.errors import DataFileError
+from viscofric.readers import trios_json, trios_text, universal_analysis
+from viscofric.readers.source import Source
+
+POINTS = np.array(points()).T
+#: Fifteen digits are printed; a unit is converted.
+PRINTED = 1e-13
+WRITERS = {
+    "lims": trios.write_lims,
+    "short": trios.write_short,
+    "csv": trios.write_csv,
+    "json": trios.write_json,
+}
+
+
+def read(path, **told):
+    found = Source(str(path), path.read_bytes(), **told)
+    ours = [one for one in (universal_analysis, trios_json, trios_text) if one.recognises(found)]
+    assert len(ours) == 1
+    return ours[0].read(found)
+
+
+def assert_planted(readings, rows=slice(None)):
+    temperature, frequency, storage, loss = (column[rows] for column in POINTS)
+    assert readings.temperature == pytest.approx(temperature + 273.15, rel=PRINTED)
+    assert readings.angular_frequency == pytest.approx(2 * math.pi * frequency, rel=PRINTED)
+    assert readings.storage_modulus == pytest.approx(storage, rel=PRINTED)
+    assert readings.loss_modulus == pytest.approx(loss, rel=PRINTED)
+    assert readings.strain_amplitude == pytest.approx((0.1 + 0.01 * frequency) / 100, rel=PRINTED)
+
+
+def test_genuine_frequency_sweep_among_other_techniques(real_data):
+    readings = read(real_data / "instruments/trios/multi_technique_LIMS.txt")
+    assert len(readings) == 29
+    assert readings.deformation == "shear"
+    assert readings.said_by == "the column 'Oscillation torque', as only a rotational rheometer writes it"
+    assert set(readings.step) == {2}
+    # the numbers of lines 204 and 205 of the file, MPa and % there
+    assert readings.places[:2] == ("line 204", "line 205")
+    assert readings.temperature[0] == pytest.approx(273.15 + 25.0062007904053, rel=PRINTED)
+    assert readings.angular_frequency[0] == pytest.approx(628.318542480469, rel=PRINTED)
+    assert readings.storage_modulus[0] == pytest.approx(0.017995853515625e6, rel=PRINTED)
+    assert readings.loss_modulus[0] == pytest.approx(-0.00116959899902344e6, rel=PRINTED)
+    assert readings.strain_amplitude[0] == pytest.approx(1.00769631081605e-2, rel=PRINTED)
+    others = "2 steps were passed over as no frequency sweeps: 'Amplitude sweep - 1', 'Flow ramp - 3'."
+    assert readings.notes == (others,)
+
+
+def test_genuine_flow_curves_are_refused_with_what_they_hold(real_data):
+    with pytest.raises(DataFileError) as caught:
+        read(real_data / "instruments/trios/trios_short_export.txt")
+    assert caught.value.problem == (
+        "holds no frequency sweep of an oscillation; its steps are 'Peak hold - 1', 'Temperature ramp - 2', "
+        "'Temperature ramp - 3', 'Temperature ramp - 4', without moduli."
+    )
+
+
+def test_genuine_strain_sweep_in_json_is_refused_with_what_it_holds(real_data):
+    with pytest.raises(DataFileError) as caught:
+        read(real_data / "instruments/trios/tadatakit_dataset.json")
+    assert caught.value.problem == (
+        "holds no frequency sweep of an oscillation; its step is 'Amplitude - 1', with moduli, but not over frequency."
+    )
+
+
+def test_genuine_json_is_read_alike_by_the_vendor_and_directly(real_data):
+    # the strain sweep, renamed, is read to the last digit
+    text = (real_data / "instruments/trios/tadatakit_dataset.json").read_text(encoding="utf-8")
+    document = json.loads(text.replace("Amplitude - 1", "Frequency - 1"))
+    readings = trios_json.read(Source("renamed", json.dumps(document).encode()))
+    assert readings.storage_modulus == pytest.approx([27083.798828125, 26741.224609375], rel=PRINTED)
+    assert readings.strain_amplitude == pytest.approx([2.99004350381438e-5, 3.7615707697114e-5], rel=PRINTED)
+    assert readings.deformation == "shear"
+    del document["Operators"]  # the vendor's reader insists on them
+    directly = trios_json.read(Source("renamed", json.dumps(document).encode()))
+    for name in ("temperature", "angular_frequency", "storage_modulus", "loss_modulus", "strain_amplitude"):
+        assert getattr(directly, name).tolist() == getattr(readings, name).tolist()
+    assert directly.places == readings.places
+
+
+@pytest.mark.parametrize("layout", WRITERS)
+def test_planted_moduli_are_read_from_every_layout(tmp_path, layout):
+    readings = read(WRITERS[layout](tmp_path))
+    assert_planted(readings)
+    assert readings.deformation == "shear"
+    first = 1 if layout == "json" else 2  # after a creep test
+    assert readings.step.tolist() == [first] * 5 + [first + 1] * 5 + [first + 2] * 5
+    if layout != "json":
+        assert readings.notes == ("1 step was passed over as no frequency sweep: 'Creep - 1'.",)
+
+
+@pytest.mark.parametrize("layout", ["lims", "short", "json"])
+@pytest.mark.parametrize("unit", ["MPa", "Pa", "kPa", "dyne/cm²"])
+def test_unit_of_the_moduli_is_that_of_the_file(tmp_path, layout, unit):
+    assert_planted(read(WRITERS[layout](tmp_path, unit=unit)))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_encodings_do_not_matter(tmp_path, encoding):
+    assert_planted(read(trios.write_lims(tmp_path, encoding=encoding)))
+    assert_planted(read(trios.write_short(tmp_path, encoding=encoding)))
+
+
+def test_decimal_commas(tmp_path):
+    assert_planted(read(trios.write_short(tmp_path, comma=True)))
+    assert_planted(read(trios.write_csv(tmp_path, comma=True)))  # quoted
+    assert_planted(read(trios.write_csv(tmp_path, comma=True, delimiter=";")))
+    path = trios.write_csv(tmp_path, comma=True)
+    path.write_text(path.read_text(encoding="utf-8-sig").replace('"', ""), encoding="utf-8")
+    with pytest.raises(DataFileError, match=r"row has \d+ cells where step 'Frequency sweep - 2' names 12 columns"):
+        read(path)
+
+
+@settings(deadline=None, max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(order=st.permutations(list(trios.COLUMNS)), layout=st.sampled_from(["lims", "json"]))
+def test_columns_stand_in_any_order(tmp_path, order, layout):
+    assert_planted(read(WRITERS[layout](tmp_path, names=tuple(order))))
+
+
+@pytest.mark.parametrize(
+    ("geometry", "deformation", "said_by"),
+    [
+        ("Tension fixture (rectangle)", "tension", "{} 'Tension fixture (rectangle)'"),
+        ("35 mm dual cantilever", "tension", "{} '35 mm dual cantilever'"),
+        ("15 mm compression clamp", "tension", "{} '15 mm compression clamp'"),
+        ("Shear sandwich", "shear", "{} 'Shear sandwich'"),
+        ("25 mm parallel plate", None, ""),  # plates shear in rotation and compress in axial oscillation
+    ],
+)
+@pytest.mark.parametrize("layout", ["lims", "json"])
+def test_geometry_tells_tension_from_shear(tmp_path, layout, geometry, deformation, said_by):
+    names = tuple(name for name in trios.COLUMNS if name != "Oscillation torque")
+    readings = read(WRITERS[layout](tmp_path, geometry=geometry, names=names))
+    assert readings.deformation == deformation
+    assert readings.said_by == said_by.format("Name" if layout == "lims" else "Geometry Name")
+
+
+def test_force_beside_a_torque_leaves_the_deformation_open(tmp_path):
+    path = trios.write_lims(tmp_path)
+    path.write_bytes(path.read_bytes().replace(b"Step time", b"Oscillation force"))
+    assert read(path).deformation is None
+
+
+def test_several_frequencies_of_an_amplitude_sweep_are_no_frequency_sweep(tmp_path):
+    path = trios.write_lims(tmp_path)
+    text = path.read_text(encoding="utf-8-sig").replace("Frequency sweep (10.0", "Amplitude sweep (10.0")
+    path.write_text(text, encoding="utf-8")
+    readings = read(path)
+    assert_planted(readings, [k for k in range(15) if POINTS[0][k] != 10.0])
+    assert (
+        "2 steps were passed over as no frequency sweeps: 'Creep - 1', 'Amplitude sweep (10.0 °C)'." in readings.notes
+    )
+
+
+def test_one_step_of_all_temperatures_is_a_sweep_where_it_holds_several_frequencies(tmp_path):
+    path = trios.write_lims(tmp_path)
+    text = path.read_text(encoding="utf-8-sig").replace("Frequency sweep (", "Temperature sweep (")
+    path.write_text(text, encoding="utf-8")
+    assert_planted(read(path))
+
+    def one_frequency():
+        return [(T, 1.0, a, b) for T, _, a, b in points()]
+
+    path = trios.write_lims(tmp_path, of=one_frequency)
+    text = path.read_text(encoding="utf-8-sig").replace("Frequency sweep (", "Temperature ramp (")
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(DataFileError, match=r"'Temperature ramp \(-10.0 °C\)', .* with moduli, but not over frequency"):
+        read(path)
+
+
+def test_cut_file_says_how_many_points_are_missing(tmp_path):
+    path = trios.write_lims(tmp_path)
+    text = path.read_text(encoding="utf-8-sig")
+    path.write_text(text[: text.rindex("Data point")], encoding="utf-8")
+    readings = read(path)
+    assert_planted(readings, slice(-1))
+    assert "Step 'Frequency sweep (30.0 °C)' states 5 points and holds 4." in readings.notes
+
+
+def test_number_torn_at_the_end_of_a_file_is_not_read(tmp_path):
+    names = ("Temperature", "Frequency", "Storage modulus", "Oscillation strain", "Loss modulus", "Step time")
+    path = trios.write_lims(tmp_path, names=names)
+    text = path.read_text(encoding="utf-8-sig").rstrip("\r\n")
+    text = text[: text.rindex("\t") - 6]  # within the last loss modulus, which still looks like a number
+    path.write_text(text, encoding="utf-8")
+    assert float(text[text.rindex("\t") :]) != pytest.approx(POINTS[3][-1], rel=1e-12)
+    readings = read(path)
+    assert_planted(readings, slice(-1))
+    assert any(note.startswith("1 point was left out") for note in readings.notes)
+
+
+def test_cells_that_are_no_numbers_leave_their_point_out(tmp_path):
+    path = trios.write_lims(tmp_path)
+    for word in ("inf", "1_000", "0x12", ""):
+        lines = path.read_text(encoding="utf-8-sig").split("\n")
+        row = next(k for k, line in enumerate(lines) if line.startswith("Data point\t590"))
+        cells = lines[row].split("\t")
+        cells[1 + list(trios.COLUMNS).index("Storage modulus")] = word
+        other = tmp_path / "odd.txt"
+        other.write_text("\n".join([*lines[:row], "\t".join(cells), *lines[row + 1 :]]), encoding="utf-8")
+        readings = read(other)
+        assert_planted(readings, slice(1, None))
+        assert any(note.endswith(f"(the frequency above zero): line {row + 1}.") for note in readings.notes)
+
+
+def test_temperature_and_unit_may_be_given_where_the_file_has_none(tmp_path):
+    names = tuple(name for name in trios.COLUMNS if name != "Temperature")
+    path = trios.write_lims(tmp_path, names=names)
+    with pytest.raises(DataFileError, match=r"step 'Frequency sweep \(-10.0 °C\)' has no column 'Temperature'"):
+        read(path)
+    assert np.all(read(path, temperature=300.0).temperature == 300.0)
+    with pytest.raises(DataFileError, match="leave out temperature for this file"):
+        read(trios.write_lims(tmp_path), temperature=300.0)
+    with pytest.raises(DataFileError, match="leave out modulus_unit"):
+        read(trios.write_lims(tmp_path), modulus_unit="MPa")
+    path = trios.write_json(tmp_path)
+    bare = tmp_path / "bare.json"
+    bare.write_text(path.read_text(encoding="utf-8").replace('"Name": "MPa"', '"Name": ""'), encoding="utf-8")
+    with pytest.raises(DataFileError, match="has no unit; it must be one like 'MPa'"):
+        read(bare)
+    assert_planted(read(bare, modulus_unit="MPa"))
+
+
+def test_contradicting_frequencies_are_refused(tmp_path):
+    path = trios.write_lims(tmp_path)
+    path.write_text(path.read_text(encoding="utf-8-sig").replace("Hz", "kHz"), encoding="utf-8")
+    with pytest.raises(DataFileError, match="angular frequency and frequency contradict each other in line"):
+        read(path)
+
+
+def test_hertz_alone_and_radians_alone_mean_the_same(tmp_path):
+    for missing in ("Frequency", "Angular frequency"):
+        names = tuple(name for name in trios.COLUMNS if name != missing)
+        assert_planted(read(trios.write_lims(tmp_path, names=names)))
+        assert_planted(read(trios.write_json(tmp_path, names=names)))
+
+
+def test_loss_modulus_may_be_given_by_tan_delta(tmp_path):
+    readings = read(trios.write_lims(tmp_path, names=tuple(name for name in trios.COLUMNS if name != "Loss modulus")))
+    assert_planted(readings)
+    assert "The file holds no loss modulus; it was taken as the storage modulus times tan δ." in readings.notes
+
+
+def test_json_of_original_results_needs_no_note_and_goes_before_processed_ones(tmp_path):
+    assert read(trios.write_json(tmp_path, section="Original")).notes == ()
+    both = trios.document(section="Original")
+    softer = trios.document(of=lambda: [(T, f, a / 2, b / 2) for T, f, a, b in points()])
+    both["Results"] |= softer["Results"]
+    path = tmp_path / "both.json"
+    path.write_text(json.dumps(both), encoding="utf-8")
+    readings = read(path)
+    assert_planted(readings)
+    assert readings.places[0] == "row 1 of the original results"
+    processed = read(trios.write_json(tmp_path))
+    assert processed.notes == ("The file holds processed results only, which may not be as they were measured.",)
+    both["Results"]["Original"]["Classification"] = {"Id": "Transformed", "Description": "Data resulting from a change"}
+    path.write_text(json.dumps(both), encoding="utf-8")
+    assert "'Data resulting from a change'" in read(path).notes[0]
+
+
+def test_json_is_read_by_the_vendor_and_directly_where_the_vendor_fails(tmp_path):
+    document = trios.document()
+    assert trios_json._by_vendor(document, "Processed") is not None  # else this test compares nothing
+    path = tmp_path / "odd.json"
+    del document["Sample"]
+    document["Results"]["Processed"]["Rows"][3]["A column without header"] = 1.0
+    assert trios_json._by_vendor(document, "Processed") is None
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert_planted(read(path))
+    document["Results"]["Raw"] = document["Results"].pop("Processed")
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert_planted(read(path))
+
+
+def test_columns_of_one_step_of_json_say_nothing_of_another(tmp_path):
+    document = trios.document(names=tuple(name for name in trios.COLUMNS if name != "Oscillation torque"))
+    results = document["Results"]["Processed"]
+    one = "a8b61200-ae3f-40a9-831e-899999999999"
+    results["ResultsSteps"].append({"Id": one, "Name": "Torque - 4"})
+    key = "Oscillation torque_µN.m"
+    unit = {"Name": "µN.m"}
+    results["ColumnHeaders"][key] = {"DisplayName": "Oscillation torque", "ValueType": "Number", "Unit": unit}
+    results["Rows"].append({key: 1.0, "Temperature_°C": 20.0, "Results Step Id": one})
+    path = tmp_path / "mixed.json"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert trios_json._by_vendor(document, "Processed") is not None
+    for readings in (read(path), read_directly(path)):
+        assert_planted(readings)
+        assert readings.deformation is None
+        assert "1 step was passed over as no frequency sweep: 'Torque - 4'." in readings.notes
+
+
+def read_directly(path):
+    document = json.loads(path.read_text(encoding="utf-8"))
+    del document["Schema"]["Url"], document["Operators"]  # the vendor's reader insists on them
+    assert trios_json._by_vendor(document, "Processed") is None
+    return trios_json.read(Source("direct", json.dumps(document).encode()))
+
+
+def test_long_json_is_read_without_the_vendor_to_the_same_numbers(tmp_path, monkeypatch):
+    path = trios.write_json(tmp_path)
+    by_vendor = read(path)
+    monkeypatch.setattr(trios_json, "_MOST_ROWS", 14)
+    monkeypatch.setattr(trios_json, "_by_vendor", None)
+    directly = read(path)
+    assert_planted(directly)
+    assert directly.storage_modulus.tolist() == by_vendor.storage_modulus.tolist()
+    assert (directly.places, directly.notes) == (by_vendor.places, by_vendor.notes)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda text: text[: len(text) // 2], "is not whole JSON"),
+        (lambda text: text.replace('"Results"', '"Other"'), "has no results under any of Original, Raw, Processed"),
+        (lambda text: text.replace("MPa", "mm"), "'Storage modulus' of step 'Frequency sweep - 1' has the unit 'mm'"),
+        (lambda text: text.replace('"Rows"', '"Lines"'), "holds no frequency sweep"),
+        (lambda text: '{"TRIOSJSONExportSchema": ' + 100_000 * "[", "nested too deeply"),
+    ],
+)
+def test_broken_json_is_refused_in_one_sentence(tmp_path, change, message):
+    path = trios.write_json(tmp_path)
+    path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
+    with pytest.raises(DataFileError) as caught:
+        read(path)
+    assert message in str(caught.value)
+
+
+def test_other_tables_and_json_are_not_taken_for_trios():
+    for data in (
+        b"",
+        b"{}",
+        b'{"a": 1}',
+        b"Filename\n",
+        b"T (C),f (Hz),E' (MPa),E'' (MPa)\n1,2,3,4\n",
+        b"\xff\xfe\x00",
+    ):
+        found = Source("other", data)
+        assert not any(one.recognises(found) for one in (universal_analysis, trios_json, trios_text))
+
+
+def points_or_error(one, found):
+    try:
+        return one.read(found)
+    except DataFileError as error:
+        return str(error)
+
+
+@settings(deadline=None, max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(data=st.data(), layout=st.sampled_from(list(WRITERS)))
+def test_cut_or_altered_files_give_points_or_a_clear_error(tmp_path, data, layout):
+    whole = bytearray(WRITERS[layout](tmp_path).read_bytes())
+    end = data.draw(st.one_of(st.just(len(whole)), st.integers(0, len(whole))))
+    for place in data.draw(st.lists(st.integers(0, len(whole) - 1), max_size=3)):
+        whole[place] = data.draw(st.integers(0, 255))
+    found = Source("altered", bytes(whole[:end]))
+    for one in (universal_analysis, trios_json, trios_text):
+        if not one.recognises(found):
+            continue
+        readings = points_or_error(one, found)
+        if isinstance(readings, str):
+            assert readings.startswith("altered")
+        else:
+            assert np.all(np.isfinite(readings.storage_modulus) & np.isfinite(readings.loss_modulus))
+            assert np.all(readings.angular_frequency > 0)
+            assert len(readings.places) == len(readings.step) == len(readings)

@@ -1,0 +1,173 @@
+"""Excel workbooks: read like text tables, and hostile ones refused before they take memory or time."""
+
+from __future__ import annotations
+
+import io
+import time
+import zipfile
+
+import pytest
+
+from readers.samples.workbook import HEADER, one_sheet, rows, write
+from viscofric.errors import DataFileError
+from viscofric.readers import read_dma, workbook
+from viscofric.readers.source import Source
+
+POINTS = [[20, 1, 5, 0.5], [20, 10, 6, 0.7]]
+
+
+def opened(path):
+    return Source(str(path), path.read_bytes())
+
+
+def changed(path, part, replace):
+    """Write a workbook anew with one part of its archive changed."""
+    old, new = zipfile.ZipFile(path), io.BytesIO()
+    with zipfile.ZipFile(new, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in old.namelist():
+            data = old.read(name)
+            archive.writestr(name, replace(data) if name == part else data)
+    old.close()
+    path.write_bytes(new.getvalue())
+    return path
+
+
+def test_the_sheet_with_moduli_is_found(tmp_path):
+    sweeps = read_dma(one_sheet(tmp_path))
+    assert len(sweeps) == 3
+    assert sweeps.format == "Excel workbook"
+    assert sweeps.deformation == "tension"
+
+
+def test_names_and_units_may_stand_in_two_rows_below_a_title(tmp_path):
+    sheet = [["Sweeps of a synthetic rubber"], [], ["T", "f", "E'", "E''"], ["°C", "Hz", "MPa", "MPa"], *POINTS]
+    sweeps = read_dma(write(tmp_path / "a.xlsx", {"DMA": sheet}))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6])
+
+
+def test_numbers_may_be_text_with_a_decimal_comma_beside_true_numbers(tmp_path):
+    sheet = [HEADER, [20, 0.5, "5,5", "0,5"], [20, "1,5", 6.25, 0.7]]
+    isotherm = read_dma(write(tmp_path / "a.xlsx", {"DMA": sheet})).isotherms[0]
+    assert isotherm.storage_modulus == pytest.approx([5.5e6, 6.25e6])
+    assert isotherm.angular_frequency == pytest.approx([3.14159265, 9.42477796])
+
+
+def test_a_wrong_cell_is_named_by_sheet_and_row(tmp_path):
+    path = write(tmp_path / "a.xlsx", {"DMA": [[], HEADER, *POINTS, [20, 20, "five", 0.5]]})
+    with pytest.raises(DataFileError, match=r"a\.xlsx, sheet 'DMA', line 5: 'five' in column"):
+        read_dma(path)
+    left_out = write(tmp_path / "b.xlsx", {"DMA": [HEADER, *POINTS, [20, 20, 7, -0.5]]})
+    assert any(note.startswith("Sheet 'DMA', row 4 left out") for note in read_dma(left_out).notes)
+
+
+def test_sheets_of_several_temperatures_are_joined_and_others_refused(tmp_path):
+    warm = [[30, f, E / 2, loss] for _, f, E, loss in POINTS]
+    apart = write(tmp_path / "a.xlsx", {"20": [HEADER, *POINTS], "30": [HEADER, *warm], "shift": [["T (°C)", "aT"]]})
+    sweeps = read_dma(apart)
+    assert sweeps.temperatures - 273.15 == pytest.approx([20.0, 30.0])
+    assert any("The sheets '20', '30' were taken for temperatures" in note for note in sweeps.notes)
+    twice = write(tmp_path / "b.xlsx", {"A": [HEADER, *POINTS, *warm], "B": [HEADER, *warm]})
+    with pytest.raises(DataFileError, match=r"'A' \(20.0 to 30.0 °C\) and 'B' \(30.0 to 30.0 °C\).* overlap"):
+        read_dma(twice)
+
+
+def test_the_name_of_a_sheet_may_tell_the_temperature(tmp_path):
+    sheets = {f"{T} °C": [HEADER[1:], [1, 5 - T / 20, 0.5], [2, 6 - T / 20, 0.6]] for T in (-10, 20)}
+    sweeps = read_dma(write(tmp_path / "a.xlsx", sheets))
+    assert sweeps.temperatures - 273.15 == pytest.approx([-10.0, 20.0])
+    assert any("taken from the sheet's name" in note for note in sweeps.notes)
+
+
+def test_a_workbook_without_moduli_is_refused_with_its_sheets(tmp_path):
+    with pytest.raises(DataFileError, match=r"no sheet has a row that names .* its sheets are 'A', 'B'"):
+        read_dma(write(tmp_path / "a.xlsx", {"A": [["x"]], "B": []}))
+
+
+def test_an_ordinary_workbook_is_quick(tmp_path):
+    path = one_sheet(tmp_path)
+    read_dma(path)  # imports
+    best = min(_seconds(read_dma, path) for _ in range(5))
+    assert best < 0.3  # s; a process that parses takes about 0.04 s, more on a busy machine
+
+
+def _seconds(function, *arguments):
+    start = time.perf_counter()
+    function(*arguments)
+    return time.perf_counter() - start
+
+
+def test_a_workbook_is_parsed_once(tmp_path, monkeypatch):
+    source = opened(one_sheet(tmp_path))
+    assert workbook.sheet_names(source) == ("Notes", "DMA")
+    monkeypatch.setattr(workbook.subprocess, "run", None)
+    assert len(workbook.sheets(source)["DMA"]) == len(rows())
+
+
+def test_a_cell_in_the_last_corner_does_not_take_the_memory_of_all(tmp_path):
+    # as it stands, a parser would make room for 17 thousand million cells: 549 GB
+    def far(data):
+        return data.replace(b"</sheetData>", b'<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>')
+
+    path = changed(write(tmp_path / "far.xlsx", {"DMA": rows()}), "xl/worksheets/sheet1.xml", far)
+    with pytest.raises(DataFileError, match=r"sheets of 1.72e\+10 cells"):
+        read_dma(path)
+
+
+def test_a_cell_far_off_is_refused_though_its_name_is_hidden(tmp_path):
+    # letters written as entities are the same cell to a parser of XML; the limit of memory holds
+    def far(data):
+        cell = b'<row r="1048576"><c r="&#88;FD1048576"><v>1</v></c></row></sheetData>'
+        return data.replace(b"</sheetData>", cell)
+
+    path = changed(write(tmp_path / "far.xlsx", {"DMA": rows()}), "xl/worksheets/sheet1.xml", far)
+    with pytest.raises(DataFileError, match=r"far\.xlsx: "):
+        read_dma(path)
+
+
+def test_an_archive_that_unpacks_to_gigabytes_is_refused(tmp_path):
+    path = write(tmp_path / "bomb.xlsx", {"DMA": rows()})
+    changed(path, "xl/worksheets/sheet1.xml", lambda data: data + b" " * 60_000_000)
+    assert path.stat().st_size < 200_000
+    with pytest.raises(DataFileError, match="would unpack to 60 MB"):
+        read_dma(path)
+
+
+def test_a_parser_that_does_not_end_is_ended(tmp_path, monkeypatch):
+    endless = tmp_path / "endless.py"
+    endless.write_text("import time\ntime.sleep(60)\n", encoding="utf-8")
+    monkeypatch.setattr(workbook, "_PARSER", endless)
+    monkeypatch.setattr(workbook, "LONGEST_PARSE", 0.2)
+    with pytest.raises(DataFileError, match="takes longer than 0 s to parse"):
+        workbook.sheets(opened(one_sheet(tmp_path)))
+
+
+def test_a_parser_that_dies_is_an_error_like_any_other(tmp_path, monkeypatch):
+    dying = tmp_path / "dying.py"
+    dying.write_text("import os\nos.abort()\n", encoding="utf-8")
+    monkeypatch.setattr(workbook, "_PARSER", dying)
+    with pytest.raises(DataFileError, match="is a workbook that cannot be parsed"):
+        workbook.sheets(opened(one_sheet(tmp_path)))
+    assert workbook.sheet_names(opened(one_sheet(tmp_path))) == ()
+
+
+@pytest.mark.parametrize("start", workbook.MAGIC)
+def test_what_only_begins_like_a_workbook_is_refused(tmp_path, start):
+    path = tmp_path / "junk.xls"
+    path.write_bytes(start + bytes(1000))
+    with pytest.raises(DataFileError, match="is a damaged"):
+        read_dma(path)
+
+
+def test_a_protected_workbook_and_other_archives_are_refused(tmp_path):
+    path = tmp_path / "archive.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("readme.txt", "no workbook")
+    with pytest.raises(DataFileError, match="is a damaged or protected workbook"):
+        read_dma(path)
+
+
+def test_real_workbooks_of_the_old_kind_are_opened(real_data):
+    sheets = workbook.sheets(opened(real_data / "instruments" / "eplexor" / "freq_Eplexor_raw.xls"))
+    assert list(sheets) == ["Exported Data", "Data header"]
+    assert sheets["Exported Data"][0][:2] == ["Nr", "F stat."]
+    assert sheets["Exported Data"][2][:2] == [1.0, -28.9258]
