@@ -7,6 +7,10 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import InputError
+from viscofric.rheology.modulus_table import ModulusTable
+from viscofric.rheology.vertical_shift import DensityShift
+
+LAW = vf.WLF(C1=9.0, C2=100.0, reference="30 degC")
 
 
 def test_standard_linear_solid_relaxes_in_tau_times_E0_over_E_inf():
@@ -46,10 +50,59 @@ def test_impossible_poisson_ratios_are_refused(ratio):
 
 def test_wrong_parts_are_refused():
     solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1.0)
-    with pytest.raises(InputError, match="must be a RetardationSpectrum"):
+    with pytest.raises(InputError, match="must be a RetardationSpectrum or a ModulusTable"):
         vf.Material(solid)
     with pytest.raises(InputError, match="must be a law"):
         vf.Material(solid.spectrum, shift=1.0)
+    with pytest.raises(InputError, match=r"not RelaxationSpectrum; .*to_retardation"):
+        vf.Material(solid.spectrum.to_relaxation())
+    with pytest.raises(InputError, match="must be a VerticalShift"):
+        vf.Material(solid.spectrum, shift=LAW, vertical_shift=1.1)
+    with pytest.raises(InputError, match="needs a shift too"):
+        vf.Material(solid.spectrum, vertical_shift=DensityShift("30 degC"))
+
+
+def test_vertical_shift_multiplies_the_modulus():
+    solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    # Given about 100 °C, used about 30 °C, where the spectrum holds.
+    rubber = vf.Material(solid.spectrum, shift=LAW, vertical_shift=DensityShift("100 degC", 0.0), citation="made up")
+    omega = np.logspace(-2, 6, 9)
+    plain = vf.Material(solid.spectrum, shift=LAW).complex_modulus(omega, "60 degC")
+    assert rubber.complex_modulus(omega, "60 degC") == pytest.approx(plain * 333.15 / 303.15, rel=1e-12)
+    assert rubber.at("30 degC") is rubber.spectrum
+    assert pytest.approx(1e6 * 333.15 / 303.15, rel=1e-12) == rubber.at("60 degC").E0
+    assert rubber.citation == "made up"
+
+
+def test_a_material_about_another_reference_is_the_same_material():
+    solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    rubber = vf.Material(solid.spectrum, shift=LAW, vertical_shift=DensityShift("30 degC"), name="solid")
+    other = rubber.at_reference("80 degC")
+    assert other.reference == pytest.approx(353.15)
+    assert other.name == "solid"
+    omega = np.logspace(-2, 6, 9)
+    for celsius in (0.0, 30.0, 80.0, 120.0):
+        expected = rubber.complex_modulus(omega, celsius + 273.15)
+        assert other.complex_modulus(omega, celsius + 273.15) == pytest.approx(expected, rel=1e-10)
+    with pytest.raises(InputError, match="has no shift"):
+        solid.at_reference("80 degC")
+
+
+def test_a_table_is_a_material_without_modes():
+    solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    omega = np.logspace(-4, 8, 400)
+    modulus = solid.complex_modulus(omega)
+    table = vf.Material(ModulusTable(omega, modulus.real, modulus.imag), shift=LAW)
+    rubber = vf.Material(solid.spectrum, shift=LAW)
+    inside = np.logspace(-1, 4, 11)
+    # Interpolated over 0.03 decades: the square of that times the curvature of ln E''.
+    assert table.complex_modulus(inside, "60 degC") == pytest.approx(
+        rubber.complex_modulus(inside, "60 degC"), rel=1e-3
+    )
+    assert table.at() is table.spectrum
+    assert rubber.modes_at("60 degC").tau == pytest.approx(rubber.at("60 degC").tau)
+    with pytest.raises(InputError, match="has no retardation modes"):
+        table.modes_at("60 degC")
 
 
 def test_synthetic_fluoroelastomer_is_as_designed():

@@ -11,12 +11,15 @@ from hypothesis import strategies as st
 
 from viscofric.errors import InputError
 from viscofric.rheology import WLF, Arrhenius, ShiftFactors, WLFArrhenius
+from viscofric.rheology.shift_laws import VFT, InversePolynomial
 
 LAWS = [
     WLF(C1=17.44, C2=51.6, reference="-18 degC"),
     Arrhenius(activation_energy="120 kJ/mol", reference="20 degC"),
     WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-18 degC", reference="30 degC"),
     ShiftFactors(["0 degC", "30 degC", "60 degC", "100 degC"], [3.0, 0.5, -1.0, -2.0], "30 degC"),
+    VFT(B=900.0, T0="-70 degC", reference="30 degC"),
+    InversePolynomial([6e3, 2e6, 4e9], "30 degC", ("0 degC", "100 degC")),
 ]
 by_name = pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
 ROUNDING = 1e-11  # sums of terms of order ten in double precision
@@ -139,13 +142,13 @@ def test_misfit_of_a_law_widens_its_standard_errors():
 def test_what_no_law_describes_is_refused():
     temperatures = np.arange(0.0, 101.0, 10.0) + 273.15
     rising = ShiftFactors(temperatures, 0.01 * (temperatures - 300.0), 300.0)
-    for kind in ("wlf", "arrhenius", "wlf+arrhenius"):
+    for kind in ("wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"):
         with pytest.raises(InputError):
             rising.law(kind)
     with pytest.raises(InputError, match="too few"):
         ShiftFactors([290.0, 300.0], [1.0, 0.0], 300.0).law("wlf")
     with pytest.raises(InputError, match="must be 'wlf'"):
-        rising.law("vft")
+        rising.law("power")
 
 
 def test_uncertainty_of_wlf_constants_follows_the_reference():
@@ -177,3 +180,63 @@ def test_celsius_given_as_a_plain_number_is_met_with_help():
         LAWS[3]("120 degC")
     assert "plain numbers" not in str(caught.value)
     assert '[material] shift = "wlf" in a run file' in str(caught.value)
+
+
+def test_standard_error_between_temperatures_is_carried_through_the_interpolation():
+    covariance = np.array([[0.04, 0.0, 0.01], [0.0, 0.0, 0.0], [0.01, 0.0, 0.09]])
+    table = ShiftFactors(["0 degC", "30 degC", "60 degC"], [2.5, 0.0, -1.5], "30 degC", covariance)
+    assert table.standard_error(table.temperatures) == pytest.approx([0.2, 0.0, 0.3], abs=ROUNDING)
+    assert table.standard_error("30 degC") == pytest.approx(0.0, abs=ROUNDING)
+    half = 1.0 / (0.5 / 303.15 + 0.5 / 333.15)  # half-way in 1/T between a known and an unknown value
+    assert table.standard_error(half) == pytest.approx(0.15, rel=1e-9)
+    moved = table.at_reference("60 degC")
+    assert moved.standard_error("0 degC") == pytest.approx(np.sqrt(0.04 + 0.09 - 2 * 0.01), rel=1e-9)
+    with pytest.raises(InputError, match="outside the measured"):
+        table.standard_error("70 degC")
+
+
+def test_a_factor_corrected_by_hand_is_what_it_was_told():
+    covariance = 0.01 * (np.eye(4) + 0.5)
+    celsius = ["0 degC", "30 degC", "60 degC", "100 degC"]
+    table = ShiftFactors(celsius, [2.5, 0.0, -1.5, -2.5], "30 degC", covariance)
+    table = table.at_reference("60 degC").at_reference("30 degC")
+    changed = table.with_value("60.02 degC", -1.7, standard_error=0.05)
+    assert changed.log10_values == pytest.approx([2.5, 0.0, -1.7, -2.5], abs=ROUNDING)
+    assert changed.standard_errors[2] == pytest.approx(0.05)
+    assert changed.covariance[2, [0, 1, 3]] == pytest.approx(0.0)
+    assert changed.covariance[np.ix_([0, 3], [0, 3])] == pytest.approx(table.covariance[np.ix_([0, 3], [0, 3])])
+    assert changed.notes == ("The shift factor at 60.0 °C was corrected by hand, from log10 α = -1.5 to -1.7.",)
+    assert changed.at_reference("0 degC").notes == changed.notes
+    between = table.at_reference("45 degC")
+    corrected = between.with_value("60 degC", -0.9)
+    assert corrected.log10("60 degC") == pytest.approx(-0.9, abs=ROUNDING)
+    assert corrected.log10("45 degC") == pytest.approx(0.0, abs=ROUNDING)
+    with pytest.raises(InputError, match="no shift factor to correct"):
+        table.with_value("50 degC", 0.0)
+    with pytest.raises(InputError, match="is the reference"):
+        table.with_value("30 degC", 0.1)
+    with pytest.raises(InputError, match="standard_error"):
+        table.with_value("60 degC", 0.1, standard_error=-1.0)
+
+
+def test_saved_factors_come_back_with_their_covariance(tmp_path):
+    from viscofric.rheology.shift_files import read_shift_factors
+
+    table = ShiftFactors(["0 degC", "30 degC", "60 degC"], [2.5, 0.0, -1.5], "30 degC", np.diag([0.04, 0.0, 0.09]))
+    table.save(tmp_path / "shifts.csv")
+    back = read_shift_factors(tmp_path / "shifts.csv")
+    assert np.array_equal(back.log10_values, table.log10_values)
+    assert np.array_equal(back.covariance, table.covariance)
+    assert back.reference == table.reference
+
+
+def test_laws_are_equal_if_their_constants_are():
+    exact = LAWS[0].at_reference("30 degC")
+    temperatures = np.arange(0.0, 121.0, 10.0) + 273.15
+    fitted = ShiftFactors(temperatures, exact.log10(temperatures), exact.reference).law("wlf")
+    assert fitted == WLF(fitted.C1, fitted.C2, fitted.reference)
+    assert fitted != WLF(fitted.C1, fitted.C2 + 1.0, fitted.reference)
+    assert fitted.standard_errors[0] == pytest.approx(np.sqrt(fitted.covariance[0, 0]))
+    assert WLF(9.0, 100.0, 300.0).standard_errors is None
+    for kind, count in (("arrhenius", 1), ("vft", 2), ("polynomial", 2)):
+        assert len(ShiftFactors(temperatures, exact.log10(temperatures), 303.15).law(kind).standard_errors) >= count

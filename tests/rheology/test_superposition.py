@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -90,6 +91,10 @@ def test_the_reference_may_lie_between_isotherms(reference):
     assert fit.shift_factors.log10_values == pytest.approx(planted(fit), abs=0.02)
 
 
+# Two fits stop when steps fall below 1e-4 decades, and choose from a grid of smoothing; standard errors are 0.01.
+SAME = 1e-3  # decades
+
+
 @settings(max_examples=8, deadline=None)
 @given(rate=st.floats(-6, 6), factor=st.floats(-9, 9), order=st.permutations(range(8)))
 def test_units_and_order_do_not_matter(rate, factor, order):
@@ -98,10 +103,133 @@ def test_units_and_order_do_not_matter(rate, factor, order):
     changed = measured(celsius, noise=0.01, factor=10.0**factor, rate=10.0**rate)
     shuffled = IsothermalSweeps(tuple(changed.isotherms[place] for place in order))
     other = vf.superpose(shuffled, "30 degC")
-    # Both stop when steps fall below 1e-4 decades; standard errors are about 0.01.
-    assert other.shift_factors.log10_values == pytest.approx(plain.shift_factors.log10_values, abs=1e-3)
+    assert other.shift_factors.log10_values == pytest.approx(plain.shift_factors.log10_values, abs=SAME)
     assert other.shift_factors.standard_errors == pytest.approx(plain.shift_factors.standard_errors, rel=0.05, abs=1e-6)
     assert other.quality.joint == pytest.approx(plain.quality.joint, rel=0.05)
+    # All frequencies times a factor: α stays, the master curve moves.
+    moved = plain.master_curve.angular_frequency * 10.0**rate
+    assert other.master_curve.angular_frequency == pytest.approx(moved, rel=5 * SAME)
+    assert np.sort(other.master_curve.loss_modulus) == pytest.approx(
+        np.sort(plain.master_curve.loss_modulus) * 10.0**factor, rel=1e-9
+    )
+
+
+@settings(max_examples=8, deadline=None)
+@given(place=st.integers(0, 7), decades=st.floats(-1.0, 1.0))
+def test_one_isotherm_swept_faster_shifts_by_that_and_no_other_does(place, decades):
+    sweeps = measured(WARM[:8], noise=0.01)
+    isotherms = list(sweeps.isotherms)
+    isotherms[place] = replace(isotherms[place], angular_frequency=isotherms[place].angular_frequency * 10.0**decades)
+    plain = vf.superpose(sweeps, "30 degC")
+    other = vf.superpose(IsothermalSweeps(tuple(isotherms)), "30 degC")
+    expected = plain.shift_factors.log10_values - decades * np.eye(8)[place]
+    expected -= expected[3]  # 30 °C
+    # The weak expectation of steps like their neighbours' (1 decade) draws a step that differs from them by a
+    # decade, and is known to 0.02, by some (0.02/1)² of it.
+    assert other.shift_factors.log10_values == pytest.approx(expected, abs=2 * SAME)
+
+
+@settings(max_examples=6, deadline=None)
+@given(kelvin=st.floats(WARM[0] + 273.15, WARM[7] + 273.15))
+def test_factors_about_any_reference_are_the_same_factors(kelvin):
+    sweeps = measured(WARM[:8], noise=0.01)
+    plain, other = vf.superpose(sweeps, "30 degC"), vf.superpose(sweeps, kelvin)
+    about = plain.shift_factors.at_reference(kelvin)
+    assert other.shift_factors.log10_values == pytest.approx(about.log10_values, abs=SAME)
+    assert other.shift_factors.standard_errors == pytest.approx(about.standard_errors, rel=0.02, abs=1e-6)
+    assert other.quality.joint == pytest.approx(plain.quality.joint, rel=0.02)
+
+
+def test_fixed_factors_are_held_and_the_others_fitted_around_them():
+    sweeps = measured(WARM[:8], noise=0.01)
+    free = vf.superpose(sweeps, "30 degC")
+    wanted = float(free.shift_factors.log10_values[5]) + 0.02
+    fit = vf.superpose(sweeps, "30 degC", fixed={"50 degC": wanted})
+    assert fit.shift_factors.log10_values[5] == pytest.approx(wanted, abs=1e-12)
+    assert fit.shift_factors.standard_errors[5] == pytest.approx(0.0, abs=1e-9)
+    assert fit.shift_factors.log10_values[3] == 0.0
+    # The isotherm between the reference and the fixed one gives way, part of the way; the two above follow it.
+    change = fit.shift_factors.log10_values - free.shift_factors.log10_values
+    assert 0.002 < change[4] < 0.018
+    assert change[6:] == pytest.approx(0.02, abs=0.01)
+    # What the fit would have found anyway changes nothing.
+    same = vf.superpose(sweeps, "30 degC", fixed={323.15: float(free.shift_factors.log10_values[5])})
+    assert same.shift_factors.log10_values == pytest.approx(free.shift_factors.log10_values, abs=SAME)
+
+
+def test_factors_fixed_about_a_reference_between_isotherms_are_met_exactly():
+    sweeps = measured(WARM[:8], noise=0.01)
+    fit = vf.superpose(sweeps, "34 degC", fixed={"0 degC": 4.0, "60 degC": -1.9})
+    assert fit.shift_factors.log10("0 degC") == pytest.approx(4.0, abs=1e-8)
+    assert fit.shift_factors.log10("60 degC") == pytest.approx(-1.9, abs=1e-8)
+    assert fit.shift_factors("34 degC") == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("fixed", "reference", "message"),
+    [
+        ({"33 degC": 0.5}, "30 degC", r"at 33.0 °C; the nearest is at 30.0 °C"),
+        ({"30 degC": 0.5}, "30 degC", "is the reference"),
+        ({"50 degC": -1.0, "51 degC": -1.1}, "30 degC", "fixed twice"),
+        ({"30 degC": 0.1, "40 degC": -0.5}, "33 degC", "both fixed"),
+        ({"50 degC": "about one"}, "30 degC", "50 degC"),
+        ({50.0: -1.0}, "30 degC", "none of the joined isotherms"),
+    ],
+)
+def test_fixed_factors_that_cannot_be_held_are_refused(fixed, reference, message):
+    with pytest.raises(InputError, match=message):
+        vf.superpose(measured(WARM[:8]), reference, fixed=fixed)
+
+
+def test_every_factor_may_be_fixed():
+    sweeps = measured(WARM[:4], noise=0.01)
+    law = RUBBER.shift.at_reference("20 degC")
+    values = law.log10(sweeps.temperatures)
+    fit = vf.superpose(sweeps, "20 degC", fixed=dict(zip(sweeps.temperatures, values, strict=True)))
+    assert fit.shift_factors.log10_values == pytest.approx(values, abs=1e-12)
+    assert fit.shift_factors.standard_errors == pytest.approx(0.0, abs=1e-12)
+
+
+def test_given_factors_are_used_as_they_are_and_join_what_does_not_overlap():
+    sweeps = measured([-30.0, -20.0, *WARM[:8]], noise=0.01)
+    fit = vf.superpose(sweeps, "30 degC", shift=RUBBER.shift)
+    assert len(fit.isotherms) == 10
+    assert fit.shift_factors.log10_values == pytest.approx(planted(fit), abs=1e-12)
+    truth = RUBBER.complex_modulus(fit.master_curve.angular_frequency, "30 degC")
+    assert np.log10(fit.master_curve.storage_modulus / truth.real).std() == pytest.approx(0.0043, rel=0.2)  # 1 %
+    assert not any("left out" in note for note in fit.notes)
+    # The same law about another temperature is the same law.
+    other = vf.superpose(sweeps, "30 degC", shift=RUBBER.shift.at_reference("100 degC"))
+    assert other.shift_factors.log10_values == pytest.approx(fit.shift_factors.log10_values, abs=1e-12)
+
+
+def test_given_tables_keep_their_errors_and_their_range():
+    sweeps = measured(WARM[:8], noise=0.01)
+    fit = vf.superpose(sweeps, "30 degC")
+    again = vf.superpose(sweeps, "30 degC", shift=fit.shift_factors)
+    assert again.shift_factors.log10_values == pytest.approx(fit.shift_factors.log10_values, abs=1e-12)
+    assert again.shift_factors.standard_errors == pytest.approx(fit.shift_factors.standard_errors, abs=1e-12)
+    assert again.quality.joint == pytest.approx(fit.quality.joint, rel=1e-9)
+    with pytest.raises(InputError, match=r"80.0 °C lies outside"):
+        vf.superpose(measured(WARM[:9]), "30 degC", shift=fit.shift_factors)
+    with pytest.raises(InputError, match="give one of them"):
+        vf.superpose(sweeps, "30 degC", shift=fit.shift_factors, fixed={"50 degC": -1.0})
+
+
+def test_given_factors_that_do_not_superpose_are_told_of():
+    sweeps = measured(WARM[:8], noise=0.001)
+    values = planted(vf.superpose(sweeps, "30 degC"))
+    values[6:] -= 0.5
+    fit = vf.superpose(sweeps, "30 degC", shift=vf.ShiftFactors(sweeps.temperatures, values, "30 degC"))
+    assert [note for note in fit.notes if "50.0 °C and 60.0 °C disagree" in note and "given" in note]
+    assert sum("disagree" in note for note in fit.notes) == 1
+
+
+def test_isotherms_are_handed_on_as_measured():
+    sweeps = measured(WARM[:4], deformation="shear", factor=1 / 3)
+    fit = vf.superpose(sweeps, "10 degC", vertical="density")
+    assert [one.temperature for one in fit.isotherms] == list(fit.shift_factors.temperatures)
+    assert fit.isotherms[0].storage_modulus == pytest.approx(3.0 * sweeps.isotherms[0].storage_modulus)
 
 
 def test_shear_moduli_become_tensile():
@@ -114,24 +242,58 @@ def test_shear_moduli_become_tensile():
     assert ratio == pytest.approx(2.0, rel=1e-9)
 
 
-def test_a_plateau_is_given_a_large_standard_error_and_does_not_run_away():
+def on_a_plateau(celsius, seed=3, storage=3e6, slope=0.0):
+    """Make sweeps whose moduli do not change with temperature, and by `slope` in log–log with frequency."""
+    random = np.random.default_rng(seed)
     omega = 2 * np.pi * np.logspace(-1, 1, 17)
-    random = np.random.default_rng(3)
-    flat = [
-        Isotherm(
-            celsius + 273.15,
-            omega,
-            3e6 * (1 + 0.003 * random.standard_normal(17)),
-            3e4 * (1 + 0.1 * random.standard_normal(17)),
-        )
-        for celsius in (230.0, 240.0, 250.0)
-    ]
-    steep = measured(WARM, noise=0.003).isotherms
-    fit = vf.superpose(IsothermalSweeps(steep[:8]), "30 degC")
-    plateau = vf.superpose(IsothermalSweeps(tuple(flat)), "240 degC")
-    assert np.all(np.abs(plateau.shift_factors.log10_values) < 3.0)  # the width of the prior
-    assert plateau.shift_factors.standard_errors.max() > 0.1
-    assert plateau.shift_factors.standard_errors.max() > 10 * np.median(fit.shift_factors.standard_errors)
+    scatter = 1 + 0.003 * random.standard_normal((len(celsius), 2, 17))
+    return tuple(
+        Isotherm(one + 273.15, omega, storage * omega**slope * noise[0], 0.1 * storage * omega**slope * noise[1])
+        for one, noise in zip(celsius, scatter, strict=True)
+    )
+
+
+def test_a_plateau_is_given_a_large_standard_error_and_does_not_run_away():
+    steep = vf.superpose(measured(WARM[:8], noise=0.003), "30 degC")
+    plateau = vf.superpose(IsothermalSweeps(on_a_plateau((230.0, 240.0, 250.0))), "240 degC")
+    assert np.all(np.abs(plateau.shift_factors.log10_values) < 3.0)  # the width of the expectation
+    assert plateau.shift_factors.standard_errors.max() > 0.3
+    assert plateau.shift_factors.standard_errors.max() > 30 * np.median(steep.shift_factors.standard_errors)
+    [note] = [note for note in plateau.notes if "not identified" in note]
+    assert "230.0 °C to 250.0 °C" in note
+    assert not any("not identified" in note for note in steep.notes)
+
+
+def test_on_a_plateau_the_factors_follow_the_trend_of_their_neighbours():
+    # One relaxation, and a loss that neither frequency nor temperature changes: hot sweeps are alike.
+    solid = vf.Material.standard_linear_solid(E0=3e6, E_inf=1e9, tau=1e-3)
+    rubber = vf.Material(solid.spectrum, vf.WLF(8.0, 110.0, "20 degC"))
+    random = np.random.default_rng(1)
+    omega = 2 * np.pi * np.logspace(-1, 1, 17)
+    isotherms = []
+    for celsius in np.arange(0.0, 191.0, 10.0):
+        modulus = rubber.complex_modulus(omega, celsius + 273.15)
+        scatter = 1 + 0.01 * random.standard_normal((2, 17))
+        loss = modulus.imag + 3e4
+        isotherms.append(Isotherm(celsius + 273.15, omega, scatter[0] * modulus.real, scatter[1] * loss))
+    fit = vf.superpose(IsothermalSweeps(tuple(isotherms)), "20 degC")
+    steps = -np.diff(fit.shift_factors.log10_values)
+    true_steps = -np.diff(rubber.shift.log10(fit.shift_factors.temperatures))
+    errors = fit.shift_factors.standard_errors
+    assert errors[:5].max() < 0.05
+    assert errors[-1] > 1.0
+    [note] = [note for note in fit.notes if "not identified" in note]
+    assert "to 190.0 °C" in note
+    # The last step that is told is known to some 0.1 decades, and the law bends by 0.02 from step to step.
+    assert np.all(np.abs(steps - true_steps) < 0.4)
+    away = fit.shift_factors.log10_values - rubber.shift.log10(fit.shift_factors.temperatures)
+    assert np.all(np.abs(away) < 3.0 * errors + 1e-9)
+    # About a reference on the plateau it is the transition that is uncertain.
+    hot = vf.superpose(IsothermalSweeps(tuple(isotherms)), "150 degC")
+    assert hot.shift_factors.log10_values == pytest.approx(
+        fit.shift_factors.at_reference("150 degC").log10_values, abs=0.05
+    )
+    assert hot.shift_factors.standard_errors[0] > 1.0
 
 
 def test_sweeps_that_do_not_overlap_are_refused_with_both_temperatures():
@@ -152,6 +314,28 @@ def test_single_isotherms_beyond_the_ends_are_left_out_with_a_note():
         vf.superpose(measured([-20.0, -10.0, *WARM]), "-15 degC")
 
 
+@pytest.mark.parametrize("vertical", [None, "free"])
+@pytest.mark.parametrize("points", [2, 3, 4])
+def test_few_points_are_enough_where_they_overlap(points, vertical):
+    sweeps = measured(WARM[2:5], points=points)
+    if points > 2:
+        fit = vf.superpose(sweeps, "30 degC", vertical=vertical)
+        assert fit.shift_factors.log10_values == pytest.approx(planted(fit), abs=0.1)  # chords for curves
+        assert np.all(np.isfinite(fit.shift_factors.standard_errors))
+    else:  # no two points of each lie over the other: nothing shows a curve
+        with pytest.raises(SuperpositionError, match="do not overlap"):
+            vf.superpose(sweeps, "30 degC", vertical=vertical)
+    # Far apart, each isotherm has its own curves; only given factors can join them.
+    given = vf.superpose(measured([0.0, 90.0], points=points), "0 degC", shift=RUBBER.shift, vertical=vertical)
+    assert len(given.master_curve) == 2 * points
+
+
+def test_two_isotherms_at_one_temperature_are_refused():
+    sweeps = measured([20.0, 20.0, 30.0])
+    with pytest.raises(SuperpositionError, match=r"two isotherms are at 20.0 °C"):
+        vf.superpose(sweeps, "20 degC")
+
+
 def test_too_little_to_superpose_is_refused():
     with pytest.raises(SuperpositionError, match="1 isotherm cannot"):
         vf.superpose(measured([20.0]), "20 degC")
@@ -164,27 +348,43 @@ def test_too_little_to_superpose_is_refused():
 def test_acrylic_overlaps_as_well_as_with_the_best_peer(real_data):
     sweeps = vf.read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
     vf.superpose(sweeps, "20 degC")
-    start = time.perf_counter()
+    start = time.process_time()
     fit = vf.superpose(sweeps, "20 degC")
-    elapsed = time.perf_counter() - start
+    elapsed = time.process_time() - start
     assert fit.quality.joint <= 0.0080  # best peer .0079, measured the same way
     law = fit.shift_factors.law("wlf")
-    assert pytest.approx((9.05, 128.5), rel=0.03) == (
-        law.C1,
-        law.C2,
-    )  # peers differ by 1 %; weighting by as much
+    first, second = law.standard_errors
+    # Peers found 9.05 and 128.5 K; both lie within the 95 % band stated here.
+    assert abs(law.C1 - 9.05) < 1.96 * first
+    assert abs(law.C2 - 128.5) < 1.96 * second
+    assert second < 3.0
     assert any("-40.0 °C and -30.0 °C disagree" in note for note in fit.notes)
-    assert elapsed < 1.0  # about 0.03 s; a loaded machine may be slow
+    assert elapsed < 0.5  # about 0.03 s of one core; a loaded machine may be slow
 
 
+def test_the_adhesives_hot_plateau_is_told_of(real_data):
+    fit = vf.superpose(vf.read_dma(real_data / "dma" / "adhesive_ems_ca.csv", deformation="tension"), "25 degC")
+    [note] = [note for note in fit.notes if "not identified" in note]
+    assert "to 100.0 °C" in note
+    # Netzsch's own factors are as flat; found by another method, they lie within three standard errors.
+    vendor = np.loadtxt(real_data / "dma" / "adhesive_ems_ca__vendor_shift.csv", delimiter=",", skiprows=2)
+    hot = vendor[:, 0] > 70.0
+    away = fit.shift_factors.log10_values[hot] - vendor[hot, 1]
+    assert np.all(np.abs(away) < 3.0 * fit.shift_factors.standard_errors[hot])
+    assert np.ptp(away) < 0.3
+
+
+@pytest.mark.parametrize("vertical", [None, "density", "free"])
 @pytest.mark.parametrize("name", ["adhesive_ems_ca", "eva_shear", "vinyl_nitrile_foam"])
-def test_real_rubbers_are_joined_over_all_their_temperatures(real_data, name):
+def test_real_rubbers_are_joined_over_all_their_temperatures(real_data, name, vertical):
     sweeps = vf.read_dma(real_data / "dma" / f"{name}.csv", deformation="tension")
-    fit = vf.superpose(sweeps, "20 degC")
+    fit = vf.superpose(sweeps, "20 degC", vertical=vertical)
     assert len(fit.shift_factors.temperatures) == len(sweeps)
     assert np.all(np.isfinite(fit.shift_factors.standard_errors))
     # α falls as temperature rises, within the errors (the adhesive's plateau tells nothing).
     rise = np.diff(fit.shift_factors.log10_values)
     errors = np.hypot(fit.shift_factors.standard_errors[1:], fit.shift_factors.standard_errors[:-1])
     assert np.all(rise < 3 * errors)
-    assert vf.fit_retardation_spectrum(fit.master_curve).fit.rms_loss < 0.06
+    if vertical is None:  # superposition fails for EVA: neighbours' E'' disagree by 0.07 decades at best
+        limit = 0.08 if name == "eva_shear" else 0.04
+        assert vf.fit_retardation_spectrum(fit.master_curve).fit.rms_loss < limit

@@ -110,7 +110,7 @@ def solve_steady(
     if finest < LEAST_FINEST:
         raise InputError(f"finest = {finest!r}: must be at least {LEAST_FINEST} cells.")
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
-    spectrum = material.at(kelvin)
+    spectrum = material.modes_at(kelvin)
     scale = _Scale.of(spectrum, material.poisson_ratio, indenter, force)
     solid = _steady_material(spectrum, abs(velocity) / scale.length)
     problem = Problem(solid, _ScaledIndenter(indenter, scale), tolerance)

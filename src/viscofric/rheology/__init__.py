@@ -1,24 +1,54 @@
-"""From sweeps to a rubber: shift factors, master curve, retardation spectrum, material."""
+"""From sweeps to a rubber: shift factors, master curve, retardation spectrum, material; and to other programs."""
 
-from viscofric.rheology.catalogue import synthetic_fluoroelastomer
+from viscofric.rheology.cards import Card, open_card, read_card, write_card
+from viscofric.rheology.catalogue import CatalogueEntry, catalogue, catalogue_material, synthetic_fluoroelastomer
+from viscofric.rheology.consistency import SuperpositionCheck, check_superposition
+from viscofric.rheology.law_comparison import LawComparison
 from viscofric.rheology.material import Material
+from viscofric.rheology.material_samples import MaterialSamples
+from viscofric.rheology.modulus_table import ModulusTable
+from viscofric.rheology.relaxation import RelaxationSpectrum
 from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.shift_laws import WLF, Arrhenius, ShiftLaw, WLFArrhenius
+from viscofric.rheology.shift_files import read_shift_factors, read_vendor_law
+from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, ShiftLaw, WLFArrhenius
 from viscofric.rheology.spectrum import RetardationSpectrum, SpectrumFit
 from viscofric.rheology.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition import Superposition, superpose
+from viscofric.rheology.uncertainty import sample_materials
+from viscofric.rheology.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
 
 __all__ = [
+    "VFT",
     "WLF",
     "Arrhenius",
+    "Card",
+    "CatalogueEntry",
+    "DensityShift",
+    "InversePolynomial",
+    "LawComparison",
     "Material",
+    "MaterialSamples",
+    "ModulusTable",
+    "RelaxationSpectrum",
     "RetardationSpectrum",
     "ShiftFactors",
     "ShiftLaw",
     "SpectrumFit",
     "Superposition",
+    "SuperpositionCheck",
+    "VerticalShift",
+    "VerticalShiftFactors",
     "WLFArrhenius",
+    "catalogue",
+    "catalogue_material",
+    "check_superposition",
     "fit_retardation_spectrum",
+    "open_card",
+    "read_card",
+    "read_shift_factors",
+    "read_vendor_law",
+    "sample_materials",
     "superpose",
     "synthetic_fluoroelastomer",
+    "write_card",
 ]

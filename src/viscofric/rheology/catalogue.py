@@ -1,23 +1,98 @@
-"""Built-in rubbers: for now one synthetic fluoroelastomer, an assumption and not a measurement."""
+"""Built-in rubbers: parameters that others published, with their source, and one synthetic fluoroelastomer."""
 
 from __future__ import annotations
 
+import difflib
 import math
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from viscofric.errors import InputError
 from viscofric.rheology.material import Material
+from viscofric.rheology.relaxation import RelaxationSpectrum
 from viscofric.rheology.shift_laws import WLFArrhenius
 from viscofric.rheology.spectrum import RetardationSpectrum
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
 #: The half-Gaussians end so many standard deviations from their centres, where they hold no more compliance.
 WIDTH = 4.5
+
+
+@dataclass(frozen=True)
+class CatalogueEntry:
+    """One material of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        As `catalogue_material` takes it.
+    kind : {"published", "SYNTHETIC"}
+        Whether the numbers stand in a publication, or were made up for tests and examples.
+    holds : str
+        What is known of it: kind of spectrum, number of modes, shift.
+    citation : str
+        Where the numbers come from; for a synthetic material, what it is.
+    remarks : str
+        In which deformation, at which temperature and over which times it was measured.
+    make : callable
+        Returns the material.
+    """
+
+    name: str
+    kind: Literal["published", "SYNTHETIC"]
+    holds: str
+    citation: str
+    remarks: str
+    make: Callable[[], Material]
+
+
+def catalogue() -> tuple[CatalogueEntry, ...]:
+    """Return the entries of the catalogue: what there is, where it comes from, and how far it holds."""
+    return _ENTRIES
+
+
+def catalogue_material(name: str) -> Material:
+    """Return a material of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        One of the names in `catalogue()`; capitals, hyphens and underscores do not matter.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the sentence names the nearest.
+    """
+    known = {_plain(entry.name): entry for entry in _ENTRIES}
+    entry = known.get(_plain(name))
+    if entry is None:
+        near = difflib.get_close_matches(_plain(name), known, n=1, cutoff=0.5)
+        hint = f"did you mean {known[near[0]].name!r}?" if near else "the names are"
+        names = "" if near else f" {', '.join(repr(one.name) for one in _ENTRIES)}."
+        raise InputError(f"name = {name!r}: the catalogue has no such material; {hint}{names}")
+    material = entry.make()
+    return replace(material, citation=entry.citation) if entry.kind == "published" else material
+
+
+def _plain(name: str) -> str:
+    return " ".join(str(name).lower().replace("-", " ").replace("_", " ").split())
+
+
+def _vhb_4910() -> Material:
+    """Small-strain limit: equilibrium shear modulus and three Maxwell branches, incompressible (E = 3G)."""
+    equilibrium = 15.36e3  # Pa
+    shear = np.array([26.06e3, 26.53e3, 10.83e3])  # Pa
+    relaxation = RelaxationSpectrum(3.0 * equilibrium, 3.0 * shear, [0.6074, 6.56, 61.25])
+    return Material(relaxation.to_retardation(), None, 0.5, "VHB 4910 acrylic elastomer")
 
 
 def synthetic_fluoroelastomer() -> Material:
@@ -54,3 +129,27 @@ def _half_gaussians(log10_tau: Array, centre: float, long: float, short: float) 
     away = log10_tau - centre
     weight = np.exp(-0.5 * (away / np.where(away > 0.0, long, short)) ** 2)
     return np.asarray(weight / weight.sum())
+
+
+_ENTRIES = (
+    CatalogueEntry(
+        "VHB 4910",
+        "published",
+        "Prony series, 3 modes; no shift with temperature.",
+        "S. Wang, M. Decker, D. L. Henann, S. A. Chester, Modeling of dielectric viscoelastomers with application to "
+        "electromechanical instabilities, J. Mech. Phys. Solids (2016); numbers as quoted in the example codes of "
+        "SolidMechanicsCoupledTheories (finite viscoelasticity, VE05).",
+        "Acrylic elastomer. Shear moduli and relaxation times of a finite-strain model, here at small strain and "
+        "incompressible, E = 3G. Times of 0.6 to 61 s: loss faster than about 5 rad/s or slower than 0.01 rad/s, and "
+        "the glass transition, are not in it. The temperature is that of the tests; there is no shift.",
+        _vhb_4910,
+    ),
+    CatalogueEntry(
+        "synthetic fluoroelastomer",
+        "SYNTHETIC",
+        "Retardation spectrum, 37 modes; WLF above and Arrhenius below the glass transition.",
+        "Made up for tests and examples; not a measurement.",
+        "A glass transition and a slow relaxation below the rubber plateau, at 30 °C; see synthetic_fluoroelastomer.",
+        synthetic_fluoroelastomer,
+    ),
+)

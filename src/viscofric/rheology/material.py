@@ -1,13 +1,15 @@
-"""A rubber: its retardation spectrum, how temperature shifts it, and its Poisson ratio."""
+"""A rubber: its modulus at one temperature, how temperature shifts it, and its Poisson ratio."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from viscofric.errors import InputError
+from viscofric.rheology.modulus_table import ModulusTable
 from viscofric.rheology.shift_laws import ShiftLaw
 from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.vertical_shift import VerticalShift
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
@@ -21,37 +23,55 @@ if TYPE_CHECKING:
 class Material:
     """A linear viscoelastic, incompressible or nearly incompressible rubber.
 
-    E(ω, T) = E(α(T) ω, reference) (paper, Eq. 4); the Poisson ratio is constant.
+    E(ω, T) = b(T) E(α(T) ω, reference) (paper, Eq. 4, with a vertical shift); the Poisson ratio is constant.
 
     Parameters
     ----------
-    spectrum : RetardationSpectrum
-        At the shift's reference temperature.
+    spectrum : RetardationSpectrum or ModulusTable
+        At the shift's reference temperature.  A table has no modes: it has a modulus, a compliance and shifts, but no
+        creep, and a free contact cannot be solved with it (`modes_at`).
     shift : ShiftLaw or ShiftFactors, optional
         α(T).  Without it the material is what it is, and cannot be asked for a temperature.
     poisson_ratio : float
         0 to 0.5.
     name : str
         Shown in reports.
+    vertical_shift : VerticalShift, optional
+        b(T), used about the reference of `shift`; b = 1 without it.
+    citation : str
+        Where the parameters were published or measured.
 
     Raises
     ------
     InputError
-        If the Poisson ratio is out of range, or spectrum or shift are not what they should be.
+        If the Poisson ratio is out of range, spectrum or shift are not what they should be, or there is a vertical
+        shift without a shift.
     """
 
-    spectrum: RetardationSpectrum
+    spectrum: RetardationSpectrum | ModulusTable
     shift: ShiftLaw | None = None
     poisson_ratio: float = 0.5
     name: str = ""
+    vertical_shift: VerticalShift | None = None
+    citation: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.spectrum, RetardationSpectrum):
+        if not isinstance(self.spectrum, (RetardationSpectrum, ModulusTable)):
+            hint = "; a Prony series is turned into one by its to_retardation()"
             raise InputError(
-                f"spectrum of a material must be a RetardationSpectrum, not {type(self.spectrum).__name__}."
+                "spectrum of a material must be a RetardationSpectrum or a ModulusTable, not "
+                f"{type(self.spectrum).__name__}{hint if hasattr(self.spectrum, 'to_retardation') else ''}."
             )
         if not (self.shift is None or isinstance(self.shift, ShiftLaw)):
             raise InputError(f"shift of a material must be a law or ShiftFactors, not {type(self.shift).__name__}.")
+        if self.vertical_shift is not None:
+            if not isinstance(self.vertical_shift, VerticalShift):
+                kind = type(self.vertical_shift).__name__
+                raise InputError(f"vertical_shift of a material must be a VerticalShift, not {kind}.")
+            if self.shift is None:
+                raise InputError("vertical_shift of a material needs a shift too, which tells its reference.")
+            about = self.vertical_shift.at_reference(self.shift.reference)
+            object.__setattr__(self, "vertical_shift", about)
         ratio = to_si(self.poisson_ratio, "dimensionless", "poisson_ratio")
         if not 0.0 <= ratio <= 0.5:
             raise InputError(f"poisson_ratio = {ratio:g}: must lie between 0 and 0.5.")
@@ -89,8 +109,8 @@ class Material:
         """Temperature at which `spectrum` holds, K; None where no shift says it."""
         return None if self.shift is None else float(self.shift.reference)
 
-    def at(self, temperature: Quantity | None = None) -> RetardationSpectrum:
-        """Return the spectrum at a temperature.
+    def at(self, temperature: Quantity | None = None) -> RetardationSpectrum | ModulusTable:
+        """Return the spectrum, or the table, at a temperature.
 
         Parameters
         ----------
@@ -100,7 +120,7 @@ class Material:
         Raises
         ------
         InputError
-            If a temperature is asked of a material without a shift, or one where its shift has no meaning.
+            If a temperature is asked of a material without a shift, or one where a shift has no meaning.
         """
         if temperature is None:
             return self.spectrum
@@ -109,8 +129,48 @@ class Material:
                 f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be "
                 "chosen; give Material(spectrum, shift=WLF(…)) or leave the temperature out."
             )
-        alpha = float(self.shift(positive(temperature, "K", "temperature")))
-        return self.spectrum if alpha == 1.0 else self.spectrum.shifted(alpha)
+        kelvin = positive(temperature, "K", "temperature")
+        alpha = float(self.shift(kelvin))
+        b = 1.0 if self.vertical_shift is None else float(self.vertical_shift(kelvin))
+        return self.spectrum if alpha == 1.0 and b == 1.0 else self.spectrum.shifted(alpha, b)
+
+    def at_reference(self, reference: Quantity) -> Material:
+        """Return the same material, described about another reference temperature.
+
+        Parameters
+        ----------
+        reference : float or quantity
+            K, or text such as ``"60 degC"``.
+
+        Raises
+        ------
+        InputError
+            As for `at`.
+        """
+        spectrum = self.at(reference)
+        shift = None if self.shift is None else self.shift.at_reference(reference)
+        return replace(self, spectrum=spectrum, shift=shift)
+
+    def modes_at(self, temperature: Quantity | None = None) -> RetardationSpectrum:
+        """Return the retardation modes at a temperature, for what cannot do without: creep and the free contact.
+
+        Parameters
+        ----------
+        temperature : float or quantity, optional
+            As for `at`.
+
+        Raises
+        ------
+        InputError
+            If the material is a table, or for the reasons of `at`.
+        """
+        found = self.at(temperature)
+        if isinstance(found, ModulusTable):
+            raise InputError(
+                "this material is a table of moduli and has no retardation modes, which are needed here; "
+                "fit a spectrum to its master curve with fit_retardation_spectrum(…)."
+            )
+        return found
 
     def complex_modulus(
         self, angular_frequency: ArrayLike, temperature: Quantity | None = None

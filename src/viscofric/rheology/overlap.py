@@ -35,10 +35,10 @@ class LogSweep:
     moduli: Array
 
     @classmethod
-    def of(cls, isotherm: Isotherm) -> LogSweep:
-        """Take base-10 logarithms of an isotherm in rad/s and Pa."""
+    def of(cls, isotherm: Isotherm, log10_b: float = 0.0) -> LogSweep:
+        """Take base-10 logarithms of an isotherm in rad/s and Pa, less a vertical shift."""
         moduli = np.stack([isotherm.storage_modulus, isotherm.loss_modulus], axis=1)
-        return cls(np.log10(isotherm.angular_frequency), np.log10(moduli))
+        return cls(np.log10(isotherm.angular_frequency), np.log10(moduli) - log10_b)
 
     def __len__(self) -> int:
         return len(self.frequency)
@@ -93,9 +93,21 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
     as_good = steps[misfit <= 1.05 * misfit[best] + 1e-4]
     if np.ptp(as_good) > FLAT:
         best = int(np.argmin(np.abs(steps - as_good[np.argmin(np.abs(as_good))])))
-    slope = np.gradient(colder.moduli, colder.frequency, axis=0)[inside[best]]
-    uncertainty = misfit[best] / max(float(np.linalg.norm(slope)), 1e-6)
-    return Join(float(steps[best]), float(misfit[best]), float(uncertainty))
+    if misfit[best] == np.inf:
+        return Join(float(steps[best]), np.inf, np.inf)
+    return join_at(colder, warmer, float(steps[best]))
+
+
+def join_at(colder: LogSweep, warmer: LogSweep, step: float) -> Join:
+    """Say how well two sweeps overlap at a given step; the uncertainty is infinite where they do not at all."""
+    frequency = colder.frequency + step
+    inside = warmer.covers(frequency)
+    if not np.any(inside):
+        return Join(step, 0.0, np.inf)
+    differences = warmer.at(frequency[inside]) - colder.moduli[inside]
+    misfit = float(np.sqrt(np.mean(differences**2)))
+    slope = np.gradient(colder.moduli, colder.frequency, axis=0)[inside]
+    return Join(step, misfit, misfit / max(float(np.linalg.norm(slope)), 1e-6))
 
 
 def typical_noise(joins: list[Join]) -> float:

@@ -9,18 +9,27 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology import law_fitting
-from viscofric.rheology.shift_laws import WLF, Arrhenius, ShiftLaw, WLFArrhenius
-from viscofric.units import celsius, kelvin_hint, positive, to_si_array
+from viscofric.rheology.law_comparison import LawComparison, compare_laws, polynomial
+from viscofric.rheology.shift_law import ShiftLaw
+from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
+    from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
     from viscofric.units import Quantities, Quantity
 
     Array = NDArray[np.float64]
 
 #: Two temperatures closer than this are the same one, to rounding of °C.
 _SAME_TEMPERATURE = 1e-9  # relative
+#: A measured temperature is named by the user as the instrument prints it.
+_NAMED_TEMPERATURE = 0.1  # K
+_CORRECTIONS = 500
+_ROUNDING = 1e-13  # decades
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,15 +46,23 @@ class ShiftFactors(ShiftLaw):
         Temperature where α = 1, inside the measured range; K.
     covariance : (n, n) array, optional
         Of the values, given that the one at the reference is exactly zero; zero if not given.
+    notes : tuple of str
+        What was corrected by hand: one sentence each.
     """
 
     temperatures: Array
     log10_values: Array
     reference: float
     covariance: Array
+    notes: tuple[str, ...] = ()
 
     def __init__(
-        self, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any = None
+        self,
+        temperatures: Quantities,
+        log10_values: Any,
+        reference: Quantity,
+        covariance: Any = None,
+        notes: Iterable[str] = (),
     ) -> None:
         kelvin = to_si_array(temperatures, "K", "temperatures")
         values = np.array(log10_values, dtype=float)
@@ -63,6 +80,7 @@ class ShiftFactors(ShiftLaw):
         values = values - float(self._log10(np.asarray(self.reference)))
         object.__setattr__(self, "log10_values", values)
         object.__setattr__(self, "covariance", spread)
+        object.__setattr__(self, "notes", tuple(notes))
         for column in (kelvin, values, spread):
             column.flags.writeable = False
 
@@ -90,6 +108,12 @@ class ShiftFactors(ShiftLaw):
         curve = PchipInterpolator(1.0 / self.temperatures[::-1], self.log10_values[::-1])
         return np.asarray(curve(inverse))
 
+    def _standard_error(self, kelvin: Array) -> Array:
+        """Carry the covariance through linear interpolation in 1/T; what interpolation itself misses is not in it."""
+        weights = _weights(self.temperatures, np.ravel(kelvin))
+        variance = np.einsum("ij,jk,ik->i", weights, self.covariance, weights)
+        return np.asarray(np.sqrt(np.maximum(variance, 0.0)).reshape(np.shape(kelvin)))
+
     def at_reference(self, reference: Quantity) -> ShiftFactors:
         """Return the same factors with α = 1 at another temperature inside the measured range."""
         kelvin = positive(reference, "K", "reference")
@@ -99,15 +123,87 @@ class ShiftFactors(ShiftLaw):
             self.log10_values,
             kelvin,
             referenced_covariance(self.temperatures, self.covariance, kelvin),
+            self.notes,
         )
+
+    def with_value(self, temperature: Quantity, log10: float, standard_error: float = 0.0) -> ShiftFactors:
+        """Return the factors with the one at a measured temperature corrected by hand.
+
+        Parameters
+        ----------
+        temperature : float or quantity
+            One of `temperatures`, to 0.1 K; K, or text such as ``"30 degC"``.
+        log10 : float
+            log10 α there, relative to the same reference.
+        standard_error : float
+            How well the new value is known, decades; independent of the others.
+
+        Returns
+        -------
+        ShiftFactors
+            With a note of the correction.
+
+        Raises
+        ------
+        InputError
+            If there is no such temperature, it is the reference (whose α is 1), or a number is not finite.
+        """
+        kelvin = positive(temperature, "K", "temperature")
+        value = to_si(log10, "dimensionless", "log10")
+        error = to_si(standard_error, "dimensionless", "standard_error")
+        if error < 0.0:
+            raise InputError(f"standard_error = {error:g}: must not be below zero.")
+        place = int(np.argmin(np.abs(self.temperatures - kelvin)))
+        if abs(self.temperatures[place] - kelvin) > _NAMED_TEMPERATURE:
+            shown = ", ".join(f"{celsius(one):z.1f}" for one in self.temperatures)
+            raise InputError(
+                f"temperature = {celsius(kelvin):z.1f} °C has no shift factor to correct; there are those at {shown} °C"
+                f"{kelvin_hint(kelvin)}."
+            )
+        if abs(self.temperatures[place] - self.reference) <= _SAME_TEMPERATURE * self.reference:
+            raise InputError(
+                f"temperature = {celsius(kelvin):z.1f} °C is the reference, where the shift factor is 1; correct the "
+                "others, or choose another reference with at_reference(…) first."
+            )
+        before = float(self.log10_values[place])
+        covariance = self.covariance.copy()
+        covariance[place, :] = covariance[:, place] = 0.0
+        covariance[place, place] = error**2
+        covariance = referenced_covariance(self.temperatures, covariance, self.reference)
+        values = self.log10_values.copy()
+        for _ in range(_CORRECTIONS):  # a reference between temperatures moves with its neighbours
+            corrected = ShiftFactors(self.temperatures, values, self.reference, covariance)
+            missing = value - float(corrected.log10_values[place])
+            if abs(missing) < _ROUNDING:
+                break
+            values[place] += missing
+        note = (
+            f"The shift factor at {celsius(float(self.temperatures[place])):z.1f} °C was corrected by hand, from "
+            f"log10 α = {before:.4g} to {value:.4g}."
+        )
+        return ShiftFactors(self.temperatures, corrected.log10_values, self.reference, covariance, (*self.notes, note))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged."""
+        from viscofric.rheology.shift_files import write_shift_factors
+
+        write_shift_factors(self, path)
 
     @overload
     def law(self, kind: Literal["wlf"], *, above: Quantity | None = None) -> WLF: ...
     @overload
     def law(self, kind: Literal["arrhenius"], *, above: Quantity | None = None) -> Arrhenius: ...
     @overload
+    def law(self, kind: Literal["vft"], *, above: Quantity | None = None) -> VFT: ...
+    @overload
     def law(self, kind: Literal["wlf+arrhenius"], *, above: Quantity | None = None) -> WLFArrhenius: ...
-    def law(self, kind: str, *, above: Quantity | None = None) -> ShiftLaw:
+    @overload
+    def law(
+        self, kind: Literal["polynomial"], *, above: Quantity | None = None, degree: int | None = None
+    ) -> InversePolynomial: ...
+    @overload
+    def law(self, kind: str, *, above: Quantity | None = None, degree: int | None = None) -> ParametricLaw: ...
+    def law(self, kind: str, *, above: Quantity | None = None, degree: int | None = None) -> ParametricLaw:
         """Fit a law to the table, with α = 1 at the same reference.
 
         Every value counts by its uncertainty.  Where the table scatters about the law by more than that, the
@@ -116,36 +212,62 @@ class ShiftFactors(ShiftLaw):
 
         Parameters
         ----------
-        kind : {"wlf", "arrhenius", "wlf+arrhenius"}
-            The last is WLF above a glass transition that is found too, Arrhenius below it.
+        kind : {"wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"}
+            VFT is the WLF curve in other constants; "wlf+arrhenius" is WLF above a glass transition that is found
+            too, Arrhenius below it; the polynomial is one in 1/T.
         above : float or quantity, optional
             Leave out measured temperatures below this one, such as those below the glass transition.
+        degree : int, optional
+            Of the polynomial, 1 to 4; without it, that from 2 to 4 of the lowest AICc.
 
         Returns
         -------
-        WLF, Arrhenius or WLFArrhenius
-            With `covariance` and standard errors.
+        WLF, Arrhenius, VFT, WLFArrhenius or InversePolynomial
+            With `covariance`, standard errors and `fitted_range`, which bounds its extrapolation.
 
         Raises
         ------
         InputError
             If the kind is unknown, the temperatures are too few, or the law does not describe them.
         """
+        table = self._table(above)
+        if kind == "polynomial" and degree is None:
+            return polynomial(table)
+        return law_fitting.fit(kind, table, degree)
+
+    def compare_laws(self, *, above: Quantity | None = None) -> LawComparison:
+        """Fit every law and choose the one that the table supports best; see `LawComparison`.
+
+        Parameters
+        ----------
+        above : float or quantity, optional
+            Leave out measured temperatures below this one.
+
+        Raises
+        ------
+        InputError
+            If no law describes the table, or the temperatures are too few to compare any.
+        """
+        return compare_laws(self._table(above))
+
+    def _table(self, above: Quantity | None) -> law_fitting.FactorTable:
         keep = np.full(self.temperatures.shape, True)
         if above is not None:
             keep = self.temperatures >= positive(above, "K", "above")
-        return law_fitting.fit(
-            kind,
-            self.temperatures[keep],
-            self.log10_values[keep],
-            self.covariance[np.ix_(keep, keep)],
-            self.reference,
+        if np.count_nonzero(keep) < 2:
+            raise InputError(f"{np.count_nonzero(keep)} temperatures are too few to fit a law; give 2 or more.")
+        return law_fitting.FactorTable.of(
+            self.temperatures[keep], self.log10_values[keep], self.covariance[np.ix_(keep, keep)], self.reference
         )
 
 
 def referenced_covariance(temperatures: Array, covariance: Array, reference: float) -> Array:
     """Return the covariance of log10 α(T) − log10 α(reference), the latter interpolated linearly in 1/T."""
-    inverse = 1.0 / temperatures[::-1]
-    weights = np.array([np.interp(1.0 / reference, inverse, unit) for unit in np.eye(len(inverse))])[::-1]
-    change = np.eye(len(inverse)) - weights[None, :]
+    change = np.eye(len(temperatures)) - _weights(temperatures, np.array([reference]))
     return np.asarray(change @ covariance @ change.T)
+
+
+def _weights(temperatures: Array, kelvin: Array) -> Array:
+    """Return the weights (m, n) of values at (n,) temperatures in values between them, linear in 1/T."""
+    inverse = 1.0 / temperatures[::-1]
+    return np.stack([np.interp(1.0 / kelvin, inverse, unit) for unit in np.eye(len(inverse))[::-1]], axis=-1)

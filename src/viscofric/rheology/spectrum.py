@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.rheology.interconversion import reciprocal_modes
+from viscofric.rheology.response import FrequencyResponse, checked_shift, checked_times, mode_column
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from viscofric.rheology.relaxation import RelaxationSpectrum
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
@@ -40,6 +43,14 @@ class SpectrumFit:
         Lowest and highest reduced angular frequency measured, rad/s; beyond them the spectrum extrapolates.
     notes : tuple of str
         The same in sentences.
+    method : str
+        How it was fitted: "non-negative", "regularised" or "sparse"; empty where that is not known.
+    modes : int
+        Number of modes that have compliance.
+    tau_ratio : float or None
+        Ratio of neighbouring retardation times; None where they were free.
+    regularisation : float or None
+        Strength λ with which the spectrum was smoothed; None where it was not.
     """
 
     rms_storage: float
@@ -48,10 +59,14 @@ class SpectrumFit:
     E_inf_extrapolated: bool
     frequency_range: tuple[float, float]
     notes: tuple[str, ...] = ()
+    method: str = ""
+    modes: int = 0
+    tau_ratio: float | None = None
+    regularisation: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
-class RetardationSpectrum:
+class RetardationSpectrum(FrequencyResponse):
     """Retardation modes of a rubber at one temperature.
 
     Creep compliance and complex compliance are (paper, Eqs. 5 and 3; convention e^{+iωt})::
@@ -92,8 +107,8 @@ class RetardationSpectrum:
             raise InputError("E0 = 0: a liquid has no rubber plateau; a spectrum needs E0 above zero.")
         object.__setattr__(self, "E0", positive(E0, "Pa", "E0"))
         object.__setattr__(self, "E_inf", positive(E_inf, "Pa", "E_inf"))
-        object.__setattr__(self, "C", _modes(C, "C", "1/Pa"))
-        object.__setattr__(self, "tau", _modes(tau, "tau", "s"))
+        object.__setattr__(self, "C", mode_column(C, "C", "1/Pa"))
+        object.__setattr__(self, "tau", mode_column(tau, "tau", "s"))
         object.__setattr__(self, "fit", fit)
         if self.C.shape != self.tau.shape:
             raise InputError(f"C and tau must be as many: there are {len(self.C)} and {len(self.tau)}.")
@@ -122,42 +137,34 @@ class RetardationSpectrum:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
         return np.asarray(1.0 / self.compliance(angular_frequency))
 
-    def storage_modulus(self, angular_frequency: ArrayLike) -> Array:
-        """Return E'(ω), Pa."""
-        return np.asarray(self.complex_modulus(angular_frequency).real)
-
-    def loss_modulus(self, angular_frequency: ArrayLike) -> Array:
-        """Return E''(ω), Pa."""
-        return np.asarray(self.complex_modulus(angular_frequency).imag)
-
-    def loss_tangent(self, angular_frequency: ArrayLike) -> Array:
-        """Return tan δ = E''/E'."""
-        modulus = self.complex_modulus(angular_frequency)
-        return np.asarray(modulus.imag / modulus.real)
-
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return J(t), 1/Pa, in the shape of `time` (s, not below zero)."""
-        seconds = np.asarray(time, dtype=float)
-        if np.any(seconds < 0.0):
-            raise InputError("time of a creep compliance must not be below zero.")
+        seconds = checked_times(time, "creep compliance")
         total = np.full(seconds.shape, 1.0 / self.E_inf)
         for compliance, retardation in zip(self.C, self.tau, strict=True):
             total -= compliance * np.expm1(-seconds / retardation)
         return total
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
+        """Return E(t) after a step of strain, Pa, in the shape of `time` (s, not below zero)."""
+        return self.to_relaxation().relaxation_modulus(time)
+
+    def to_relaxation(self) -> RelaxationSpectrum:
+        """Return the same material as a Prony series, exactly; see `viscofric.rheology.interconversion`.
+
+        Modes without compliance are left out and those of one time joined.  E0 becomes 1/(1/E_inf + ΣC), so that
+        E(ω) stays what it is where the given E0 and ΣC agree only roughly.
+        """
+        from viscofric.rheology.relaxation import RelaxationSpectrum
+
+        E, rates = reciprocal_modes(1.0 / self.E_inf, self.C, 1.0 / self.tau)
+        rubber = 1.0 / (1.0 / self.E_inf + float(np.sum(self.C)))
+        return RelaxationSpectrum(rubber, E[::-1], 1.0 / rates[::-1])
 
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).
 
         From E(ω, T) = b E(αω, T0) (paper, Eq. 4): every τ becomes ατ, every modulus b times what it was.
         """
-        if not (np.isfinite(alpha) and alpha > 0.0 and np.isfinite(b) and b > 0.0):
-            raise InputError(f"alpha = {alpha!r}, b = {b!r}: shifts must be above zero and finite.")
+        checked_shift(alpha, b)
         return RetardationSpectrum(b * self.E0, b * self.E_inf, self.C / b, alpha * self.tau, self.fit)
-
-
-def _modes(values: Any, name: str, unit: str) -> Array:
-    column = np.atleast_1d(np.array(values, dtype=float))
-    if column.ndim != 1 or not np.all(np.isfinite(column)):
-        raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.")
-    column.flags.writeable = False
-    return column

@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from viscofric.data import MasterCurve
-from viscofric.errors import InputError, SuperpositionError
-from viscofric.rheology.common_curve import common_shifts
-from viscofric.rheology.overlap import Join, LogSweep, OverlapQuality, failures, join, overlap_quality
-from viscofric.rheology.shift_factors import ShiftFactors, referenced_covariance
+from viscofric.errors import InputError
+from viscofric.rheology.held_shifts import fitted_shifts, given_shifts, held_places
+from viscofric.rheology.joined_isotherms import JoinedIsotherms, as_given, join_isotherms, shown, usable
+from viscofric.rheology.overlap import LogSweep, OverlapQuality, overlap_quality
+from viscofric.rheology.shift_factors import ShiftFactors
+from viscofric.rheology.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius, kelvin_hint, positive, to_si
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from viscofric.data import Isotherm, IsothermalSweeps
+    from viscofric.rheology.consistency import SuperpositionCheck
+    from viscofric.rheology.shift_laws import ShiftLaw
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
-
-#: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
-LARGEST_MISFIT = 0.15
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,22 +40,57 @@ class Superposition:
     shift_factors : ShiftFactors
         α at the temperatures that were joined, with standard errors.
     master_curve : MasterCurve
-        Tensile, at the reference.
+        Tensile, at the reference, free of vertical shift: E(ω, T)/b(T) against α(T) ω.
     quality : OverlapQuality
         How well neighbours overlap: rms of log10 E' and of log10 E''.
     notes : tuple of str
-        What the reader noted, and what was converted or left out here: one sentence each.
+        What the reader noted, and what was converted, left out or not identified here: one sentence each.
+    isotherms : tuple of Isotherm
+        Those that were joined, tensile and as measured (no vertical shift taken off), in ascending temperature:
+        one for each entry of `shift_factors.temperatures`.
+    vertical_shift : VerticalShift or None
+        b(T), where one was asked for.
+    cross_covariance : (n, n) array or None
+        Of log10 α (rows) with log10 b (columns), where b was fitted.
     """
 
     shift_factors: ShiftFactors
     master_curve: MasterCurve
     quality: OverlapQuality
     notes: tuple[str, ...] = ()
+    isotherms: tuple[Isotherm, ...] = ()
+    vertical_shift: VerticalShift | None = None
+    cross_covariance: Array | None = None
+
+    @cached_property
+    def check(self) -> SuperpositionCheck:
+        """Whether superposition holds, found when first asked for; see `check_superposition`."""
+        from viscofric.rheology.consistency import check_superposition
+
+        return check_superposition(self)
+
+
+#: Steps of log10 α with a larger standard error are not identified by the sweeps …
+UNIDENTIFIED = 0.3  # decades
+#: … nor are those with a larger one than this whose sign is not known …
+SIGN_UNKNOWN = 0.1  # decades
+#: … nor steps of log10 b with a larger one, which is mostly what was assumed of them.
+VERTICAL_UNIDENTIFIED = 0.02  # decades
 
 
 @one_blas_thread
-def superpose(sweeps: IsothermalSweeps, reference: Quantity, poisson_ratio: float = 0.5) -> Superposition:
-    """Shift isotherms along the frequency axis onto one master curve, by E' and E'' jointly, all at once.
+def superpose(
+    sweeps: IsothermalSweeps,
+    reference: Quantity,
+    poisson_ratio: float = 0.5,
+    *,
+    vertical: Literal["free", "density"] | VerticalShift | None = None,
+    shift: ShiftLaw | None = None,
+    fixed: Mapping[Any, float] | None = None,
+) -> Superposition:
+    """Shift isotherms onto one master curve, by E' and E'' jointly, all at once.
+
+    E(ω, T) = b(T) E(α(T) ω, reference).
 
     Parameters
     ----------
@@ -62,6 +100,16 @@ def superpose(sweeps: IsothermalSweeps, reference: Quantity, poisson_ratio: floa
         Temperature of the master curve, measured or in between; K, or text such as ``"30 degC"``.
     poisson_ratio : float
         Turns shear moduli into tensile ones, E = 2(1+ν)G; without effect on moduli measured in tension.
+    vertical : {"free", "density"} or VerticalShift, optional
+        None leaves b = 1.  ``"density"`` takes b = ρT/(ρ0 T0) with the expansivity of natural rubber, and a
+        `VerticalShift` is taken as it is: ``DensityShift("30 degC", expansion=0)`` is b = T/T0.  ``"free"``
+        fits one b for every isotherm, together with α.
+    shift : ShiftLaw or ShiftFactors, optional
+        Taken as it is, about the reference, instead of a fit.  No isotherm is left out then.
+    fixed : mapping of temperature to float, optional
+        log10 α, about the reference, of isotherms that are not to be fitted: ``{"60 degC": -2.1}``.  They are
+        held exactly, the others are fitted around them.  The isotherm at the reference has 0 and needs no mention;
+        where the reference lies between two isotherms, at most one of the two can be fixed.
 
     Returns
     -------
@@ -73,95 +121,132 @@ def superpose(sweeps: IsothermalSweeps, reference: Quantity, poisson_ratio: floa
         If there are fewer than two isotherms, one has fewer than two points, or neighbours do not overlap.  A
         single isotherm at the cold or the hot end that does not reach the others is left out, with a note.
     InputError
-        If the reference lies outside the temperatures that were joined, or ν outside 0 to 0.5.
+        If the reference lies outside the temperatures that were joined, ν outside 0 to 0.5, a given shift does
+        not hold at one of the temperatures, or a fixed temperature is not that of an isotherm (to a quarter of the
+        distance to its neighbours).
 
     Notes
     -----
     Neighbours are first joined pair by pair, then all shifts are refined together against common curves of
-    log E' and log E'' (`common_curve`).  No vertical shift is made (b = 1).
+    log E' and log E'' (`common_shifts`), to which every measured point counts once.  How well an overlap
+    identifies a shift is thereby its weight.  tan δ has no term of its own: log tan δ is the difference of the
+    two, so it is fitted already, and it would count the same points twice.
+
+    A shift along a plateau cannot be seen.  There log10 α follows the trend of its neighbours in 1/T,
+    has a standard error that grows from step to step, and a note names the temperatures.  With free
+    vertical shifts any straight part of the curves hides a sum of both, so each log10 b is drawn to that of its
+    neighbours, with 0.03 decades, which is three times what ρT makes of 10 K.  A note tells where little more than
+    this is known of b.
+
+    Values given with `shift` carry no uncertainty here, unless they are `ShiftFactors` with a covariance.  Where the
+    reference lies between isotherms, α = 1 there by the interpolation that `ShiftFactors` makes: given values
+    are moved together by what that differs from the law.
     """
     kelvin = positive(reference, "K", "reference")
     if not 0.0 <= to_si(poisson_ratio, "dimensionless", "poisson_ratio") <= 0.5:
         raise InputError(f"poisson_ratio = {poisson_ratio!r}: must lie between 0 and 0.5.")
+    if shift is not None and fixed:
+        raise InputError("shift and fixed: give one of them; with shift no factor is left to be fitted.")
     tensile = sweeps.in_tension(poisson_ratio)
-    isotherms, joins, left_out = _joined(tensile.isotherms)
-    temperatures = np.array([isotherm.temperature for isotherm in isotherms])
-    logs = [LogSweep.of(isotherm) for isotherm in isotherms]
-    found = common_shifts(logs, joins)
+    usable(tensile.isotherms)
+    known = _known_vertical(vertical, kelvin)
+    logs = [
+        LogSweep.of(isotherm, 0.0 if known is None else known.log10(isotherm.temperature))
+        for isotherm in tensile.isotherms
+    ]
+    if shift is None:
+        joined = join_isotherms(tensile.isotherms, logs)
+    else:
+        joined = as_given(tensile.isotherms, logs, shift.at_reference(kelvin))
+    temperatures = np.array([isotherm.temperature for isotherm in joined.isotherms])
     if not temperatures[0] <= kelvin <= temperatures[-1]:
         raise InputError(
             f"reference = {celsius(kelvin):z.1f} °C lies outside the joined isotherms, "
-            f"{_shown(temperatures[0])} to {_shown(temperatures[-1])}{kelvin_hint(kelvin)}. "
-            f"{' '.join(left_out)}".rstrip()
+            f"{shown(temperatures[0])} to {shown(temperatures[-1])}{kelvin_hint(kelvin)}. "
+            f"{' '.join(joined.notes)}".rstrip()
         )
-    shift_factors = ShiftFactors(
-        temperatures, found.values, kelvin, referenced_covariance(temperatures, found.covariance, kelvin)
-    )
+    free = vertical == "free"
+    if shift is None:
+        found = fitted_shifts(joined, kelvin, held_places(fixed or {}, temperatures, kelvin), free)
+    else:
+        found = given_shifts(joined, kelvin, shift.at_reference(kelvin), free)
+    factors = ShiftFactors(temperatures, found.values, kelvin, found.covariance)
+    notes = [*tensile.notes, *joined.notes, *joined.disagreements(given=shift is not None)]
+    if shift is None:
+        notes += _unidentified_steps(temperatures, found.values, found.covariance)
+    if free:
+        known = VerticalShiftFactors(temperatures, found.vertical, kelvin, found.vertical_covariance)
+        joined = joined.less(known.log10_values)
+        notes += _unidentified_vertical(temperatures, found.vertical_covariance)
+    quality = overlap_quality(joined.logs, factors.log10_values)
     return Superposition(
-        shift_factors,
-        _master_curve(isotherms, shift_factors),
-        overlap_quality(logs, shift_factors.log10_values),
-        (*tensile.notes, *left_out, *_disagreements(isotherms, joins)),
+        factors,
+        _master_curve(joined, factors),
+        quality,
+        tuple(notes),
+        joined.isotherms,
+        known,
+        found.cross_covariance if free else None,
     )
 
 
-def _shown(kelvin: float) -> str:
-    return f"{celsius(kelvin):z.1f} °C"
+def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None, kelvin: float) -> VerticalShift | None:
+    """Return b(T) where it need not be fitted."""
+    if isinstance(vertical, VerticalShift):
+        return vertical.at_reference(kelvin)
+    if vertical == "density":
+        return DensityShift(kelvin)
+    if vertical not in (None, "free"):
+        raise InputError(f"vertical = {vertical!r}: must be 'free', 'density', a VerticalShift or None.")
+    return None
 
 
-def _joined(isotherms: tuple[Isotherm, ...]) -> tuple[tuple[Isotherm, ...], list[Join], tuple[str, ...]]:
-    """Join neighbours, and leave out single isotherms at the ends that reach no other."""
-    if len(isotherms) < 2:
-        raise SuperpositionError(f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.")
-    for isotherm in isotherms:
-        if len(isotherm) < 2:
-            raise SuperpositionError(
-                f"the isotherm at {_shown(isotherm.temperature)} has only one usable frequency; two or more are needed."
-            )
-    logs = [LogSweep.of(isotherm) for isotherm in isotherms]
-    joins = [join(colder, warmer) for colder, warmer in pairwise(logs)]
-    joined = np.array([found.misfit <= LARGEST_MISFIT for found in joins])
-    if not joined.any():
-        raise SuperpositionError(_gap(isotherms, 0))
-    first, last = int(np.argmax(joined)), len(joined) - int(np.argmax(joined[::-1]))
-    broken = np.flatnonzero(~joined[first:last])
-    if broken.size:
-        raise SuperpositionError(_gap(isotherms, first + int(broken[0])))
-    notes = tuple(
-        f"The isotherm at {_shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}"
-        for place, gap in [(p, p) for p in range(first)] + [(p, p - 1) for p in range(last + 1, len(isotherms))]
+def _unidentified_steps(temperatures: Array, values: Array, covariance: Array) -> list[str]:
+    """Name the temperatures between which the sweeps do not tell α, in one sentence."""
+    errors = _errors_of_steps(covariance)
+    either_sign = (errors > SIGN_UNKNOWN) & (np.abs(np.diff(values)) < 2.0 * errors)
+    places = np.flatnonzero((errors > UNIDENTIFIED) | either_sign)
+    if not places.size:
+        return []
+    sentence = (
+        f"α is not identified from {_ranges(temperatures, places)}: there the moduli change too little with "
+        f"frequency for their scatter (standard error of a step up to {errors[places].max():.1g} decades)."
     )
-    return isotherms[first : last + 1], joins[first:last], notes
+    return [sentence]
 
 
-def _gap(isotherms: tuple[Isotherm, ...], place: int) -> str:
-    colder, warmer = isotherms[place], isotherms[place + 1]
-    return (
-        f"the sweeps at {_shown(colder.temperature)} and {_shown(warmer.temperature)} do not overlap "
-        f"(no shift brings their moduli within {LARGEST_MISFIT:g} decades of each other); "
-        "measure in between or over more frequencies."
+def _unidentified_vertical(temperatures: Array, covariance: Array) -> list[str]:
+    """Name the temperatures between which the sweeps do not tell b, in one sentence."""
+    errors = _errors_of_steps(covariance)
+    places = np.flatnonzero(errors > VERTICAL_UNIDENTIFIED)
+    if not places.size:
+        return []
+    sentence = (
+        f"b is not identified from {_ranges(temperatures, places)}: there the sweeps do not tell it from α "
+        f"(standard error of a step up to {100.0 * (10.0 ** errors[places].max() - 1.0):.0f} %)."
     )
+    return [sentence]
 
 
-def _disagreements(isotherms: tuple[Isotherm, ...], joins: list[Join]) -> tuple[str, ...]:
-    return tuple(
-        f"The sweeps at {_shown(isotherms[place].temperature)} and "
-        f"{_shown(isotherms[place + 1].temperature)} disagree by "
-        f"{joins[place].misfit:.2g} decades, many times what is typical here; they were "
-        "joined where they overlap best, with a large uncertainty."
-        for place in failures(joins)
-    )
+def _errors_of_steps(covariance: Array) -> Array:
+    """Return the standard errors of differences between neighbours."""
+    variance = np.diag(covariance)
+    return np.sqrt(np.maximum(variance[1:] + variance[:-1] - 2.0 * np.diag(covariance, 1), 0.0))
 
 
-def _master_curve(isotherms: tuple[Isotherm, ...], shift_factors: ShiftFactors) -> MasterCurve:
-    shifts = zip(isotherms, shift_factors.log10_values, strict=True)
-    frequency = np.concatenate([isotherm.angular_frequency * 10.0**shift for isotherm, shift in shifts])
+def _ranges(temperatures: Array, places: NDArray[np.intp]) -> str:
+    """Write runs of neighbouring steps as ranges of temperature."""
+    runs = np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
+    return ", ".join(f"{shown(temperatures[run[0]])} to {shown(temperatures[run[-1] + 1])}" for run in runs)
+
+
+def _master_curve(joined: JoinedIsotherms, shift_factors: ShiftFactors) -> MasterCurve:
+    """Collect all points, moved along both axes."""
+    shifts = zip(joined.logs, shift_factors.log10_values, strict=True)
+    frequency = np.concatenate([sweep.frequency + shift for sweep, shift in shifts])
     order = np.argsort(frequency, kind="stable")
-    temperature = np.repeat([i.temperature for i in isotherms], [len(i) for i in isotherms])
+    moduli = 10.0 ** np.concatenate([sweep.moduli for sweep in joined.logs])[order]
+    temperature = np.repeat([i.temperature for i in joined.isotherms], [len(i) for i in joined.isotherms])
     return MasterCurve(
-        frequency[order],
-        np.concatenate([isotherm.storage_modulus for isotherm in isotherms])[order],
-        np.concatenate([isotherm.loss_modulus for isotherm in isotherms])[order],
-        temperature[order],
-        shift_factors.reference,
+        10.0 ** frequency[order], moduli[:, 0], moduli[:, 1], temperature[order], shift_factors.reference
     )

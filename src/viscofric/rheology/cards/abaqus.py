@@ -1,0 +1,259 @@
+"""Abaqus material cards: *ELASTIC or *HYPERELASTIC, *VISCOELASTIC with a Prony series, *TRS.
+
+Keywords and data lines as in the Abaqus Keywords Guide (*ELASTIC, *HYPERELASTIC, *VISCOELASTIC, *TRS,
+*PHYSICAL CONSTANTS) and the Analysis Guide, Time domain viscoelasticity: g_R(t) = 1 − Σ g_i (1 − exp(−t/τ_i)),
+k_R alike; −log10 A = C1 (θ − θ0)/(C2 + θ − θ0), with A our α, or ln A = E0/R (1/(θ − θZ) − 1/(θ0 − θZ)).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import InputError
+from viscofric.rheology.cards.card import (
+    Reading,
+    Solid,
+    Writing,
+    card_law,
+    relaxation_of,
+    written_poisson_ratio,
+)
+from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.cards.moduli import relative_series, tensile
+from viscofric.rheology.relaxation import RelaxationSpectrum
+from viscofric.rheology.shift_laws import GAS_CONSTANT, WLF, Arrhenius
+from viscofric.units import CELSIUS_ZERO
+
+if TYPE_CHECKING:
+    from viscofric.rheology.material import Material
+
+NAME = "Abaqus"
+_LONGEST_NAME = 80
+_UNDERSTOOD = {"MATERIAL", "ELASTIC", "HYPERELASTIC", "VISCOELASTIC", "TRS", "DENSITY", "PHYSICALCONSTANTS"}
+#: Keywords that do not change what is read here.
+_IMMATERIAL = {
+    "HEADING",
+    "EXPANSION",
+    "CONDUCTIVITY",
+    "SPECIFICHEAT",
+    "DAMPING",
+    "PREPRINT",
+    "DEPVAR",
+    "USEROUTPUTVARIABLES",
+}
+
+
+def recognises(text: str) -> bool:
+    """Tell by the keywords whether a text is an Abaqus card."""
+    return bool(re.search(r"(?im)^\s*\*\s*(VISCOELASTIC\s*,|MATERIAL\s*,\s*NAME)", text))
+
+
+def card_name(name: str) -> str:
+    """Return a name that Abaqus takes: at most 80 characters, a letter first."""
+    plain = re.sub(r"[^A-Za-z0-9_-]+", "_", name.encode("ascii", "ignore").decode()).strip("_") or "rubber"
+    return (plain if plain[0].isalpha() else f"M_{plain}")[:_LONGEST_NAME]
+
+
+def write(material: Material, writing: Writing) -> str:
+    """Return the card as text."""
+    relaxation = relaxation_of(material, NAME)
+    ratio = written_poisson_ratio(material, writing, NAME, None)
+    # *TRS belongs to *VISCOELASTIC, TIME=…; in the frequency domain there is none.
+    law = card_law(material.shift) if writing.domain == "time" else None
+    content = stored(material, writing, ratio, relaxation.E0, law is not None)
+    lines = comment_lines("**", remarks(material, writing, ratio, law is not None), content)
+    if isinstance(law, Arrhenius):
+        zero = 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO
+        lines.append(f"*PHYSICAL CONSTANTS, ABSOLUTE ZERO={zero!r}, UNIVERSAL GAS CONSTANT={GAS_CONSTANT!r}")
+    lines.append(f"*MATERIAL, NAME={card_name(material.name)}")
+    if writing.density is not None:
+        lines += ["*DENSITY", f"{writing.density!r},"]
+    lines += ["*ELASTIC, MODULI=INSTANTANEOUS", f"{relaxation.E_inf!r}, {ratio!r}"]
+    lines.append(f"*VISCOELASTIC, {writing.domain.upper()}=PRONY")
+    bulk = 1.0 if ratio < 0.5 else 0.0
+    for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True):
+        share = modulus / relaxation.E_inf
+        lines.append(f"{share!r}, {bulk * share!r}, {time!r}")
+    if isinstance(law, WLF):
+        lines += ["*TRS, DEFINITION=WLF", f"{writing.temperature(law.reference)!r}, {law.C1!r}, {law.C2!r}"]
+    elif law is not None:
+        lines += ["*TRS, DEFINITION=ARRHENIUS", f"{writing.temperature(law.reference)!r}, {law.activation_energy!r}"]
+    return "\n".join([*lines, ""])
+
+
+@dataclass
+class _Block:
+    """One keyword with its parameters and the numbers of its data lines."""
+
+    keyword: str
+    options: dict[str, str]
+    row: int
+    data: list[list[float]] = field(default_factory=list)
+
+
+def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
+    """Return what the first viscoelastic material in the text says."""
+    blocks = _blocks(text)
+    notes: list[str] = [] if content else reading.unit_note()
+    chosen, name = _material(blocks, notes)
+    viscoelastic = _only(chosen, "VISCOELASTIC")
+    if viscoelastic is None:
+        raise InputError("holds no *VISCOELASTIC; right would be *VISCOELASTIC, TIME=PRONY with lines g, k, tau.")
+    if "PRONY" not in (viscoelastic.options.get("TIME", "").upper(), viscoelastic.options.get("FREQUENCY", "").upper()):
+        raise InputError(
+            f"line {viscoelastic.row}: *VISCOELASTIC must have TIME=PRONY or FREQUENCY=PRONY; other ways of giving it "
+            "are not read."
+        )
+    rows = [(*row, 0.0, 0.0, 0.0)[:3] for row in viscoelastic.data if row]
+    if not rows or any(row[2] <= 0.0 for row in rows):
+        raise InputError(f"line {viscoelastic.row}: *VISCOELASTIC wants lines of g, k, tau with tau above zero.")
+    shares = [row[0] for row in rows], [row[1] for row in rows]
+    times = [row[2] * reading.second for row in rows]
+    shear, bulk, instantaneous = _elasticity(chosen, reading, notes)
+    if not instantaneous:
+        shear = shear / _left(shares[0], viscoelastic.row)
+        bulk = None if bulk is None else bulk / _left(shares[1], viscoelastic.row)
+    poisson = 0.5 if bulk is None else (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
+    told = number_of(content, "E0")
+    long_term = None if told is None else told / (2.0 * (1.0 + poisson))
+    series = relative_series(shear, shares[0], times, long_term)
+    bulk_series = None
+    if bulk is not None:
+        scaled = None if long_term is None or shares[0] != shares[1] else long_term * bulk / shear
+        bulk_series = relative_series(bulk, shares[1], times, scaled)
+        kept = bulk_series.E > 0.0
+        bulk_series = RelaxationSpectrum(bulk_series.E0, bulk_series.E[kept], bulk_series.tau[kept])
+    spectrum, ratio, found = tensile(series, bulk_series)
+    shift = _shift(_only(chosen, "TRS"), blocks, reading, content, notes)
+    return Solid(spectrum, ratio, shift, name, (*notes, *found))
+
+
+def _blocks(text: str) -> list[_Block]:
+    blocks: list[_Block] = []
+    for row, line in enumerate(text.splitlines(), start=1):
+        line = line.strip()
+        if not line or line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            head, *options = (part.strip() for part in line[1:].split(","))
+            pairs = (option.partition("=") for option in options if option)
+            named = {key.strip().upper(): value.strip() for key, _, value in pairs}
+            blocks.append(_Block(head.upper().replace(" ", ""), named, row))
+        elif blocks and blocks[-1].keyword in _UNDERSTOOD:
+            try:
+                numbers = [float(part) if part.strip() else 0.0 for part in line.rstrip(",").split(",")]
+            except ValueError:
+                raise InputError(f"line {row}: {line[:40]!r} is not a row of numbers parted by commas.") from None
+            blocks[-1].data.append(numbers)
+    return blocks
+
+
+def _material(blocks: list[_Block], notes: list[str]) -> tuple[list[_Block], str]:
+    """Return the blocks of the first viscoelastic material, and its name."""
+    materials: list[list[_Block]] = [[]]
+    for block in blocks:
+        if block.keyword == "MATERIAL":
+            materials.append([])
+        materials[-1].append(block)
+    viscoelastic = [one for one in materials if any(block.keyword == "VISCOELASTIC" for block in one)]
+    if not viscoelastic:
+        return [], ""
+    chosen = viscoelastic[0]
+    name = chosen[0].options.get("NAME", "") if chosen[0].keyword == "MATERIAL" else ""
+    if len(viscoelastic) > 1:
+        notes.append(f"The file holds {len(viscoelastic)} viscoelastic materials; the first, {name!r}, was read.")
+    ignored = sorted({block.keyword for block in chosen} - _UNDERSTOOD - _IMMATERIAL)
+    if ignored:
+        notes.append(f"Keywords that were not read: {', '.join('*' + keyword for keyword in ignored)}.")
+    return chosen, name
+
+
+def _only(blocks: list[_Block], keyword: str) -> _Block | None:
+    return next((block for block in blocks if block.keyword == keyword), None)
+
+
+def _left(shares: list[float], row: int) -> float:
+    """Long-term modulus as a share of the instantaneous one."""
+    left = 1.0 - sum(shares)
+    if left <= 0.0:
+        raise InputError(
+            f"line {row}: the relative moduli add up to {1.0 - left:.6g}; with long-term moduli given they must stay "
+            "below 1."
+        )
+    return left
+
+
+def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tuple[float, float | None, bool]:
+    """Return shear and bulk modulus (None if infinite), Pa, and whether they are instantaneous."""
+    elastic, hyperelastic = _only(blocks, "ELASTIC"), _only(blocks, "HYPERELASTIC")
+    block = elastic or hyperelastic
+    if block is None or not block.data:
+        raise InputError("holds no *ELASTIC or *HYPERELASTIC with numbers, so that its moduli are not known.")
+    if len(block.data) > 1 and elastic is not None:
+        notes.append(f"Line {block.row}: elasticity depends on temperature; its first line was taken.")
+    instantaneous = block.options.get("MODULI", "LONG TERM").upper().replace(" ", "") == "INSTANTANEOUS"
+    values = block.data[0]
+    if elastic is not None:
+        if elastic.options.get("TYPE", "ISOTROPIC").upper() not in ("ISOTROPIC", "ISO"):
+            raise InputError(f"line {block.row}: *ELASTIC must be isotropic.")
+        modulus, ratio = (*values, 0.0)[:2]
+        if not (modulus > 0.0 and 0.0 <= ratio <= 0.5):
+            raise InputError(f"line {block.row}: *ELASTIC wants a modulus above zero, a Poisson ratio from 0 to 0.5.")
+        shear = modulus * reading.pascal / (2.0 * (1.0 + ratio))
+        return shear, None if ratio == 0.5 else modulus * reading.pascal / (3.0 * (1.0 - 2.0 * ratio)), instantaneous
+    notes.append("The card is hyperelastic; the material is its small-strain limit.")
+    shear, softness = _hyperelastic(block)
+    bulk = None if softness == 0.0 else 2.0 / softness * reading.pascal
+    return shear * reading.pascal, bulk, instantaneous
+
+
+def _hyperelastic(block: _Block) -> tuple[float, float]:
+    """Return the shear modulus at small strain and D1 = 2/K, in the card's unit."""
+    values = [number for row in block.data for number in row]
+    options = {option.upper().replace("-", " ") for option in block.options}
+    # constants per model, those whose doubled sum is the shear modulus, and where D1 stands
+    known = {"NEO HOOKE": ((0,), 1), "MOONEY RIVLIN": ((0, 1), 2), "YEOH": ((0,), 3)}
+    for model, (stiff, place) in known.items():
+        if model in options:
+            shear = 2.0 * sum(values[index] for index in stiff if index < len(values))
+            if shear <= 0.0:
+                raise InputError(f"line {block.row}: *HYPERELASTIC gives no shear modulus above zero.")
+            return shear, values[place] if place < len(values) else 0.0
+    raise InputError(
+        f"line {block.row}: *HYPERELASTIC is read as NEO HOOKE, MOONEY-RIVLIN or YEOH with constants, not with test "
+        "data or another model."
+    )
+
+
+def _number(block: _Block, option: str) -> float:
+    try:
+        return float(block.options[option])
+    except ValueError:
+        raise InputError(f"line {block.row}: {option} = {block.options[option]!r} is not a number.") from None
+
+
+def _shift(
+    block: _Block | None, blocks: list[_Block], reading: Reading, content: dict[str, Any] | None, notes: list[str]
+) -> WLF | Arrhenius | None:
+    if block is None:
+        return None
+    kind = block.options.get("DEFINITION", "WLF").upper()
+    values = block.data[0] if block.data else []
+    constants = _only(blocks, "PHYSICALCONSTANTS")
+    zero = number_of(content, "absolute_zero")
+    if constants is not None and "ABSOLUTE ZERO" in constants.options:
+        zero = _number(constants, "ABSOLUTE ZERO")
+    if kind == "WLF" and len(values) >= 3:
+        return WLF(values[1], values[2], reading.kelvin(values[0], notes, zero))
+    if kind == "ARRHENIUS" and len(values) >= 2:
+        gas = GAS_CONSTANT
+        if constants is not None and "UNIVERSAL GAS CONSTANT" in constants.options:
+            gas = _number(constants, "UNIVERSAL GAS CONSTANT")
+        # Only E0/R matters, whatever the unit of energy.
+        return Arrhenius(values[1] / gas * GAS_CONSTANT, reading.kelvin(values[0], notes, zero))
+    if kind in ("WLF", "ARRHENIUS"):
+        raise InputError(f"line {block.row}: *TRS, DEFINITION={kind} lacks numbers; WLF has 3, ARRHENIUS 2.")
+    notes.append(f"*TRS, DEFINITION={kind} is a subroutine outside the card; the material holds at its reference only.")
+    return None

@@ -1,0 +1,209 @@
+"""ANSYS Mechanical APDL material commands: MP,EX and MP,PRXY, TB,PRONY (SHEAR, BULK), TB,SHIFT (WLF, TN).
+
+As in the Mechanical APDL Material Reference (Viscoelasticity) and Command Reference (TB): relative moduli of the
+instantaneous shear and bulk modulus, each followed by its relaxation time; the shift multiplies time, so that
+A = 1/α.  WLF: log10 A = C1 (T − Tr)/(C2 + T − Tr), constants Tr, C1, C2.  TN (Tool–Narayanaswamy without fictive
+temperature): ln A = (H/R) (1/Tr − 1/T), constants Tr, H/R with temperatures in K.
+"""
+
+from __future__ import annotations
+
+import ast
+import operator
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import InputError
+from viscofric.rheology.cards.card import (
+    Reading,
+    Solid,
+    Writing,
+    card_law,
+    relaxation_of,
+    written_poisson_ratio,
+)
+from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.cards.moduli import relative_series, tensile
+from viscofric.rheology.shift_laws import GAS_CONSTANT, WLF, Arrhenius
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.rheology.material import Material
+
+NAME = "ANSYS"
+_MOST_CONSTANTS = 10_000
+_PAIRS = 3  # of modulus and time on one TBDATA, which takes six constants
+_ARITHMETIC: dict[type, Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+
+
+def recognises(text: str) -> bool:
+    """Tell by its commands whether a text is an ANSYS card."""
+    return bool(re.search(r"(?im)^\s*TB\s*,\s*PRON", text))
+
+
+def write(material: Material, writing: Writing) -> str:
+    """Return the commands as text."""
+    relaxation = relaxation_of(material, NAME)
+    ratio = written_poisson_ratio(material, writing, NAME, "needs a Poisson ratio below 0.5 (MP,PRXY)")
+    law = card_law(material.shift)
+    number = writing.material_id
+    sentences = remarks(material, writing, ratio, law is not None)
+    if isinstance(law, Arrhenius):
+        sentences.append("TN counts temperatures in K: set TOFFST if the model counts them otherwise.")
+    lines = comment_lines("!", sentences, stored(material, writing, ratio, relaxation.E0, law is not None))
+    lines += [f"MP,EX,{number},{relaxation.E_inf!r}", f"MP,PRXY,{number},{ratio!r}"]
+    if writing.density is not None:
+        lines.append(f"MP,DENS,{number},{writing.density!r}")
+    pairs = [
+        f"{modulus / relaxation.E_inf!r},{time!r}"
+        for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True)
+    ]
+    for kind in ("SHEAR", "BULK"):
+        lines.append(f"TB,PRONY,{number},1,{len(pairs)},{kind}")
+        for start in range(0, len(pairs), _PAIRS):
+            lines.append(f"TBDATA,{2 * start + 1},{','.join(pairs[start : start + _PAIRS])}")
+    if isinstance(law, WLF):
+        constants = f"{writing.temperature(law.reference)!r},{law.C1!r},{law.C2!r}"
+        lines += [f"TB,SHIFT,{number},1,3,WLF", f"TBDATA,1,{constants}"]
+    elif law is not None:
+        constants = f"{law.reference!r},{law.activation_energy / GAS_CONSTANT!r}"
+        lines += [f"TB,SHIFT,{number},1,2,TN", f"TBDATA,1,{constants}"]
+    return "\n".join([*lines, ""])
+
+
+@dataclass
+class _Table:
+    """One TB command and the constants that its TBDATA give, by their place."""
+
+    name: str
+    option: str
+    row: int
+    values: dict[int, float] = field(default_factory=dict)
+
+    def constants(self) -> list[float]:
+        """All constants from the first; missing ones are an error."""
+        count = max(self.values, default=0)
+        missing = [place for place in range(1, count + 1) if place not in self.values]
+        if missing:
+            raise InputError(f"line {self.row}: TB,{self.name},…,{self.option} lacks constant {missing[0]} of {count}.")
+        return [self.values[place] for place in range(1, count + 1)]
+
+
+def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
+    """Return what the commands of one material say."""
+    properties, tables, ignored = _commands(text)
+    notes: list[str] = [] if content else reading.unit_note()
+    if ignored:
+        notes.append(f"Commands that were not read: {', '.join(sorted(ignored))}.")
+    modulus = properties.get("EX")
+    ratio = properties.get("PRXY", properties.get("NUXY"))
+    if modulus is None or ratio is None:
+        raise InputError("holds no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.")
+    if not (modulus > 0.0 and 0.0 <= ratio < 0.5):
+        raise InputError(f"MP,EX = {modulus:g} must be above zero and MP,PRXY = {ratio:g} from 0 to below 0.5.")
+    modulus *= reading.pascal
+    series = {table.option: _pairs(table, reading) for table in tables if table.name == "PRONY"}
+    unknown = sorted(set(series) - {"SHEAR", "BULK"})
+    if unknown or "SHEAR" not in series:
+        raise InputError("wants TB,PRONY,…,SHEAR (and BULK); other options of TB,PRONY are not read.")
+    told = number_of(content, "E0")
+    shear = modulus / (2.0 * (1.0 + ratio))
+    bulk = modulus / (3.0 * (1.0 - 2.0 * ratio))
+    alike = series["SHEAR"] == series.get("BULK")
+    share = None if told is None or not alike else told / modulus
+    shear_series = relative_series(shear, *series["SHEAR"], None if share is None else share * shear)
+    bulk_series = relative_series(bulk, *series.get("BULK", ([], [])), None if share is None else share * bulk)
+    spectrum, poisson, found = tensile(shear_series, bulk_series)
+    shift = _shift(next((table for table in tables if table.name == "SHIFT"), None), reading, content, notes)
+    # With alike series the ratio of the card is the ratio, to the last digit.
+    return Solid(spectrum, ratio if alike else poisson, shift, "", (*notes, *found))
+
+
+def _commands(text: str) -> tuple[dict[str, float], list[_Table], set[str]]:
+    """Return properties (MP), tables (TB with TBDATA), and names of commands that mean nothing here."""
+    properties: dict[str, float] = {}
+    tables: list[_Table] = []
+    ignored: set[str] = set()
+    for row, line in enumerate(text.splitlines(), start=1):
+        for command in line.partition("!")[0].split("$"):
+            head, *fields = (part.strip() for part in command.split(","))
+            head = head.upper()
+            if head == "MP" and len(fields) >= 3 and fields[0].upper() in ("EX", "PRXY", "NUXY", "DENS"):
+                properties.setdefault(fields[0].upper(), _number(fields[2], row))
+            elif head == "TB" and fields:
+                option = fields[4].upper() if len(fields) > 4 else ""
+                tables.append(_Table(fields[0].upper()[:5], option, row))
+            elif head == "TBDATA" and tables and fields:
+                first = _number(fields[0], row) if fields[0] else 1.0
+                if not 1 <= first <= _MOST_CONSTANTS:
+                    raise InputError(f"line {row}: TBDATA begins at constant {first:g}; right would be 1 or above.")
+                for place, value in enumerate(fields[1:], start=int(first)):
+                    if value:
+                        tables[-1].values[place] = _number(value, row)
+            elif head and not head.startswith("/"):
+                ignored.add(f"{head},{fields[0]}" if head == "MP" and fields else head)
+    ignored |= {f"TB,{table.name}" for table in tables if table.name not in ("PRONY", "SHIFT")}
+    return properties, tables, ignored
+
+
+def _number(field_text: str, row: int) -> float:
+    """Return the value of a field, which may be an arithmetic expression such as 273-5."""
+    try:
+        return float(field_text)
+    except ValueError:
+        pass
+    try:
+        if len(field_text) > 60:
+            raise ValueError
+        return _value(ast.parse(field_text, mode="eval").body)
+    except (ValueError, SyntaxError, ZeroDivisionError, OverflowError, MemoryError, RecursionError):
+        raise InputError(f"line {row}: {field_text[:40]!r} is neither a number nor simple arithmetic.") from None
+
+
+def _value(node: ast.expr) -> float:
+    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool):
+        return float(node.value)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):
+        return _value(node.operand) * (-1.0 if isinstance(node.op, ast.USub) else 1.0)
+    if isinstance(node, ast.BinOp) and type(node.op) in _ARITHMETIC:
+        return _ARITHMETIC[type(node.op)](_value(node.left), _value(node.right))
+    raise ValueError
+
+
+def _pairs(table: _Table, reading: Reading) -> tuple[list[float], list[float]]:
+    values = table.constants()
+    if not values or len(values) % 2 or any(time <= 0.0 for time in values[1::2]):
+        raise InputError(
+            f"line {table.row}: TB,PRONY,…,{table.option} wants pairs of relative modulus and relaxation time > 0."
+        )
+    return values[0::2], [time * reading.second for time in values[1::2]]
+
+
+def _shift(
+    table: _Table | None, reading: Reading, content: dict[str, Any] | None, notes: list[str]
+) -> WLF | Arrhenius | None:
+    if table is None:
+        return None
+    values = table.constants()
+    if table.option == "WLF" and len(values) >= 3:
+        return WLF(values[1], values[2], reading.kelvin(values[0], notes, number_of(content, "absolute_zero")))
+    if table.option == "TN" and len(values) >= 2:
+        # The law itself wants K.
+        reference = values[0] if content else reading.kelvin(values[0], notes)
+        return Arrhenius(values[1] * GAS_CONSTANT, reference)
+    if table.option in ("WLF", "TN"):
+        raise InputError(
+            f"line {table.row}: TB,SHIFT,…,{table.option} wants {3 if table.option == 'WLF' else 2} constants."
+        )
+    notes.append(
+        f"TB,SHIFT,…,{table.option or 'without option'} is a subroutine outside the card (constants "
+        f"{', '.join(f'{value:g}' for value in values)}); the material holds at its reference temperature only."
+    )
+    return None

@@ -1,0 +1,197 @@
+"""What all material cards share: what is asked of them, what is read from them, and the physics between."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from viscofric.errors import InputError
+from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius
+from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.units import CELSIUS_ZERO, conversion
+
+if TYPE_CHECKING:
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.relaxation import RelaxationSpectrum
+
+#: A temperature without unit below this is in °C: no rubber is referred to −73 °C, nor to 200 °C.
+_KELVIN_FROM = 200.0
+
+
+@dataclass(frozen=True)
+class Writing:
+    """What a card is written with.
+
+    Parameters
+    ----------
+    poisson_ratio : float, optional
+        For programs that cannot take the material's own ν = 0.5.
+    density : float, optional
+        kg/m³.
+    temperature_unit : {"K", "degC"}
+        In which the model counts temperatures.
+    domain : {"time", "frequency"}
+        Of an Abaqus card.
+    material_id : int
+        Number of the material in ANSYS and LS-DYNA.
+    """
+
+    poisson_ratio: float | None = None
+    density: float | None = None
+    temperature_unit: Literal["K", "degC"] = "K"
+    domain: Literal["time", "frequency"] = "time"
+    material_id: int = 1
+
+    def temperature(self, kelvin: float) -> float:
+        """Return a temperature as the model counts it."""
+        return kelvin - CELSIUS_ZERO if self.temperature_unit == "degC" else kelvin
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Units of a card that does not state them.
+
+    Parameters
+    ----------
+    modulus_unit, time_unit, temperature_unit : str, optional
+        Such as ``"MPa"``, ``"s"``, ``"degC"``; Pa and s are assumed, with a note, and temperatures judged by
+        their size.
+    """
+
+    modulus_unit: str | None = None
+    time_unit: str | None = None
+    temperature_unit: str | None = None
+
+    @property
+    def pascal(self) -> float:
+        """Pa in one unit of modulus."""
+        return conversion(self.modulus_unit, "Pa", "modulus_unit")[0] if self.modulus_unit else 1.0
+
+    @property
+    def second(self) -> float:
+        """Seconds in one unit of time."""
+        return conversion(self.time_unit, "s", "time_unit")[0] if self.time_unit else 1.0
+
+    def kelvin(self, temperature: float, notes: list[str], zero: float | None = None) -> float:
+        """Return a temperature of the card in K.
+
+        Parameters
+        ----------
+        temperature : float
+            As the card has it.
+        notes : list of str
+            Gets a sentence where the unit had to be judged.
+        zero : float, optional
+            Absolute zero on the card's scale, where the card gives it.
+        """
+        if self.temperature_unit:
+            factor, offset = conversion(self.temperature_unit, "K", "temperature_unit")
+            return factor * temperature + offset
+        if zero is not None:
+            return temperature - zero
+        if temperature >= _KELVIN_FROM:
+            notes.append(f"The reference temperature {temperature:g} has no unit; it was taken for K.")
+            return temperature
+        notes.append(f"The reference temperature {temperature:g} has no unit; it was taken for °C.")
+        return temperature + CELSIUS_ZERO
+
+    def unit_note(self) -> list[str]:
+        """Return the sentence that tells which units were assumed, if any."""
+        assumed = [unit for given, unit in ((self.modulus_unit, "Pa"), (self.time_unit, "s")) if not given]
+        if not assumed:
+            return []
+        note = (
+            f"The card does not state its units; {' and '.join(assumed)} were assumed (modulus_unit=, time_unit= say "
+            "otherwise)."
+        )
+        return [note]
+
+
+@dataclass(frozen=True, eq=False)
+class Card:
+    """A material card as it was read.
+
+    Parameters
+    ----------
+    material : Material
+        What it holds, in tension and SI units.
+    format : str
+        What the file was taken for.
+    notes : tuple of str
+        What was assumed, left out or approximated, one sentence each.
+    """
+
+    material: Material
+    format: str
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """What a card's numbers say: tensile modulus, Poisson ratio, shift.
+
+    Parameters
+    ----------
+    spectrum : RetardationSpectrum
+        In tension.
+    poisson_ratio : float
+        As the card has it, of the long-term moduli.
+    shift : WLF or Arrhenius, optional
+        As the card has it.
+    name : str
+        As the card has it.
+    notes : tuple of str
+        What was assumed or left out.
+    """
+
+    spectrum: RetardationSpectrum
+    poisson_ratio: float
+    shift: Any = None
+    name: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:
+    """Return a material's Prony series; refuse a table, which has none."""
+    spectrum: Any = material.spectrum
+    if not isinstance(spectrum, RetardationSpectrum):
+        raise InputError(
+            f"{program} holds a Prony series, and this material is a table of moduli without one; fit a spectrum "
+            'first, or write format="csv" or "json".'
+        )
+    relaxation = spectrum.to_relaxation()
+    if not len(relaxation):
+        raise InputError(f"{program} holds a Prony series, and this material is elastic: it has no mode.")
+    return relaxation
+
+
+def written_poisson_ratio(material: Material, writing: Writing, program: str, incompressible: str | None) -> float:
+    """Return the Poisson ratio for a card; ν = 0.5 only where the program can take it.
+
+    Parameters
+    ----------
+    material : Material
+        Its own ratio counts unless `writing` gives another.
+    writing : Writing
+        May give another.
+    program : str
+        Named in the error.
+    incompressible : str, optional
+        None if the program takes ν = 0.5, else why not.
+    """
+    ratio = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
+    if not 0.0 <= ratio <= 0.5:
+        raise InputError(f"poisson_ratio = {ratio!r}: must lie between 0 and 0.5.")
+    if ratio == 0.5 and incompressible:
+        raise InputError(
+            f"poisson_ratio = 0.5: {program} {incompressible}; choose a nearly incompressible one for the card, "
+            "write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G changes with it)."
+        )
+    return ratio
+
+
+def card_law(law: Any) -> WLF | Arrhenius | None:
+    """Return a shift law as programs know it: WLF (VFT is the same curve) or Arrhenius; None for all others."""
+    if isinstance(law, VFT):
+        return law.to_wlf()
+    return law if isinstance(law, (WLF, Arrhenius)) else None

@@ -1,0 +1,156 @@
+"""Comments of a material card: for people, and what the program cannot hold, for `read_card` to read back."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology.cards.card import Solid, card_law
+from viscofric.rheology.cards.native import VERSION, about, assembled, shift_of
+from viscofric.units import CELSIUS_ZERO, celsius
+
+if TYPE_CHECKING:
+    from viscofric.rheology.cards.card import Writing
+    from viscofric.rheology.material import Material
+
+#: Begins each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
+_MARK = "viscofric>"
+_PIECE = 66  # characters: LS-DYNA reads 80 of a line
+#: Two numbers of a card are the same if only their last digits differ.
+_SAME = 1e-9
+
+
+def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_written: bool) -> list[str]:
+    """Return the sentences for people at the head of a card."""
+    sentences = [
+        "Linear viscoelastic material, a Prony series; written by viscofric.",
+        f"Units: Pa, s, m, kg; temperatures in {'K' if writing.temperature_unit == 'K' else 'degrees Celsius'}.",
+    ]
+    if material.name:
+        sentences.insert(0, material.name)
+    if material.citation:
+        sentences.append(f"Source: {material.citation}")
+    sentences.append(
+        "The Poisson ratio is constant, so that bulk and shear relax alike (k_i = g_i)."
+        if poisson_ratio < 0.5
+        else "The material is incompressible: use hybrid (mixed) elements."
+    )
+    if poisson_ratio != material.poisson_ratio:
+        own = f"The material's Poisson ratio is {material.poisson_ratio!r}"
+        sentences.append(f"{own}; this card was asked to have {poisson_ratio!r}.")
+    if material.shift is not None and not shift_written:
+        sentences.append(
+            f"The card holds at {celsius(float(material.shift.reference)):.6g} degrees Celsius only: this keyword "
+            f"cannot hold its shift, {type(material.shift).__name__}."
+        )
+    if material.vertical_shift is not None:
+        sentences.append("The vertical shift of the modulus with temperature, b(T), is not in the card.")
+    return sentences
+
+
+def stored(
+    material: Material, writing: Writing, poisson_ratio: float, E0: float, shift_written: bool
+) -> dict[str, Any]:
+    """Return what the card itself cannot hold, for `comment_lines`."""
+    zero = 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO
+    card = {"poisson_ratio": poisson_ratio, "E0": E0, "shift": shift_written, "absolute_zero": zero}
+    return {"version": VERSION, **about(material), "card": card}
+
+
+def number_of(content: dict[str, Any] | None, name: str) -> float | None:
+    """Return a number that `stored` put aside for the reader of the card, if there is one."""
+    value = None if content is None else content["card"].get(name)
+    if value is None or (isinstance(value, (int, float)) and np.isfinite(value)):
+        return value
+    raise InputError(f"the lines marked {_MARK!r} are damaged: {name} is no number.")
+
+
+def comment_lines(mark: str, sentences: list[str], content: dict[str, Any]) -> list[str]:
+    """Return comment lines that begin with a program's comment mark, in ASCII."""
+    lines = []
+    for sentence in sentences:
+        words = " ".join(sentence.split()).replace("–", "-").encode("ascii", "replace").decode()
+        while words:
+            cut = (
+                len(words)
+                if len(words) <= _PIECE
+                else words.rfind(" ", 1, _PIECE)
+                if " " in words[1:_PIECE]
+                else _PIECE
+            )
+            lines.append(f"{mark} {words[:cut]}")
+            words = words[cut:].strip()
+    text = json.dumps(content, separators=(",", ":"), allow_nan=False)
+    # Bars keep spaces at the ends of pieces from editors that strip them.
+    return lines + [
+        f"{mark} {_MARK} |{text[start : start + _PIECE - 14]}|" for start in range(0, len(text), _PIECE - 14)
+    ]
+
+
+def stored_content(text: str) -> dict[str, Any] | None:
+    """Return what `comment_lines` stored in a file, or None where there is nothing of it.
+
+    Raises
+    ------
+    InputError
+        If the stored lines are damaged or of a newer version.
+    """
+    pieces = []
+    for line in text.splitlines():
+        _, mark, rest = line.partition(_MARK)
+        if mark:
+            piece = rest.strip()
+            if len(piece) < 2 or piece[0] != "|" or piece[-1] != "|":
+                raise InputError(f"a line marked {_MARK!r} is damaged; restore it, or delete all lines so marked.")
+            pieces.append(piece[1:-1])
+    if not pieces:
+        return None
+    try:
+        content = json.loads("".join(pieces))
+    except (json.JSONDecodeError, RecursionError):
+        content = None
+    if not isinstance(content, dict) or not isinstance(content.get("card"), dict):
+        raise InputError(f"the lines marked {_MARK!r} are damaged; restore them, or delete all lines so marked.")
+    if content.get("version") != VERSION:
+        raise InputError(f"the lines marked {_MARK!r} are of version {content.get('version')!r}, not {VERSION}.")
+    return content
+
+
+def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material, list[str]]:
+    """Join what a card's keywords say with what its comments say; the keywords count where they differ."""
+    if content is None:
+        told = {"name": solid.name, "poisson_ratio": solid.poisson_ratio}
+        material = assembled(solid.spectrum, told)
+        return _with_shift(material, solid.shift, told), []
+    notes, card = [], content["card"]
+    told = {name: value for name, value in content.items() if name != "card"}
+    if not _close(card.get("poisson_ratio"), solid.poisson_ratio):
+        notes.append(f"The Poisson ratio was changed to {solid.poisson_ratio:.6g} in the card, which counts.")
+        told["poisson_ratio"] = solid.poisson_ratio
+    if card.get("shift") and not _same_law(card_law(shift_of(told.get("shift"))), solid.shift):
+        notes.append("The shift was changed in the card, which counts.")
+        told.pop("shift", None)
+        return _with_shift(assembled(solid.spectrum, told), solid.shift, told), notes
+    return assembled(solid.spectrum, told), notes
+
+
+def _with_shift(material: Material, shift: Any, told: dict[str, Any]) -> Material:
+    from dataclasses import replace
+
+    return material if shift is None else replace(material, shift=shift)
+
+
+def _close(stored_value: Any, value: float) -> bool:
+    return isinstance(stored_value, (int, float)) and abs(stored_value - value) <= _SAME * max(abs(value), 1e-3)
+
+
+def _same_law(stored_law: Any, law: Any) -> bool:
+    if type(stored_law) is not type(law):
+        return False
+    if law is None:
+        return True
+    ours, theirs = ([*one.parameters, one.reference] for one in (stored_law, law))
+    return bool(np.allclose(ours, theirs, rtol=_SAME, atol=0.0))

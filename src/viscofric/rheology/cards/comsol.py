@@ -1,0 +1,158 @@
+"""COMSOL Multiphysics: a text of parameters, and the three-column table of branches of Linear Viscoelasticity.
+
+Parameters are lines of name, expression with unit, description (Parameters > Load from file); the table holds the
+number of the branch, its shear modulus and its relaxation time (Linear Viscoelasticity > Load from file, COMSOL
+Structural Mechanics Module User's Guide, Viscoelasticity).  Generalised Maxwell model: G(t) = G + Σ G_m exp(−t/τ_m);
+log10 aT = −C1 (T − Tref)/(C2 + T − Tref), or ln aT = (Q/R)(1/T − 1/Tref).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import InputError
+from viscofric.rheology.cards.card import Reading, Solid, Writing, card_law, relaxation_of, written_poisson_ratio
+from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.relaxation import RelaxationSpectrum
+from viscofric.rheology.shift_laws import WLF, Arrhenius
+from viscofric.units import to_si
+
+if TYPE_CHECKING:
+    from viscofric.rheology.material import Material
+
+NAME = "COMSOL"
+_LINE = re.compile(r"(?P<name>[A-Za-z]\w*)\s+(?P<value>[-+0-9.eE]+)(?:\s*\[(?P<unit>[^\]]*)\])?(?:\s+.*)?")
+
+
+def recognises(text: str) -> bool:
+    """Tell by its names whether a text is a list of such parameters."""
+    return bool(re.search(r"(?m)^G_long_term\s", text) and re.search(r"(?m)^G_1\s", text))
+
+
+def recognises_branches(text: str) -> bool:
+    """Tell by its columns whether a text is a table of branches (only ours says its long-term modulus)."""
+    rows = [line.split() for line in text.splitlines() if line.strip() and not line.startswith("%")]
+    try:
+        return bool(rows) and all(
+            len(row) == 3 and int(row[0]) == number and float(row[1]) >= 0.0 < float(row[2])
+            for number, row in enumerate(rows, start=1)
+        )
+    except ValueError:
+        return False
+
+
+def _head(material: Material, writing: Writing, holds_shift: bool) -> tuple[RelaxationSpectrum, float, Any, list[str]]:
+    """Return tensile series, ratio, shift law (where it can be held) and comment lines."""
+    relaxation = relaxation_of(material, NAME)
+    ratio = written_poisson_ratio(material, writing, NAME, None)
+    law = card_law(material.shift) if holds_shift else None
+    content = stored(material, writing, ratio, relaxation.E0, law is not None)
+    return relaxation, ratio, law, comment_lines("%", remarks(material, writing, ratio, law is not None), content)
+
+
+def write(material: Material, writing: Writing) -> str:
+    """Return the parameters as text."""
+    relaxation, ratio, law, lines = _head(material, writing, True)
+    shear = 1.0 / (2.0 * (1.0 + ratio))
+    lines += [
+        f'nu {ratio!r} "Poisson ratio"',
+        f'G_long_term {relaxation.E0 * shear!r}[Pa] "long-term shear modulus"',
+    ]
+    if ratio < 0.5:
+        bulk = relaxation.E0 / (3.0 * (1.0 - 2.0 * ratio))
+        lines.append(f'K_long_term {bulk!r}[Pa] "long-term bulk modulus (bulk relaxes like shear)"')
+    if writing.density is not None:
+        lines.append(f'rho {writing.density!r}[kg/m^3] "density"')
+    for number, (modulus, time) in enumerate(zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True), start=1):
+        lines.append(f'G_{number} {modulus * shear!r}[Pa] "shear modulus of branch {number}"')
+        lines.append(f'tau_{number} {time!r}[s] "relaxation time of branch {number}"')
+    if law is not None:
+        lines.append(f'T_reference {law.reference!r}[K] "reference temperature of the shift"')
+    if isinstance(law, WLF):
+        lines += [f'C1_WLF {law.C1!r} "WLF constant"', f'C2_WLF {law.C2!r}[K] "WLF constant"']
+    elif law is not None:
+        lines.append(f'Q_arrhenius {law.activation_energy!r}[J/mol] "activation energy"')
+    return "\n".join([*lines, ""])
+
+
+def write_branches(material: Material, writing: Writing) -> str:
+    """Return the table of branches as text; long-term moduli and shift stand in its comments."""
+    relaxation, ratio, _, lines = _head(material, writing, False)
+    shear = 1.0 / (2.0 * (1.0 + ratio))
+    lines.append(f"% Long-term shear modulus {relaxation.E0 * shear!r} Pa, Poisson ratio {ratio!r}.")
+    if material.shift is not None:
+        lines.append(f"% Shift: {' '.join(repr(material.shift).split())[:200]}".encode("ascii", "replace").decode())
+    lines.append("% branch, shear modulus (Pa), relaxation time (s)")
+    for number, (modulus, time) in enumerate(zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True), start=1):
+        lines.append(f"{number} {modulus * shear!r} {time!r}")
+    return "\n".join([*lines, ""])
+
+
+def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
+    """Return what a list of parameters says."""
+    del reading  # every parameter has its unit
+    values: dict[str, str] = {}
+    ignored = []
+    for row, line in enumerate(text.splitlines(), start=1):
+        if not line.strip() or line.startswith("%"):
+            continue
+        match = _LINE.fullmatch(line.strip())
+        if match is None:
+            raise InputError(
+                f"line {row}: {line.strip()[:40]!r} is not a name, a number with [unit] and a description."
+            )
+        if not re.fullmatch(r"nu|rho|[GK]_long_term|G_\d+|tau_\d+|T_reference|C[12]_WLF|Q_arrhenius", match["name"]):
+            ignored.append(match["name"])
+        values[match["name"]] = f"{match['value']} {match['unit']}" if match["unit"] else match["value"]
+    notes = [f"Parameters that were not read: {', '.join(ignored)}."] if ignored else []
+    branches = sorted(int(name[2:]) for name in values if re.fullmatch(r"G_\d+", name))
+    ratio = _value(values, "nu", "dimensionless")
+    factor = 2.0 * (1.0 + ratio)
+    E0 = _long_term(factor * _value(values, "G_long_term", "Pa"), content)
+    spectrum = RelaxationSpectrum(
+        E0,
+        [factor * _value(values, f"G_{number}", "Pa") for number in branches],
+        [_value(values, f"tau_{number}", "s") for number in branches],
+    ).to_retardation()
+    shift: WLF | Arrhenius | None = None
+    if "C1_WLF" in values:
+        C1, C2 = _value(values, "C1_WLF", "dimensionless"), _value(values, "C2_WLF", "delta_degC")
+        shift = WLF(C1, C2, _value(values, "T_reference", "K"))
+    elif "Q_arrhenius" in values:
+        shift = Arrhenius(_value(values, "Q_arrhenius", "J/mol"), _value(values, "T_reference", "K"))
+    return Solid(spectrum, ratio, shift, "", tuple(notes))
+
+
+def read_branches(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
+    """Return what a table of branches says, with the long-term modulus of its comments."""
+    E0, ratio = number_of(content, "E0"), number_of(content, "poisson_ratio")
+    if content is None or E0 is None or ratio is None:
+        raise InputError(
+            "is a table of branches without a long-term modulus, which a rubber needs; write the parameters "
+            "(format='comsol') instead, or build RelaxationSpectrum(E0, E, tau).to_retardation() in Python."
+        )
+    del reading
+    rows = [line.split() for line in text.splitlines() if line.strip() and not line.startswith("%")]
+    factor = 2.0 * (1.0 + ratio)
+    moduli, times = ([float(row[column]) for row in rows] for column in (1, 2))
+    spectrum = RelaxationSpectrum(E0, [factor * modulus for modulus in moduli], times).to_retardation()
+    return Solid(spectrum, ratio)
+
+
+def _value(values: dict[str, str], name: str, unit: str) -> float:
+    if name not in values:
+        raise InputError(f"lacks the parameter {name}.")
+    given = values[name]
+    if " " in given:
+        return to_si(given, unit, name)
+    try:
+        return to_si(float(given), unit, name)
+    except ValueError:
+        raise InputError(f"{name} = {given!r}: is not a number.") from None
+
+
+def _long_term(E0: float, content: dict[str, Any] | None) -> float:
+    """Return E0 of the comments where it is that of the card, to the last digit."""
+    told = number_of(content, "E0")
+    return told if told is not None and abs(told - E0) <= 1e-12 * abs(E0) else E0

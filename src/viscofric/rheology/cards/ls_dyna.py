@@ -1,0 +1,182 @@
+"""LS-DYNA cards: *MAT_GENERAL_VISCOELASTIC (*MAT_076) with shear and bulk terms and the temperature shift.
+
+As in the LS-DYNA Keyword User's Manual, volume II, *MAT_076: G(t) = Σ G_i exp(−β_i t) and K(t) = Σ K_i exp(−β_ki t)
+with decay constants β = 1/τ (0 for the long-term modulus), at most 18 terms; time is multiplied by
+Φ = exp(−A (1/T − 1/TREF)) if B = 0, else by Φ = exp(−A (T − TREF)/(B + T − TREF)), so that Φ = 1/α: an Arrhenius
+law has A = Ea/R, a WLF law A = −C1 ln 10 and B = C2.  Fields are 20 characters wide (long format, told by the '+'
+after the keyword): the 10 characters of the standard format would cut numbers to 5 or 6 digits.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import InputError
+from viscofric.rheology.cards.card import (
+    Reading,
+    Solid,
+    Writing,
+    card_law,
+    relaxation_of,
+    written_poisson_ratio,
+)
+from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.cards.moduli import tensile
+from viscofric.rheology.relaxation import RelaxationSpectrum
+from viscofric.rheology.shift_laws import GAS_CONSTANT, LN10, WLF, Arrhenius
+
+if TYPE_CHECKING:
+    from viscofric.rheology.material import Material
+
+NAME = "LS-DYNA"
+_TERMS = 18
+_KEYWORD = re.compile(r"\*MAT_(GENERAL_VISCOELASTIC|0?76)(_TITLE)?\s*([+-]?)\s*$", re.IGNORECASE)
+
+
+def recognises(text: str) -> bool:
+    """Tell by the keyword whether a text is an LS-DYNA card."""
+    return any(_KEYWORD.match(line.strip()) for line in text.splitlines() if line.startswith("*"))
+
+
+def _fields(*values: float | str) -> str:
+    """Return fields of 20 characters; numbers of more than 16 digits are rounded to those that fit."""
+    texts = []
+    for value in values:
+        shorter = (
+            (value,) if isinstance(value, str) else (repr(value), *(f"{value:.{digits}g}" for digits in (16, 15, 14)))
+        )
+        texts.append(next(text for one in shorter if len(text := re.sub(r"e([+-])0*", r"e\1", one)) < 20).rjust(20))
+    return "".join(texts)
+
+
+def write(material: Material, writing: Writing) -> str:
+    """Return the card as text."""
+    relaxation = relaxation_of(material, NAME)
+    if len(relaxation) + 1 > _TERMS:
+        raise InputError(
+            f"{NAME} takes at most {_TERMS} terms, one of them the long-term modulus, and this material has "
+            f"{len(relaxation)} modes; fit it with at most {_TERMS - 1}."
+        )
+    ratio = written_poisson_ratio(material, writing, NAME, "needs a finite bulk modulus")
+    if writing.density is None:
+        raise InputError(f"{NAME} needs a density; right would be write_card(…, density=1100) for 1100 kg/m³.")
+    law = card_law(material.shift)
+    if writing.temperature_unit != "K" and isinstance(law, Arrhenius):
+        raise InputError(f"{NAME} counts temperatures of an Arrhenius law in K; leave temperature_unit out.")
+    sentences = remarks(material, writing, ratio, law is not None)
+    sentences.append("Long format, fields of 20 characters.")
+    reference, A, B = 0.0, 0.0, 0.0
+    if isinstance(law, WLF):
+        reference, A, B = writing.temperature(law.reference), -law.C1 * LN10, law.C2
+        sentences.append(
+            "A is below zero: time is multiplied by exp(-A(T-TREF)/(B+T-TREF)), and passes faster when warm."
+        )
+    elif law is not None:
+        reference, A = law.reference, law.activation_energy / GAS_CONSTANT
+    if law is not None and reference <= 0.0:
+        raise InputError(f"TREF = {reference:g}: {NAME} wants it above zero; leave temperature_unit out, for K.")
+    content = stored(material, writing, ratio, relaxation.E0, law is not None)
+    lines = ["*KEYWORD", *comment_lines("$", sentences, content), "*MAT_GENERAL_VISCOELASTIC_TITLE +"]
+    title = material.name.encode("ascii", "replace").decode() or "rubber"
+    lines.append(title[:80])
+    lines += ["$ MID, RO, BULK, PCF, EF, TREF, A, B"]
+    shear, bulk = 1.0 / (2.0 * (1.0 + ratio)), 1.0 / (3.0 * (1.0 - 2.0 * ratio))
+    glass = relaxation.E_inf * bulk
+    lines += [
+        _fields(str(writing.material_id), writing.density, glass, "0", "0", reference, A, B),
+        "$ LCID, NT, BSTART, TRAMP, LCIDK, NTK, BSTARTK, TRAMPK (none)",
+        _fields("0", "0", 0.0, 0.0, "0", "0", 0.0, 0.0),
+        "$ GI, BETAI, KI, BETAKI",
+        _fields(relaxation.E0 * shear, 0.0, relaxation.E0 * bulk, 0.0),
+    ]
+    for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True):
+        lines.append(_fields(modulus * shear, 1.0 / time, modulus * bulk, 1.0 / time))
+    return "\n".join([*lines, "*END", ""])
+
+
+def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
+    """Return what the first general viscoelastic material in the text says."""
+    notes: list[str] = [] if content else reading.unit_note()
+    name, head, terms = _cards(text, notes)
+    _, _, elastic_bulk, _, elastic, reference, A, B = head
+    if elastic == 1.0:
+        raise InputError("EF = 1: the card makes the layer elastic, not viscoelastic.")
+    pascal, per_second = reading.pascal, 1.0 / reading.second
+    shear = _series([(row[0] * pascal, row[1] * per_second) for row in terms], "GI, BETAI")
+    bulk_terms = [(row[2] * pascal, row[3] * per_second) for row in terms if row[2] != 0.0]
+    if bulk_terms:
+        bulk = _series(bulk_terms, "KI, BETAKI")
+    elif elastic_bulk > 0.0:
+        bulk = RelaxationSpectrum(elastic_bulk * pascal, [], [])
+    else:
+        raise InputError("the bulk modulus BULK and all KI are zero; one of them must be above zero.")
+    spectrum, poisson, found = tensile(shear, bulk)
+    told = number_of(content, "poisson_ratio")
+    if told is not None and abs(told - poisson) <= 1e-9:
+        poisson = told
+    return Solid(spectrum, poisson, _shift(reference, A, B, reading, content, notes), name, (*notes, *found))
+
+
+def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[float]]]:
+    """Return title, the eight values of the first card, and the terms of the first material."""
+    lines = [(row, line) for row, line in enumerate(text.splitlines(), start=1) if not line.startswith("$")]
+    long_format = any(re.match(r"\*KEYWORD\b.*LONG\s*=\s*[SY]", line, re.IGNORECASE) for _, line in lines)
+    start, match = next(
+        (index, found) for index, (_, line) in enumerate(lines) if (found := _KEYWORD.match(line.strip()))
+    )
+    others = sum(1 for _, line in lines if _KEYWORD.match(line.strip()))
+    if others > 1:
+        notes.append(f"The file holds {others} general viscoelastic materials; the first was read.")
+    wide = match[3] == "+" or (long_format and match[3] != "-")
+    body = []
+    for row, line in lines[start + 1 :]:
+        if line.startswith("*"):
+            break
+        body.append((row, line))
+    title = body.pop(0)[1].strip() if match[2] and body else ""
+    rows = [_values(line, row, 20 if wide else 10) for row, line in body]
+    if len(rows) < 2:
+        raise InputError("*MAT_GENERAL_VISCOELASTIC is cut short; it wants two cards and terms G, BETA, K, BETAK.")
+    head, curves = rows[:2]
+    if curves[0] != 0.0 or curves[4] != 0.0:
+        raise InputError("the terms come from load curves (LCID, LCIDK), which are not read; give GI and BETAI.")
+    terms = [row[:4] for row in rows[2:] if any(row[:4])]
+    if not terms:
+        raise InputError("*MAT_GENERAL_VISCOELASTIC holds no terms GI, BETAI.")
+    return title, head, terms
+
+
+def _values(line: str, row: int, width: int) -> list[float]:
+    """Return the eight numbers of a line in fields of fixed width, or parted by commas; empty fields are zero."""
+    parts = line.split(",") if "," in line else [line[start : start + width] for start in range(0, len(line), width)]
+    parts = [part.strip() for part in parts][:8]
+    try:
+        return [float(part) if part else 0.0 for part in parts] + [0.0] * (8 - len(parts))
+    except ValueError:
+        raise InputError(f"line {row}: {line.strip()[:40]!r} is not a row of numbers in fields of {width}.") from None
+
+
+def _series(terms: list[tuple[float, float]], names: str) -> RelaxationSpectrum:
+    if any(modulus < 0.0 or rate < 0.0 for modulus, rate in terms):
+        raise InputError(f"{names} must not be below zero.")
+    modes = [(modulus, 1.0 / rate) for modulus, rate in terms if rate > 0.0]
+    rest = math.fsum(modulus for modulus, rate in terms if rate == 0.0)
+    return RelaxationSpectrum(rest, [modulus for modulus, _ in modes], [time for _, time in modes])
+
+
+def _shift(
+    reference: float, A: float, B: float, reading: Reading, content: dict[str, Any] | None, notes: list[str]
+) -> WLF | Arrhenius | None:
+    if A == 0.0 or reference == 0.0:
+        return None
+    if B == 0.0:
+        return Arrhenius(A * GAS_CONSTANT, reading.kelvin(reference, notes, 0.0 if content else None))
+    if A > 0.0:
+        notes.append(
+            f"A = {A:g} with B = {B:g} would make relaxation slower as it gets warmer (time is multiplied by "
+            "exp(-A(T-TREF)/(B+T-TREF))); the shift was left out, check the sign of A."
+        )
+        return None
+    return WLF(-A / LN10, B, reading.kelvin(reference, notes, number_of(content, "absolute_zero")))

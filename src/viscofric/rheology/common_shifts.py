@@ -1,0 +1,148 @@
+"""All isotherms at once: shifts onto one smooth curve of E' and one of E'', with their covariance.
+
+For given shifts the common curves follow by linear least squares (`common_curve`), so only the shifts are sought
+(variable projection: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413).  Every measured point
+counts once, which is what makes the covariance of the shifts meaningful; pairwise overlaps would count it
+repeatedly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.rheology.overlap import SMALLEST_NOISE
+from viscofric.rheology.plateau import continued, told
+from viscofric.rheology.shift_problem import ShiftProblem, State
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.rheology.common_curve import Smoother
+    from viscofric.rheology.gauge import Gauge
+    from viscofric.rheology.overlap import Join, LogSweep
+
+    Array = NDArray[np.float64]
+
+LARGEST_STEP = 0.3  # decades, in one iteration
+PASSES = 8  # each with knots and smoothing chosen anew
+CONVERGED = 1e-5  # decades
+#: Second derivatives are taken for this part at least of what Gauss and Newton say.
+SMALLEST_PART = 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class CommonShifts:
+    """Shifts log10 α (n,) and log10 b (n,), zero at the reference, and their covariances (n, n); in decades.
+
+    The cross covariance has log10 α in its rows and log10 b in its columns.
+    """
+
+    values: Array
+    covariance: Array
+    vertical: Array
+    vertical_covariance: Array
+    cross_covariance: Array
+
+
+def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
+    """Bring all isotherms onto one curve of log E' and one of log E''.
+
+    Plateaus at the cold and the hot end, where the slope of the curves is noise, are left out of the fit and put
+    where the trend of the others leads (`plateau`); not with vertical shifts, which plateaus do tell.
+
+    Where neighbours disagree by many times what is typical, superposition itself fails, and one flexible
+    curve would hide that by pulling them apart.  There each side gets its own curve, and the two are joined
+    where the two neighbours overlap best, with that join's uncertainty.
+
+    Parameters
+    ----------
+    sweeps : list of LogSweep
+        Neighbours in temperature next to each other, each with at least two points.
+    joins : list of Join
+        Of each isotherm with the next: where to start, and how well they agree.
+    gauge : Gauge
+        Which shifts are held, and whether vertical shifts are sought.
+
+    Returns
+    -------
+    CommonShifts
+        E' and E'' count equally; the covariance is found from the scatter that is left in each.
+    """
+    found, signal = _fitted(sweeps, joins, gauge)
+    inside = told(signal, gauge)
+    if inside is None:
+        return found
+    first, last = inside
+    part, _ = _fitted(sweeps[first:last], joins[first : last - 1], gauge.within(first, last))
+    values, covariance = continued(part.values, part.covariance, gauge, first, last)
+    return CommonShifts(values, covariance, found.vertical, found.vertical_covariance, found.cross_covariance)
+
+
+def _fitted(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[CommonShifts, Array]:
+    """Fit all isotherms, and say how clearly their curves slope."""
+    problem = ShiftProblem(sweeps, joins, gauge)
+    shifts = gauge.brought_to(-np.concatenate([[0.0], np.cumsum([found.step for found in joins])]))
+    parameters = np.concatenate([shifts, np.zeros(len(problem.start) - problem.size)])
+    for _ in range(PASSES):
+        smoothers = problem.smoothers(parameters)
+        noise = _noise(problem, smoothers)
+        before = parameters
+        parameters = _descend(problem, parameters, smoothers, noise)
+        if np.max(np.abs(parameters - before)) < 10 * CONVERGED:
+            break
+    covariance = _covariance(problem, problem.state(parameters, smoothers, noise))
+    values, vertical = problem.split(parameters)
+    size = problem.size
+    nothing = np.zeros((size, size))
+    spread, cross = (covariance[size:, size:], covariance[:size, size:]) if gauge.free_vertical else (nothing, nothing)
+    found = CommonShifts(values, covariance[:size, :size], vertical, spread, cross)
+    return found, problem.signal(parameters, smoothers)
+
+
+def _noise(problem: ShiftProblem, smoothers: list[Smoother]) -> float:
+    """Return the scatter of both moduli about the curves, decades."""
+    weights = np.array([len(piece.frequency) for piece in problem.pieces], dtype=float)
+    squares = np.array([np.mean(smoother.scatter**2) for smoother in smoothers])
+    return float(np.sqrt(weights @ squares / weights.sum())) + SMALLEST_NOISE
+
+
+def _descend(problem: ShiftProblem, parameters: Array, smoothers: list[Smoother], noise: float) -> Array:
+    """Take damped Gauss–Newton steps with knots and smoothing held."""
+    ways = problem.ways
+    state = problem.state(parameters, smoothers, noise)
+    for _ in range(5):
+        step = ways @ np.linalg.solve(ways.T @ state.normal @ ways, ways.T @ state.gradient)
+        largest = float(np.max(np.abs(np.diff(step))))
+        step *= min(1.0, LARGEST_STEP / max(largest, 1e-300))
+        trial = problem.state(parameters + step, smoothers, noise)
+        while trial.cost > state.cost and np.max(np.abs(step)) > CONVERGED:
+            step *= 0.5
+            trial = problem.state(parameters + step, smoothers, noise)
+        parameters, state = parameters + step, trial
+        if np.max(np.abs(step)) < CONVERGED:
+            break
+    return parameters
+
+
+def _covariance(problem: ShiftProblem, state: State) -> Array:
+    """Return the covariance of the shifts: the curvature of what is minimised around real scatter.
+
+    The exact second derivatives are taken, not those of Gauss and Newton: these count the noise in the slope of
+    the curves for information.  Where they are small or negative (a plateau, far from quadratic), a part of the
+    latter is kept.
+    """
+    ways = problem.ways
+    normal, curvature, score = (ways.T @ matrix @ ways for matrix in (state.normal, state.curvature, state.score))
+    root = np.linalg.cholesky(normal)
+    whitened = np.linalg.solve(root, np.linalg.solve(root, curvature).T)
+    parts, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))
+    back = np.linalg.solve(root.T, modes)
+    inverse = back / np.maximum(parts, SMALLEST_PART) @ back.T
+    prior = ways.T @ problem.prior.T @ problem.prior @ ways
+    # What the shifts take from the scatter: more than one degree of freedom each, as they follow noise in slopes.
+    taken = float(np.trace(inverse @ (normal - prior)))
+    larger = state.freedom / max(state.freedom - taken, 1.0)
+    return np.asarray(ways @ inverse @ (larger * score + prior) @ inverse @ ways.T)

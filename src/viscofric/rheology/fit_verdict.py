@@ -1,0 +1,166 @@
+"""What a fitted spectrum may claim: its misfit, plateaus that were not measured, and liquids, which have none."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology.spectrum import RetardationSpectrum, SpectrumFit
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import MasterCurve
+
+    Array = NDArray[np.float64]
+
+#: An end of the master curve is a plateau if the modulus is within this of its limit …
+PLATEAU = 0.05
+#: … and the loss tangent measured there is below this.
+PLATEAU_LOSS_TANGENT = 0.1
+#: Organic glasses have a few times 10⁹ Pa.
+STIFFEST_GLASS = 2e10  # Pa
+#: A liquid's E' falls as ω², its E'' as ω; beyond these slopes no part of E' above a quarter is a plateau's.
+TERMINAL_SLOPES = 1.8, 0.9
+#: Slopes are read over this factor of frequency, the outermost half decade.
+END = math.sqrt(10.0)
+#: So many points at least show a slope.
+POINTS_OF_A_SLOPE = 4
+
+
+def refuse_liquid(master_curve: MasterCurve) -> None:
+    """Raise `InputError` if the curve ends in terminal flow, as a liquid's does."""
+    slopes = _slopes_at_low_end(master_curve)
+    if slopes is not None and slopes[0] >= TERMINAL_SLOPES[0] and slopes[1] >= TERMINAL_SLOPES[1]:
+        raise InputError(
+            f"at the lowest frequency, {master_curve.angular_frequency[0]:.3g} rad/s, E' falls as "
+            f"ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}, as in a liquid (2 and 1): it has no rubber plateau, "
+            "E0 = 0; leave out the flowing isotherms to fit what lies above them."
+        )
+
+
+def judged(
+    spectrum: RetardationSpectrum,
+    master_curve: MasterCurve,
+    *,
+    method: str = "",
+    tau_ratio: float | None = None,
+    regularisation: float | None = None,
+    notes: tuple[str, ...] = (),
+) -> RetardationSpectrum:
+    """Return the spectrum with its `fit` judged against a master curve at the same temperature.
+
+    Parameters
+    ----------
+    spectrum : RetardationSpectrum
+        As fitted.
+    master_curve : MasterCurve
+        What it was fitted to.
+    method, tau_ratio, regularisation
+        How; see `SpectrumFit`.
+    notes : tuple of str
+        What the fit itself has to say.
+    """
+    omega, measured = master_curve.angular_frequency, master_curve.complex_modulus
+    modulus = spectrum.complex_modulus(omega)
+    seen = modulus.imag > 0.0
+    rms_storage = float(np.sqrt(np.mean(np.log10(modulus.real / measured.real) ** 2)))
+    rms_loss = math.inf
+    if np.any(seen):
+        rms_loss = float(np.sqrt(np.mean(np.log10(modulus.imag[seen] / measured.imag[seen]) ** 2)))
+    low_loss, high_loss = _loss_tangent_at_ends(omega, master_curve.loss_tangent)
+    fall = float(modulus.real[0]) / spectrum.E0 - 1.0
+    rise = spectrum.E_inf / float(modulus.real[-1]) - 1.0
+    fit = SpectrumFit(
+        rms_storage,
+        rms_loss,
+        E0_extrapolated=fall > PLATEAU or low_loss > PLATEAU_LOSS_TANGENT,
+        E_inf_extrapolated=rise > PLATEAU or high_loss > PLATEAU_LOSS_TANGENT,
+        frequency_range=(float(omega[0]), float(omega[-1])),
+        method=method,
+        modes=len(spectrum),
+        tau_ratio=tau_ratio,
+        regularisation=regularisation,
+    )
+    rubber = _about_rubber(spectrum, master_curve, fit, low_loss)
+    glass = _about_glass(spectrum, master_curve, fit, high_loss)
+    return RetardationSpectrum(
+        spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, replace(fit, notes=(*rubber, *glass, *notes))
+    )
+
+
+def _about_rubber(
+    spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, loss_tangent: float
+) -> list[str]:
+    softest = float(master_curve.storage_modulus.min())
+    where = (
+        f"E0 = {spectrum.E0:.4g} Pa lies {_beside(spectrum.E0, softest)} the smallest measured E' ({softest:.4g} Pa)"
+    )
+    if not fit.E0_extrapolated:
+        follows = spectrum.E0 / softest <= 1.0 + PLATEAU
+        return [] if follows else [f"{where}: the fit does not follow the softest points."]
+    end = f"at the lowest frequency, {fit.frequency_range[0]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
+    notes = [f"{where}, and {end}: the rubber plateau was not measured, so that E0 is extrapolated."]
+    slopes = _slopes_at_low_end(master_curve)
+    if slopes is not None and loss_tangent > 1.0:
+        notes.append(
+            f"At the lowest frequency E' falls as ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}: nothing measured "
+            "tells a soft rubber from a liquid (2 and 1), and whether there is an E0 above zero is not known."
+        )
+    return notes
+
+
+def _about_glass(
+    spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, loss_tangent: float
+) -> list[str]:
+    stiffest = float(master_curve.storage_modulus.max())
+    where = (
+        f"E_inf = {spectrum.E_inf:.4g} Pa lies {_beside(spectrum.E_inf, stiffest)} the largest measured E' "
+        f"({stiffest:.4g} Pa)"
+    )
+    notes = []
+    if fit.E_inf_extrapolated:
+        notes.append(
+            f"{where}, and at the highest frequency, {fit.frequency_range[1]:.3g} rad/s, tan δ is "
+            f"{loss_tangent:.2f}: the glass was not measured, so that E_inf is extrapolated."
+        )
+    elif spectrum.E_inf < stiffest * (1.0 - PLATEAU):
+        notes.append(f"{where}: the fit does not follow the stiffest points.")
+    if spectrum.E_inf > STIFFEST_GLASS:
+        notes.append(
+            f"E_inf = {spectrum.E_inf:.4g} Pa is beyond any organic glass (a few 1e9 Pa); no rubber has such a glass, "
+            "and the spectrum is not physical above the measured frequencies."
+        )
+    return notes
+
+
+def _beside(limit: float, measured: float) -> str:
+    """Say how far a limit of the fit lies from the data's own."""
+    if limit > 10.0 * measured:
+        return f"{limit / measured:.0f} times above"
+    if limit < 0.1 * measured:
+        return f"{measured / limit:.0f} times below"
+    return f"{100 * abs(limit / measured - 1.0):.1f} % {'above' if limit >= measured else 'below'}"
+
+
+def _loss_tangent_at_ends(angular_frequency: Array, loss_tangent: Array) -> tuple[float, float]:
+    """Median over the outermost half decade: single points are noisy."""
+    low = angular_frequency <= angular_frequency[0] * END
+    high = angular_frequency >= angular_frequency[-1] / END
+    return float(np.median(loss_tangent[low])), float(np.median(loss_tangent[high]))
+
+
+def _slopes_at_low_end(master_curve: MasterCurve) -> tuple[float, float] | None:
+    """Slopes of log E' and log E'' over log ω in the lowest half decade; None where too few points show them."""
+    low = master_curve.angular_frequency <= master_curve.angular_frequency[0] * END
+    frequency = np.log(master_curve.angular_frequency[low])
+    if len(frequency) < POINTS_OF_A_SLOPE or np.ptp(frequency) < 0.5 * math.log(END):
+        return None
+    away = (frequency - frequency.mean()) / np.sum((frequency - frequency.mean()) ** 2)
+    moduli = (master_curve.storage_modulus, master_curve.loss_modulus)
+    storage, loss = (float(away @ np.log(modulus[low])) for modulus in moduli)
+    return storage, loss

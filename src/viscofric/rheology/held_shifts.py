@@ -1,0 +1,150 @@
+"""Shifts fitted, held or given: what `superpose` is told of α(T), turned into values at the isotherms."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology.common_shifts import CommonShifts, common_shifts
+from viscofric.rheology.gauge import Gauge
+from viscofric.rheology.joined_isotherms import JoinedIsotherms, shown
+from viscofric.rheology.shift_factors import ShiftFactors
+from viscofric.units import positive, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from viscofric.rheology.shift_laws import ShiftLaw
+
+    Array = NDArray[np.float64]
+
+#: A temperature is that of an isotherm if it is so much of the way, or less, to the next one.
+NEAR = 0.25
+#: Where the reference lies between isotherms, factors are held to its interpolated zero by repetition, to this.
+EXACT = 1e-9  # decades
+REPETITIONS = 12
+
+
+def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: float) -> dict[int, float]:
+    """Find the isotherms of fixed shift factors.
+
+    Parameters
+    ----------
+    fixed : mapping
+        Temperature, as users write it, to log10 α.
+    temperatures : (n,) array
+        Of the isotherms, K.
+    reference : float
+        K.
+
+    Returns
+    -------
+    dict
+        Place of the isotherm to log10 α.
+
+    Raises
+    ------
+    InputError
+        If there is no such isotherm, one is named twice, or a value contradicts α = 1 at the reference.
+    """
+    held: dict[int, float] = {}
+    for wanted, value in fixed.items():
+        kelvin = positive(wanted, "K", "temperature in fixed")
+        log10_alpha = to_si(value, "dimensionless", f"fixed[{wanted!r}]")
+        place = int(np.argmin(np.abs(temperatures - kelvin)))
+        gap = float(np.min(np.abs(np.delete(temperatures, place) - temperatures[place])))
+        if abs(temperatures[place] - kelvin) > NEAR * gap:
+            raise InputError(
+                f"fixed[{wanted!r}]: none of the joined isotherms is at {shown(kelvin)}; the nearest is at "
+                f"{shown(temperatures[place])}."
+            )
+        if place in held:
+            raise InputError(f"fixed[{wanted!r}]: the isotherm at {shown(temperatures[place])} is fixed twice.")
+        held[place] = log10_alpha
+    around = np.flatnonzero(_weights(1.0 / reference, 1.0 / temperatures[::-1])[::-1])
+    if len(around) == 1 and held.get(int(around[0]), 0.0) != 0.0:
+        raise InputError(f"fixed: the isotherm at {shown(reference)} is the reference, where log10 α is 0.")
+    if len(around) > 1 and all(int(place) in held for place in around):
+        raise InputError(
+            f"fixed: the reference, {shown(reference)}, lies between two isotherms that are both fixed; "
+            "fix one of them only."
+        )
+    return held
+
+
+def fitted_shifts(joined: JoinedIsotherms, reference: float, held: dict[int, float], free: bool) -> CommonShifts:
+    """Fit all shifts but those that are held; see `common_shifts`.
+
+    Parameters
+    ----------
+    joined : JoinedIsotherms
+        What is to be superposed.
+    reference : float
+        Where log10 α and log10 b are zero, K.
+    held : dict
+        log10 α of isotherms, by their place.
+    free : bool
+        Whether vertical shifts are fitted too.
+    """
+    temperatures = _temperatures(joined)
+    around = _gauge(temperatures, reference, {}, free)
+    if not held or np.max(around.weights) == 1.0:
+        return common_shifts(joined.logs, joined.joins, _gauge(temperatures, reference, held, free))
+    # `ShiftFactors` interpolates by a cubic and finds another zero than the straight line that the fit knows.
+    moved = 0.0
+    for _ in range(REPETITIONS):
+        shifted = {place: value + moved for place, value in held.items()}
+        found = common_shifts(joined.logs, joined.joins, _gauge(temperatures, reference, shifted, free))
+        table = ShiftFactors(temperatures, found.values, reference)
+        before, moved = moved, float(found.values[0] - table.log10_values[0])
+        if abs(moved - before) < EXACT:
+            break
+    return found
+
+
+def given_shifts(joined: JoinedIsotherms, reference: float, shift: ShiftLaw, free: bool) -> CommonShifts:
+    """Take shifts from a law or table about the reference; fit vertical ones only, if asked for.
+
+    Parameters
+    ----------
+    joined : JoinedIsotherms
+        What is to be superposed.
+    reference : float
+        Where log10 α and log10 b are zero, K.
+    shift : ShiftLaw
+        About the reference.
+    free : bool
+        Whether vertical shifts are fitted.
+    """
+    temperatures = _temperatures(joined)
+    values = np.array(shift.log10(temperatures))
+    nothing = np.zeros((len(values), len(values)))
+    covariance = nothing
+    if isinstance(shift, ShiftFactors):
+        inverse = 1.0 / shift.temperatures[::-1]
+        weights = np.array([_weights(1.0 / kelvin, inverse)[::-1] for kelvin in temperatures])
+        covariance = weights @ shift.covariance @ weights.T
+    if not free:
+        return CommonShifts(values, covariance, np.zeros(len(values)), nothing, nothing)
+    gauge = _gauge(temperatures, reference, dict(enumerate(values)), free)
+    found = common_shifts(joined.logs, joined.joins, gauge)
+    return CommonShifts(values, covariance, found.vertical, found.vertical_covariance, nothing)
+
+
+def _temperatures(joined: JoinedIsotherms) -> Array:
+    return np.array([isotherm.temperature for isotherm in joined.isotherms])
+
+
+def _gauge(temperatures: Array, reference: float, held: dict[int, float], free: bool) -> Gauge:
+    inverse = 1.0 / temperatures
+    weights = _weights(1.0 / reference, inverse[::-1])[::-1]
+    return Gauge(inverse, weights, _weights(reference, temperatures), held, free)
+
+
+def _weights(at: float, points: Array) -> Array:
+    """Return the weights of linear interpolation at one place among ascending points."""
+    return np.array([np.interp(at, points, unit) for unit in np.eye(len(points))])

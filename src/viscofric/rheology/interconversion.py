@@ -1,0 +1,157 @@
+"""Exact interconversion of a relaxation (Prony) series and a retardation series, by interlacing poles.
+
+With the operator s = iω, a solid has
+
+    E(s) = E0 + Σ E_k sτ_k / (1 + sτ_k)            relaxation times τ_k
+    S(s) = 1/E(s) = 1/E_inf + Σ C_i / (1 + sλ_i)   retardation times λ_i
+
+The poles of S are the zeros of E and the reverse.  Written with s = −1/λ, the zeros of E solve
+
+    E0 − Σ E_k τ_k / (λ − τ_k) = 0,
+
+and, written with s = −r, the zeros of S solve the same equation in rates,
+
+    1/E_inf − Σ C_i p_i / (r − p_i) = 0,    p_i = 1/λ_i,   r_k = 1/τ_k,
+
+so that one function serves both ways: level E0, strengths E_k, positions τ_k give strengths C_i, positions λ_i;
+level 1/E_inf, strengths C_i, positions 1/λ_i give strengths E_k, positions 1/τ_k.  Between neighbouring poles
+lies exactly one zero, and one beyond the last: τ_1 < λ_1 < τ_2 < … < τ_n < λ_n.
+
+Accuracy
+--------
+Each zero is found as a distance from the pole next to it, so that its distance to every pole, and to every other
+zero, is known to relative accuracy even where they agree to all digits.  A strength is the residue of a product,
+
+    C_i λ_i = (1/E0) (λ_i − τ_i) Π_{j≠i} (λ_i − τ_j)/(λ_i − λ_j),
+
+all factors positive: poles, zeros and strengths fit each other whatever the rounding of the zeros, so that E(ω) is
+the same from both series.  What limits single strengths is that times are stored rounded: a mode whose neighbour
+differs by a fraction g of its time has a strength known to about 1e-16/g.
+
+References
+----------
+B. Gross, Mathematical Structure of the Theories of Viscoelasticity, Hermann, Paris 1953, ch. VI.
+N. W. Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior, Springer 1989, section 8.2.
+S. W. Park, R. A. Schapery, Int. J. Solids Struct. 36 (1999) 1653, doi:10.1016/S0020-7683(98)00055-9.
+J. R. Bunch, C. P. Nielsen, D. C. Sorensen, Numer. Math. 31 (1978) 31 (the secular equation, by distances).
+M. Gu, S. C. Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994) 1266 (strengths that fit the computed zeros).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+#: A distance is bracketed within e^±700 of its pole at worst: so many halvings leave no bit of its logarithm open.
+_HALVINGS = 64
+#: A mode weaker than this, relative to the strongest, counts as none: it would underflow.
+_NO_STRENGTH = 1e-200
+#: Newton steps in the logarithm of the distance, after which only rounding is left.
+_POLISHING = 3
+
+
+def merged(strengths: Array, positions: Array) -> tuple[Array, Array]:
+    """Return modes in ascending position, those at one position added up, those without strength left out."""
+    keep = strengths > _NO_STRENGTH * np.max(strengths, initial=0.0)
+    unique, place = np.unique(positions[keep], return_inverse=True)
+    return np.bincount(place, weights=strengths[keep], minlength=len(unique)).astype(float), unique
+
+
+def reciprocal_modes(level: float, strengths: Array, positions: Array) -> tuple[Array, Array]:
+    """Return strengths and positions of the modes of the reciprocal function.
+
+    Parameters
+    ----------
+    level : float
+        Above zero: E0 of a relaxation series, or 1/E_inf of a retardation series.
+    strengths : (n,) array
+        Not below zero: E_k, or C_k.
+    positions : (n,) array
+        Above zero: relaxation times, or retardation **rates** 1/τ.
+
+    Returns
+    -------
+    strengths, positions : (m,) array
+        C_k and retardation times, or E_k and relaxation rates; positions ascending, one for each distinct
+        position that has strength.
+    """
+    weights, poles = merged(strengths, positions)
+    if not len(poles):
+        return weights, poles
+    # Without dimension, so that no unit over- or underflows.
+    scale = float(np.exp(np.mean(np.log(poles))))
+    weights, poles = weights / level, poles / scale
+    nearest, distance = _zeros(weights * poles, poles)
+    near = poles[nearest]
+    zeros = near + distance
+    # Differences of a zero from each pole, and from each other zero, to relative accuracy.
+    from_pole = np.abs((near[:, None] - poles[None, :]) + distance[:, None])
+    from_zero = np.abs((near[:, None] - near[None, :]) + (distance[:, None] - distance[None, :]))
+    own = np.diag(from_pole).copy()
+    np.fill_diagonal(from_pole, 1.0)
+    np.fill_diagonal(from_zero, 1.0)
+    product = np.exp(np.sum(np.log(from_pole / from_zero), axis=1))
+    return own / zeros * product / level, zeros * scale
+
+
+def _zeros(residues: Array, poles: Array) -> tuple[NDArray[np.intp], Array]:
+    """Solve 1 = Σ residues/(x − poles); return for each zero its nearest pole and its signed distance to it."""
+    count = len(poles)
+    left = np.arange(count)
+    gap = np.append(np.diff(poles), np.inf)
+    # At the middle of its interval the function tells on which side of it the zero lies.
+    middle = np.where(np.isfinite(gap), 0.5 * gap, 1.0)
+    inside = gap < np.inf
+    beyond = _imbalance(residues, poles, left, np.ones(count), middle) > 0.0  # the zero is further right
+    right = inside & beyond
+    nearest = np.where(right, left + 1, left)
+    side = np.where(right, -1.0, 1.0)
+    # Bracket of the logarithm of the distance: next to its pole that pole's term outweighs all the others together.
+    high = np.log(np.where(inside, middle, np.sum(residues)))
+    low = np.log(_closest(residues, poles, nearest, side, np.exp(high)))
+    for _ in range(_HALVINGS):
+        trial = 0.5 * (low + high)
+        further = _imbalance(residues, poles, nearest, side, np.exp(trial)) * side > 0.0
+        low, high = np.where(further, trial, low), np.where(further, high, trial)
+    log_distance = 0.5 * (low + high)
+    for _ in range(_POLISHING):
+        step = _newton_step(residues, poles, nearest, side, np.exp(log_distance))
+        log_distance = np.clip(log_distance + step, low - 1e-9, high + 1e-9)
+    return nearest, side * np.exp(log_distance)
+
+
+def _parts(
+    residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, distance: Array
+) -> tuple[Array, Array, Array]:
+    """Return the terms of poles left and right of each point (both positive), and x − pole."""
+    away = (poles[nearest][:, None] - poles[None, :]) + (side * distance)[:, None]
+    terms = residues[None, :] / away
+    return np.sum(np.maximum(terms, 0.0), axis=1), 1.0 - np.sum(np.minimum(terms, 0.0), axis=1), away
+
+
+def _imbalance(residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, distance: Array) -> Array:
+    """Logarithm of what the poles on the left pull over what level and poles on the right do: falls with x."""
+    below, above, _ = _parts(residues, poles, nearest, side, distance)
+    return np.asarray(np.log(below) - np.log(above))
+
+
+def _closest(residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, farthest: Array) -> Array:
+    """Return a distance that is surely below that of the zero."""
+    below, above, _ = _parts(residues, poles, nearest, side, farthest)
+    # Going nearer to the pole only weakens the other side of the balance.
+    return np.asarray(np.minimum(residues[nearest] / np.where(side > 0.0, above, below), farthest) * 0.5)
+
+
+def _newton_step(residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, distance: Array) -> Array:
+    """Return the Newton step of ln(distance) for the logarithm of the imbalance."""
+    below, above, away = _parts(residues, poles, nearest, side, distance)
+    change = residues[None, :] / away * (distance[:, None] / away)  # −side · d(term)/d ln(distance)
+    left, right = np.sum(np.where(away > 0, change, 0.0), axis=1), np.sum(np.where(away < 0, change, 0.0), axis=1)
+    slope = -side * (left / below + right / above)
+    return np.asarray(-(np.log(below) - np.log(above)) / slope)

@@ -1,0 +1,155 @@
+"""Polynomial in the inverse temperature: describes shift factors where no law of physics does, and only there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import comb
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology.parametric_law import ParametricLaw, Reach
+from viscofric.units import celsius, positive, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class InversePolynomial(ParametricLaw):
+    """Polynomial, log10 α = Σ c_k (1/T − 1/Tr)^k with k from 1 to the degree.
+
+    It describes measured shift factors without saying why, and has no meaning outside its temperatures: there it
+    is refused, without exception.  Within them it must fall as T rises.  Degree 1 is the Arrhenius law.
+
+    Parameters
+    ----------
+    coefficients : sequence of float
+        c_1, c_2 …, K, K² …
+    reference : float or quantity
+        Tr, where α = 1, within the range; K, or text such as ``"30 degC"``.
+    fitted_range : (lowest, highest)
+        It cannot do without: the temperatures that it holds for; K, or text.
+    covariance : (n, n) array, optional
+        Of the coefficients, where the law was fitted.
+    bounded : bool
+        As of other laws, but nothing else than True.
+
+    Raises
+    ------
+    InputError
+        If the law rises with temperature somewhere in its range, the reference lies outside, or the range is
+        missing.
+    """
+
+    coefficients: tuple[float, ...]
+    reference: float
+    fitted_range: tuple[float, float]
+    covariance: Array | None = field(default=None, compare=False, repr=False)
+    bounded: bool = field(default=True, compare=False, repr=False)
+
+    kind: ClassVar[str] = "polynomial"
+    title: ClassVar[str] = "polynomial"
+    _constants: ClassVar[tuple[str, ...]] = ("coefficients",)
+
+    def __init__(
+        self,
+        coefficients: Iterable[float],
+        reference: Quantity,
+        fitted_range: tuple[Quantity, Quantity] | None,
+        covariance: Any = None,
+        bounded: bool = True,
+    ) -> None:
+        numbers = tuple(to_si(number, "dimensionless", "coefficients") for number in coefficients)
+        if not numbers:
+            raise InputError("coefficients of a polynomial law: there must be at least one.")
+        if fitted_range is None or not bounded:
+            self._refuse_to_extrapolate()
+        object.__setattr__(self, "coefficients", numbers)
+        object.__setattr__(self, "reference", positive(reference, "K", "reference"))
+        self._set_fit(covariance, fitted_range, True)
+        self._refuse(np.array([self.reference]))
+        ends = 1.0 / np.array(self.fitted_range)[::-1] - 1.0 / self.reference
+        if not _rises(self.parameters, float(ends[0]), float(ends[1])):
+            low, high = (celsius(end) for end in self.fitted_range)
+            raise InputError(
+                f"the polynomial of degree {self.degree} rises with temperature somewhere between {low:z.1f} and "
+                f"{high:z.1f} °C, which no shift factor does; take a lower degree, or another law."
+            )
+
+    @property
+    def degree(self) -> int:
+        """Highest power of 1/T − 1/Tr."""
+        return len(self.coefficients)
+
+    @property
+    def parameters(self) -> Array:
+        """The coefficients, in the order of `covariance`."""
+        return np.array(self.coefficients)
+
+    def with_parameters(self, parameters: Any) -> InversePolynomial:
+        """Return a polynomial with other coefficients at the same reference, in the same range."""
+        return InversePolynomial(parameters, self.reference, self.fitted_range)
+
+    def at_reference(self, reference: Quantity) -> InversePolynomial:
+        """Return the same polynomial about another temperature of its range: powers of a shifted variable."""
+        kelvin = positive(reference, "K", "reference")
+        self._refuse(np.array([kelvin]))
+        moved = _moved(self.degree, 1.0 / kelvin - 1.0 / self.reference)
+        covariance = None if self.covariance is None else moved @ self.covariance @ moved.T
+        return InversePolynomial(moved @ self.parameters, kelvin, self.fitted_range, covariance)
+
+    def unbounded(self) -> NoReturn:
+        """Raise `InputError`: a polynomial says nothing beyond its data."""
+        self._refuse_to_extrapolate()
+
+    @staticmethod
+    def _refuse_to_extrapolate() -> NoReturn:
+        raise InputError(
+            "a polynomial law says nothing outside the temperatures that it was fitted on, so that it needs "
+            "fitted_range= and cannot be without bounds; take law('wlf') or law('arrhenius') to go beyond."
+        )
+
+    def _log10(self, kelvin: Array) -> Array:
+        return self._gradient(kelvin) @ self.parameters
+
+    def _gradient(self, kelvin: Array) -> Array:
+        inverse = 1.0 / np.asarray(kelvin) - 1.0 / self.reference
+        return np.stack([inverse**power for power in range(1, self.degree + 1)], axis=-1)
+
+    def _cold(self) -> Reach:
+        return Reach(self.fitted_range[0], "a polynomial says nothing beyond its data")
+
+    def _hot(self) -> Reach:
+        return Reach(self.fitted_range[1], "a polynomial says nothing beyond its data")
+
+    def _remedy(self) -> str:
+        return "measure isotherms there, or take law('wlf') or law('arrhenius') to go beyond"
+
+
+def _moved(degree: int, step: float) -> Array:
+    """Matrix that turns coefficients of x into those of x − step, the constant left out: (y + step)^k expanded."""
+    matrix = np.zeros((degree, degree))
+    for old in range(1, degree + 1):
+        for new in range(1, old + 1):
+            matrix[new - 1, old - 1] = comb(old, new) * step ** (old - new)
+    return matrix
+
+
+def _rises(coefficients: Array, low: float, high: float) -> bool:
+    """Say whether Σ c_k x^k rises from `low` to `high` throughout: the derivative has no zero there."""
+    scale = max(abs(low), abs(high))  # roots of a polynomial in a variable of order one
+    slope = np.arange(1, len(coefficients) + 1) * coefficients * scale ** np.arange(len(coefficients))
+    at_ends = [float(np.polyval(slope[::-1], end / scale)) for end in (low, high)]
+    if min(at_ends) <= 0.0:
+        return False
+    roots = np.roots(slope[::-1])
+    real = roots[np.abs(roots.imag) < 1e-9].real * scale
+    return not bool(np.any((real > low) & (real < high)))

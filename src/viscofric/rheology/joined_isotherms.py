@@ -1,0 +1,136 @@
+"""Which isotherms reach each other: neighbours joined, single ones at the ends left out, gaps refused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import SuperpositionError
+from viscofric.rheology.overlap import Join, LogSweep, failures, join, join_at
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import Isotherm
+    from viscofric.rheology.shift_laws import ShiftLaw
+
+    Array = NDArray[np.float64]
+
+#: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
+LARGEST_MISFIT = 0.15
+
+
+@dataclass(frozen=True, eq=False)
+class JoinedIsotherms:
+    """Isotherms that reach each other, and how.
+
+    Parameters
+    ----------
+    isotherms : tuple of Isotherm
+        In ascending temperature.
+    logs : list of LogSweep
+        Their logarithms, free of a vertical shift that was given.
+    joins : list of Join
+        Of each with the next warmer one.
+    notes : tuple of str
+        What was left out, one sentence each.
+    """
+
+    isotherms: tuple[Isotherm, ...]
+    logs: list[LogSweep]
+    joins: list[Join]
+    notes: tuple[str, ...]
+
+    def less(self, log10_b: Array) -> JoinedIsotherms:
+        """Return the same with vertical shifts taken off the logarithms."""
+        logs = [LogSweep(sweep.frequency, sweep.moduli - one) for sweep, one in zip(self.logs, log10_b, strict=True)]
+        return replace(self, logs=logs)
+
+    def disagreements(self, *, given: bool = False) -> tuple[str, ...]:
+        """Say in a sentence each where neighbours do not superpose, fitted or with given shift factors."""
+        how = (
+            "with the given shift factors."
+            if given
+            else "many times what is typical here; they were joined where they overlap best, with a large uncertainty."
+        )
+        return tuple(
+            f"The sweeps at {shown(self.isotherms[place].temperature)} and "
+            f"{shown(self.isotherms[place + 1].temperature)} disagree by {self.joins[place].misfit:.2g} decades, {how}"
+            for place in failures(self.joins)
+        )
+
+
+def shown(kelvin: float) -> str:
+    """Write a temperature as users read it."""
+    return f"{celsius(kelvin):z.1f} °C"
+
+
+def usable(isotherms: tuple[Isotherm, ...]) -> None:
+    """Insist on two isotherms or more, of two points or more.
+
+    Raises
+    ------
+    SuperpositionError
+        If there are fewer.
+    """
+    if len(isotherms) < 2:
+        raise SuperpositionError(f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.")
+    for isotherm in isotherms:
+        if len(isotherm) < 2:
+            raise SuperpositionError(
+                f"the isotherm at {shown(isotherm.temperature)} has only one usable frequency; two or more are needed."
+            )
+    for colder, warmer in pairwise(isotherms):
+        if not colder.temperature < warmer.temperature:
+            raise SuperpositionError(f"two isotherms are at {shown(colder.temperature)}; merge them or leave one out.")
+
+
+def join_isotherms(isotherms: tuple[Isotherm, ...], logs: list[LogSweep]) -> JoinedIsotherms:
+    """Join neighbours, and leave out single isotherms at the ends that reach no other.
+
+    Raises
+    ------
+    SuperpositionError
+        If neighbours in the middle do not overlap.
+    """
+    joins = [join(colder, warmer) for colder, warmer in pairwise(logs)]
+    joined = np.array([found.misfit <= LARGEST_MISFIT for found in joins])
+    if not joined.any():
+        raise SuperpositionError(_gap(isotherms, 0))
+    first, last = int(np.argmax(joined)), len(joined) - int(np.argmax(joined[::-1]))
+    broken = np.flatnonzero(~joined[first:last])
+    if broken.size:
+        raise SuperpositionError(_gap(isotherms, first + int(broken[0])))
+    notes = tuple(
+        f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}"
+        for place, gap in [(p, p) for p in range(first)] + [(p, p - 1) for p in range(last + 1, len(isotherms))]
+    )
+    inside = slice(first, last + 1)
+    return JoinedIsotherms(isotherms[inside], logs[inside], joins[first:last], notes)
+
+
+def as_given(isotherms: tuple[Isotherm, ...], logs: list[LogSweep], shift: ShiftLaw) -> JoinedIsotherms:
+    """Compare neighbours where given shift factors put them; none is left out.
+
+    Raises
+    ------
+    InputError
+        If the shift does not hold at one of the temperatures.
+    """
+    values = [shift.log10(isotherm.temperature) for isotherm in isotherms]
+    steps = [colder - warmer for colder, warmer in pairwise(values)]
+    joins = [join_at(colder, warmer, step) for (colder, warmer), step in zip(pairwise(logs), steps, strict=True)]
+    return JoinedIsotherms(isotherms, logs, joins, ())
+
+
+def _gap(isotherms: tuple[Isotherm, ...], place: int) -> str:
+    colder, warmer = isotherms[place], isotherms[place + 1]
+    return (
+        f"the sweeps at {shown(colder.temperature)} and {shown(warmer.temperature)} do not overlap "
+        f"(no shift brings their moduli within {LARGEST_MISFIT:g} decades of each other); "
+        "measure in between or over more frequencies."
+    )

@@ -1,0 +1,139 @@
+"""Drawn materials and what follows from them: bands of the moduli, standard errors, bands of anything else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.rheology.material import Material
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+
+
+class Band(NamedTuple):
+    """Lower limit, middle (the median) and upper limit, each an array of one shape.
+
+    Limits of complex moduli hold for E' (their real part) and for E'' (their imaginary part) each by itself.
+    """
+
+    lower: NDArray[Any]
+    middle: NDArray[Any]
+    upper: NDArray[Any]
+
+
+class StandardErrors(NamedTuple):
+    """Standard errors of E0 (Pa), E_inf (Pa) and of every C (1/Pa)."""
+
+    E0: float
+    E_inf: float
+    C: Array
+
+
+@dataclass(frozen=True, eq=False)
+class MaterialSamples:
+    """Materials that other measurements of the same rubber might have given; their spread is the uncertainty.
+
+    Parameters
+    ----------
+    materials : tuple of Material
+        Each with a spectrum and a shift that belong together.
+    C : (samples, n) array
+        Compliance of every mode, zeros included, 1/Pa.
+    tau : (samples, n) array
+        Retardation times, s; the same in every row, unless the modes are sparse.
+    frequency_range : tuple of float
+        Reduced angular frequencies that were measured, rad/s.  Beyond them the bands tell how the fit
+        extrapolates, not what the rubber does.
+    """
+
+    materials: tuple[Material, ...]
+    C: Array
+    tau: Array
+    frequency_range: tuple[float, float]
+
+    def __len__(self) -> int:
+        return len(self.materials)
+
+    @cached_property
+    def E0(self) -> Array:
+        """Rubber modulus of every sample, (samples,), Pa."""
+        return np.array([material.at().E0 for material in self.materials])
+
+    @cached_property
+    def E_inf(self) -> Array:
+        """Glass modulus of every sample, (samples,), Pa."""
+        return np.array([material.at().E_inf for material in self.materials])
+
+    @property
+    def standard_errors(self) -> StandardErrors:
+        """Standard deviations over the samples; those of neighbouring C are strongly correlated."""
+        return StandardErrors(
+            float(np.std(self.E0, ddof=1)), float(np.std(self.E_inf, ddof=1)), np.std(self.C, axis=0, ddof=1)
+        )
+
+    @property
+    def covariance(self) -> Array:
+        """Covariance of the C, (n, n), 1/Pa²."""
+        return np.atleast_2d(np.cov(self.C, rowvar=False))
+
+    def modulus_band(
+        self, angular_frequency: ArrayLike, temperature: Quantity | None = None, level: float = 0.95
+    ) -> Band:
+        """Return limits that hold E'(ω, T), and limits that hold E''(ω, T), with probability `level` each.
+
+        Parameters
+        ----------
+        angular_frequency : array_like
+            rad/s.
+        temperature : float or quantity, optional
+            K, or text such as ``"60 degC"``; None stands for the reference.
+        level : float
+            Above 0 and below 1.
+
+        Returns
+        -------
+        Band
+            Of complex moduli in the shape of `angular_frequency`, Pa; pointwise, not for the curve as a whole.
+        """
+        omega = np.asarray(angular_frequency, dtype=float)
+        moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
+        storage, loss = _limits(moduli.real, level), _limits(moduli.imag, level)
+        return Band(*(real + 1j * imaginary for real, imaginary in zip(storage, loss, strict=True)))
+
+    def spectrum_band(self, level: float = 0.95) -> Band:
+        """Return limits of every C, (n,), 1/Pa, at the times `tau`.
+
+        A mode by itself is known badly: its neighbours can stand in for it.
+        """
+        return _limits(self.C, level)
+
+    def band(self, value: Callable[[Material], ArrayLike], level: float = 0.95) -> Band:
+        """Return limits of anything that follows from a material.
+
+        Parameters
+        ----------
+        value : callable
+            Of a `Material`: a number or an array, always of the same shape.
+        level : float
+            Above 0 and below 1.
+        """
+        return _limits(np.array([value(material) for material in self.materials]), level)
+
+
+def _limits(values: NDArray[Any], level: float) -> Band:
+    if not 0.0 < level < 1.0:
+        raise InputError(f"level = {level!r}: must lie between 0 and 1.")
+    outside = 0.5 * (1.0 - level)
+    # Weibull's plotting position: a further sample lies between the limits with just this probability.
+    return Band(*np.quantile(values, [outside, 0.5, 1.0 - outside], axis=0, method="weibull"))

@@ -1,0 +1,124 @@
+"""What every fit of a spectrum minimises: the errors of ln E' and ln E'', and how they change with the modes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Complex = NDArray[np.complex128]
+
+#: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out is not told from
+#: a plateau, nor from the flow of a liquid: its compliance could grow without bound.
+EDGE = math.e
+#: A modulus that is too small a part of the compliance to be seen is at most this.
+STIFFEST = 1e3  # times the largest measured storage modulus
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """A glass compliance 1/E_inf (1/Pa), and compliances C (n,) (1/Pa) and retardation times tau (n,) (s)."""
+
+    glass: float
+    C: Array
+    tau: Array
+
+
+class ModulusMisfit:
+    """Differences of ln E' and ln E'' between measurement and modes; they are free of units.
+
+    Parameters
+    ----------
+    angular_frequency : (N,) array
+        Ascending, rad/s.
+    measured : (N,) complex array
+        E' + iE'', Pa.
+    """
+
+    def __init__(self, angular_frequency: Array, measured: Complex) -> None:
+        self.angular_frequency = angular_frequency
+        self.measured = measured
+        self.target = np.concatenate([np.log(measured.real), np.log(measured.imag)])
+        self.least_glass = 1.0 / (STIFFEST * float(np.max(measured.real)))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Logarithms of the shortest and the longest retardation time that a mode may have."""
+        edge = math.log(EDGE)
+        return -math.log(self.angular_frequency[-1]) - edge, edge - math.log(self.angular_frequency[0])
+
+    def relaxed(self, tau: Array) -> Complex:
+        """Return 1/(1 + iωτ), the compliance of modes of strength one, (N, n)."""
+        return np.asarray(1.0 / (1.0 + 1j * np.outer(self.angular_frequency, tau)))
+
+    def columns(self, tau: Array) -> Complex:
+        """Return the compliance of a glass and of modes, each of strength one, (N, 1 + n)."""
+        return np.concatenate([np.ones((len(self.measured), 1), dtype=complex), self.relaxed(tau)], axis=1)
+
+    def residual(self, compliance: Complex) -> Array:
+        """Return ln E' and ln E'' measured less computed, (2N,); infinite where there is no logarithm."""
+        modulus = 1.0 / compliance
+        if not np.all((modulus.imag > 0.0) & (modulus.real > 0.0)):  # no mode at all
+            return np.full(len(self.target), np.inf)
+        return np.asarray(self.target - np.concatenate([np.log(modulus.real), np.log(modulus.imag)]))
+
+    def jacobian(self, compliance: Complex, change: Complex) -> Array:
+        """Return the change of ln E' and ln E'', (2N, m), for changes of the compliance, (N, m)."""
+        modulus = 1.0 / compliance
+        moved = -(modulus**2)[:, None] * change
+        return np.concatenate([moved.real / modulus.real[:, None], moved.imag / modulus.imag[:, None]])
+
+
+def descend(
+    residual: Callable[[Array], Array],
+    normal: Callable[[Array, Array], tuple[Array, Array]],
+    start: Array,
+    *,
+    iterations: int,
+    tolerance: float,
+) -> Array:
+    """Minimise a sum of squares by Levenberg–Marquardt steps in parameters that are logarithms.
+
+    Parameters
+    ----------
+    residual : callable
+        Residuals of a point, infinite where there is none.
+    normal : callable
+        Of a point and its residuals: the matrix JᵀJ and the vector Jᵀr.
+    start : (n,) array
+        Where to begin.
+    iterations : int
+        At most so many.
+    tolerance : float
+        Relative fall of the sum of squares at which to stop.
+
+    References
+    ----------
+    D. W. Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431.
+    """
+    point, now = start, residual(start)
+    damping = 1e-3
+    for _ in range(iterations):
+        matrix, gradient = normal(point, now)
+        scale = np.diag(matrix) + 1e-12 * float(np.max(np.diag(matrix)))
+        before = float(now @ now)
+        while damping < 1e9:
+            step = np.clip(np.linalg.solve(matrix + damping * np.diag(scale), gradient), -2.0, 2.0)
+            trial = residual(point + step)
+            if trial @ trial < before:
+                break
+            damping = 10.0 * damping
+        else:
+            break
+        point, now, damping = point + step, trial, 0.1 * damping
+        if before - float(now @ now) < tolerance * before:
+            break
+    return point

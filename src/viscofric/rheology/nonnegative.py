@@ -1,0 +1,93 @@
+"""Spectra on a lattice of retardation times by non-negative least squares: most modes come out as zero."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.rheology.modulus_misfit import Modes
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.rheology.modulus_misfit import ModulusMisfit
+
+    Array = NDArray[np.float64]
+    Complex = NDArray[np.complex128]
+
+ITERATIONS = 30
+CONVERGED = 1e-6  # relative fall of the misfit
+
+
+def lattice(misfit: ModulusMisfit, ratio: float) -> Array:
+    """Return times on the fixed lattice ratio^k: frequencies shifted by the ratio give the same fit."""
+    low, high = (end / math.log(ratio) for end in misfit.ends)
+    return np.asarray(ratio ** np.arange(math.ceil(low), math.floor(high) + 1, dtype=float))
+
+
+def nonnegative_modes(
+    misfit: ModulusMisfit, tau: Array, start: Modes | None = None, *, converged: float = CONVERGED
+) -> Modes:
+    """Fit 1/E_inf ≥ 0 and C ≥ 0 at given retardation times.
+
+    Parameters
+    ----------
+    misfit : ModulusMisfit
+        The measurement.
+    tau : (n,) array
+        Retardation times, s.
+    start : Modes, optional
+        At the same times, near the answer; found from relative errors of the compliance if not given.
+    converged : float
+        Relative fall of the misfit at which to stop.
+
+    Notes
+    -----
+    The compliance is linear in 1/E_inf and C, so that relative errors of S (equally of E) are minimised by
+    non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974).  From there
+    the sum of squares of the errors of ln E' and ln E'' is minimised by Gauss–Newton steps, each a
+    non-negative least-squares problem.
+    """
+    columns = misfit.columns(tau)
+    strengths = _relative_start(columns, misfit.measured) if start is None else np.append(start.glass, start.C)
+    strengths = _refined(misfit, columns, strengths, converged)
+    return Modes(max(float(strengths[0]), misfit.least_glass), strengths[1:], tau)
+
+
+def _relative_start(columns: Complex, measured: Complex) -> Array:
+    """Minimise Σ |S/S_measured − 1|²."""
+    from scipy.optimize import nnls
+
+    weighted = columns * measured[:, None]
+    scale = np.linalg.norm(weighted, axis=0)  # columns of one size, so that no unit matters
+    rows = np.concatenate([weighted.real, weighted.imag]) / scale
+    target = np.concatenate([np.ones(len(measured)), np.zeros(len(measured))])
+    strengths, _ = nnls(rows, target, maxiter=50 * columns.shape[1])
+    return np.asarray(strengths / scale)
+
+
+def _refined(misfit: ModulusMisfit, columns: Complex, strengths: Array, converged: float) -> Array:
+    """Minimise Σ (ln E'/E'_measured)² + (ln E''/E''_measured)² by non-negative Gauss–Newton steps."""
+    from scipy.optimize import nnls
+
+    now = misfit.residual(columns @ strengths)
+    for _ in range(ITERATIONS):
+        if not np.all(np.isfinite(now)):
+            break
+        jacobian = misfit.jacobian(columns @ strengths, columns)
+        scale = np.linalg.norm(jacobian, axis=0) + 1e-300
+        aim, _ = nnls(jacobian / scale, now + jacobian @ strengths, maxiter=50 * columns.shape[1])
+        step = aim / scale - strengths
+        fraction, before = 1.0, float(now @ now)
+        trial = misfit.residual(columns @ (strengths + step))
+        while not trial @ trial < before and fraction > 1e-3:
+            fraction *= 0.5
+            trial = misfit.residual(columns @ (strengths + fraction * step))
+        if not trial @ trial < before:
+            break
+        strengths, now = strengths + fraction * step, trial
+        if before - float(now @ now) < converged * before:
+            break
+    return np.maximum(strengths, 0.0)

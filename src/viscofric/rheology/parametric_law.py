@@ -1,0 +1,251 @@
+"""Shift laws of a few constants: their uncertainty at any temperature, and how far they may be extrapolated."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology.shift_law import ShiftLaw, in_kelvin
+from viscofric.units import celsius, kelvin_hint, positive
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+
+#: A law is asked no farther than this beyond the hottest temperature that it was fitted on.  WLF and Arrhenius
+#: laws fitted to the same hundred kelvin (C2 of 90 to 130 K) part by 0.3 to 1.2 decades over the next fifty; and WLF
+#: is a law of the hundred kelvin above Tg (Williams, Landel & Ferry 1955), of which fifty are a half.
+HOTTEST_EXTRAPOLATION = 50.0  # K
+#: Towards the glass α changes fastest, by up to a decade every three kelvin, and below Tg another law holds: the
+#: two laws above part as far over twenty kelvin as over fifty on the hot side.
+COLDEST_EXTRAPOLATION = 20.0  # K
+#: No extrapolation towards a pole comes closer than this.  About Tg, C2 (the distance of the pole from Tg) is
+#: 30 to 100 K for most rubbers (J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. 1980, Table 11-II), so
+#: that nearer to the pole the material is a glass, which does not follow the law.
+POLE_MARGIN = 30.0  # K
+#: … and only while the law's 95 % uncertainty, from the nearest temperature of the fit, is below this.
+LARGEST_UNCERTAINTY = 0.5  # decades
+LEVEL_95 = 1.959963984540054
+#: Two temperatures closer than this are the same one, to rounding of °C.
+SAME_TEMPERATURE = 1e-9  # relative
+
+
+class Reach(NamedTuple):
+    """How far a law may be asked on one side (K), and why no farther."""
+
+    limit: float
+    reason: str
+
+
+class ParametricLaw(ShiftLaw):
+    """A shift law of a few constants, fitted or typed in.
+
+    Subclasses are frozen dataclasses with the constants, `reference` and the three fields below.
+
+    Parameters
+    ----------
+    covariance : (n, n) array, optional
+        Of the constants in the order of `parameters`, where the law was fitted.
+    fitted_range : (lowest, highest), optional
+        The temperatures that the law was fitted on, K; None where it was typed in.
+    bounded : bool
+        Whether a law with a fitted range is refused far outside it; see `extrapolation_limits`.
+
+    Notes
+    -----
+    Two laws are equal if their constants and references are; how they were found does not count.
+    """
+
+    covariance: Array | None
+    fitted_range: tuple[float, float] | None
+    bounded: bool
+
+    #: As `ShiftFactors.law` calls it.
+    kind: ClassVar[str]
+    #: As it is called in a sentence.
+    title: ClassVar[str]
+    _constants: ClassVar[tuple[str, ...]]
+
+    def _set_fit(self, covariance: Any, fitted_range: Any, bounded: bool) -> None:
+        """Check and keep what is known of the fit; called by the constructors of subclasses."""
+        object.__setattr__(self, "covariance", _covariance(covariance, len(self.parameters)))
+        if fitted_range is not None:
+            low, high = (positive(end, "K", "fitted_range") for end in fitted_range)
+            if not low < high:
+                raise InputError(f"fitted_range = {low:g} to {high:g} K: the first must lie below the second.")
+            fitted_range = (low, high)
+        object.__setattr__(self, "fitted_range", fitted_range)
+        object.__setattr__(self, "bounded", bool(bounded))
+
+    # --- constants -------------------------------------------------------------------------------------------
+
+    @property
+    def parameters(self) -> Array:
+        """The constants that a fit adjusts, in SI units and in the order of `covariance`."""
+        return np.array([getattr(self, name) for name in self._constants], dtype=float)
+
+    def with_parameters(self, parameters: Any) -> Self:
+        """Return a law of this kind with other constants at the same reference, as if typed in (not fitted)."""
+        numbers = dict(zip(self._constants, (float(number) for number in parameters), strict=True))
+        return replace(self, **numbers, covariance=None, fitted_range=None)  # type: ignore[type-var]
+
+    @property
+    def standard_errors(self) -> tuple[float, ...] | None:
+        """Standard errors of the constants in the order of `parameters`, SI; None where the law was not fitted."""
+        if self.covariance is None:
+            return None
+        return tuple(float(error) for error in np.sqrt(np.diag(self.covariance)))
+
+    def at_reference(self, reference: Quantity) -> Self:
+        """Return the same law with α = 1 at another temperature."""
+        kelvin = positive(reference, "K", "reference")
+        self._refuse(np.array([kelvin]))
+        return replace(self, reference=kelvin)  # type: ignore[type-var]
+
+    # --- uncertainty -----------------------------------------------------------------------------------------
+
+    def gradient(self, temperature: Any) -> Array:
+        """Return the derivatives of log10 α(T) by the constants.
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        (..., n) array
+            In the shape of `temperature`, then one for each of `parameters`; zero at the reference.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it.
+        """
+        kelvin = in_kelvin(temperature)
+        self._refuse(np.atleast_1d(kelvin))
+        return self._gradient(kelvin)
+
+    def _gradient(self, kelvin: Array) -> Array:
+        raise NotImplementedError
+
+    def _standard_error(self, kelvin: Array) -> Array:
+        """Delta method: the gradient by the constants, through their covariance."""
+        if self.covariance is None:
+            raise InputError(
+                f"the constants of this {self.title} law were given without a covariance, so that its uncertainty is "
+                "not known; fit the law with shift_factors.law(…), or give covariance=."
+            )
+        return _spread(self._gradient(kelvin), self.covariance)
+
+    # --- extrapolation ---------------------------------------------------------------------------------------
+
+    @property
+    def _divergence(self) -> float:
+        """Temperature at which the law diverges and below which it has no meaning, K."""
+        return 0.0
+
+    @property
+    def extrapolation_limits(self) -> tuple[float, float]:
+        """Lowest and highest temperature at which the law answers, K.
+
+        A fitted law goes beyond the temperatures of its fit as far as it is known to half a decade (95 %,
+        relative to the nearest of them), but no more than 50 K above them and 20 K below, and not closer than
+        30 K to a pole.  A law that was typed in, or is `unbounded`, has its pole for its only limit.
+        """
+        return self._cold().limit, self._hot().limit
+
+    def unbounded(self) -> Self:
+        """Return the same law without limits of extrapolation (but its pole): for those who know it to hold."""
+        return replace(self, bounded=False)  # type: ignore[type-var]
+
+    def _cold(self) -> Reach:
+        if self.fitted_range is None or not self.bounded:
+            return Reach(self._divergence, "it diverges there")
+        low = self.fitted_range[0]
+        reach = self._known(low, -COLDEST_EXTRAPOLATION)
+        nearest = min(self._divergence + POLE_MARGIN, low)
+        if self._divergence > 0.0 and reach.limit < nearest:
+            pole = f"{celsius(self._divergence):z.1f} °C"
+            return Reach(nearest, f"within {POLE_MARGIN:g} K of its pole at {pole} the material is a glass")
+        return reach
+
+    def _hot(self) -> Reach:
+        if self.fitted_range is None or not self.bounded:
+            return Reach(math.inf, "")
+        return self._known(self.fitted_range[1], HOTTEST_EXTRAPOLATION)
+
+    def _known(self, end: float, farthest: float) -> Reach:
+        """Go from an end of the fit as far as the law is known to half a decade, and at most some kelvin."""
+        reach = Reach(end + farthest, f"it is trusted no more than {abs(farthest):g} K beyond its data")
+        if self.covariance is None:
+            return reach
+        steps = np.linspace(0.0, farthest, 101)
+        steps = steps[end + steps > self._divergence]
+        gradient = self._gradient(end + steps) - self._gradient(np.asarray(end))
+        doubt = LEVEL_95 * _spread(gradient, self.covariance)
+        beyond = np.flatnonzero(~(doubt <= LARGEST_UNCERTAINTY))
+        if not beyond.size:
+            return reach
+        first = int(beyond[0])  # at least 1: the uncertainty relative to the end itself is zero
+        limit = end + float(np.interp(LARGEST_UNCERTAINTY, doubt[first - 1 : first + 1], steps[first - 1 : first + 1]))
+        return Reach(limit, f"its 95 % uncertainty beyond its data grows to {LARGEST_UNCERTAINTY:g} decades there")
+
+    def _outside(self, kelvin: Array) -> NDArray[np.bool_]:
+        if self.fitted_range is None:
+            return super()._outside(kelvin)
+        low, high = self.fitted_range
+        outside: NDArray[np.bool_] = (kelvin < low * (1 - SAME_TEMPERATURE)) | (kelvin > high * (1 + SAME_TEMPERATURE))
+        return outside
+
+    def _refuse(self, kelvin: Array) -> None:
+        if np.any(kelvin <= self._divergence):
+            coldest = float(kelvin.min())
+            raise InputError(
+                f"temperature = {celsius(coldest):z.1f} °C: the {self.title} law diverges at "
+                f"{celsius(self._divergence):z.1f} °C and holds above it only{kelvin_hint(coldest)}."
+            )
+        if not self.bounded or self.fitted_range is None or not np.any(self._outside(kelvin)):
+            return
+        low, high = self.fitted_range
+        if float(kelvin.min()) < low * (1 - SAME_TEMPERATURE):
+            reach, asked = self._cold(), float(kelvin.min())
+            if asked < reach.limit * (1 - SAME_TEMPERATURE):
+                raise self._too_far(asked, low - asked, "below", "down", reach)
+        if float(kelvin.max()) > high * (1 + SAME_TEMPERATURE):
+            reach, asked = self._hot(), float(kelvin.max())
+            if asked > reach.limit * (1 + SAME_TEMPERATURE):
+                raise self._too_far(asked, asked - high, "above", "up", reach)
+
+    def _too_far(self, asked: float, gap: float, side: str, direction: str, reach: Reach) -> InputError:
+        low, high = self.fitted_range or (asked, asked)
+        return InputError(
+            f"temperature = {celsius(asked):z.1f} °C lies {gap:.3g} K {side} the {celsius(low):z.1f} to "
+            f"{celsius(high):z.1f} °C that this {self.title} law was fitted on, and it answers {direction} to "
+            f"{celsius(reach.limit):z.1f} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(asked)}."
+        )
+
+    def _remedy(self) -> str:
+        return "measure isotherms there, or lift the limit knowingly with law.unbounded() in Python"
+
+
+def _spread(gradient: Array, covariance: Array) -> Array:
+    variance = np.einsum("...i,ij,...j->...", gradient, covariance, gradient)
+    return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
+
+
+def _covariance(values: Any, size: int) -> Array | None:
+    if values is None:
+        return None
+    covariance = np.array(values, dtype=float)
+    if covariance.shape != (size, size) or not np.all(np.isfinite(covariance)):
+        raise InputError(f"covariance of a shift law must be {size} × {size} finite numbers.")
+    covariance.flags.writeable = False
+    return covariance

@@ -1,0 +1,72 @@
+"""A spectrum fitted anew to other draws of its master curve, by its own method and starting from it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology import regularised, sparse
+from viscofric.rheology.modulus_misfit import Modes, ModulusMisfit
+from viscofric.rheology.nonnegative import lattice, nonnegative_modes
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.rheology.spectrum import RetardationSpectrum
+
+    Array = NDArray[np.float64]
+
+#: Refits begin at the answer but for the noise, and need not find it closer than that noise.
+CONVERGED = 1e-3
+
+
+class Refit:
+    """Fits samples of a master curve the way that a spectrum was fitted, starting from it.
+
+    The lattice reaches over the frequencies of all samples, but no sample uses more than its own part of it.
+
+    Parameters
+    ----------
+    spectrum : RetardationSpectrum
+        From `fit_retardation_spectrum`.
+    lowest, highest : float
+        Ends of the angular frequencies of all samples, rad/s.
+
+    Raises
+    ------
+    InputError
+        If the spectrum was not fitted.
+    """
+
+    def __init__(self, spectrum: RetardationSpectrum, lowest: float, highest: float) -> None:
+        if spectrum.fit is None or not spectrum.fit.method:
+            raise InputError(
+                "spectrum: was not fitted to a master curve, so that it cannot be fitted to samples of one; "
+                "give what fit_retardation_spectrum returned."
+            )
+        self.strength = spectrum.fit.regularisation
+        self.on_lattice = spectrum.fit.tau_ratio is not None
+        self.start = Modes(1.0 / spectrum.E_inf, np.array(spectrum.C), np.array(spectrum.tau))
+        if spectrum.fit.tau_ratio is not None:
+            ends = ModulusMisfit(np.array([lowest, highest]), np.full(2, 1.0 + 1.0j))
+            tau = lattice(ends, spectrum.fit.tau_ratio)
+            C = np.zeros(len(tau))
+            C[np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).argmin(axis=1)] = self.start.C
+            self.start = Modes(self.start.glass, C, tau)
+
+    def __call__(self, misfit: ModulusMisfit) -> Modes:
+        """Fit; the modes are always as many, zeros included."""
+        if not self.on_lattice:
+            return sparse.moved_modes(misfit, self.start, tidy=False, converged=CONVERGED)
+        low, high = misfit.ends
+        inside = (np.log(self.start.tau) >= low) & (np.log(self.start.tau) <= high)
+        start = Modes(self.start.glass, self.start.C[inside], self.start.tau[inside])
+        if self.strength is not None:
+            found = regularised.smooth_modes(misfit, start.tau, self.strength, start)
+        else:
+            found = nonnegative_modes(misfit, start.tau, start, converged=CONVERGED)
+        C = np.zeros(len(self.start.tau))
+        C[inside] = found.C
+        return Modes(found.glass, C, self.start.tau)

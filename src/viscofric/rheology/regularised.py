@@ -1,0 +1,148 @@
+"""Smooth spectra: the curvature of ln C over ln τ is held down, as strongly as the measurement allows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.rheology.modulus_misfit import Modes, ModulusMisfit, descend
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+#: Strengths that are tried, from too strong to too weak; each fit starts from the one before.
+STRENGTHS = np.geomspace(1.0, 1e-5, 26)
+FOLDS = 5
+ITERATIONS = 60
+CONVERGED = 1e-5  # relative fall of the objective
+#: An evenly spread spectrum is a start that no strength is far from.
+FIRST_STRENGTH_ITERATIONS = 200
+
+
+def smooth_modes(misfit: ModulusMisfit, tau: Array, strength: float, start: Modes | None = None) -> Modes:
+    """Minimise the misfit plus the roughness of the spectrum, at given retardation times.
+
+    Parameters
+    ----------
+    misfit : ModulusMisfit
+        The measurement.
+    tau : (n,) array
+        In geometric progression, s.
+    strength : float
+        λ, above zero.
+    start : Modes, optional
+        At the same times, near the answer; modes without compliance begin with their neighbour's.
+
+    Notes
+    -----
+    With c = ln C, which keeps every C above zero, minimised is ⟨r²⟩ + λ² ∫ (d²c / d(ln τ)²)² d ln τ, where
+    ⟨r²⟩ is the mean square of the errors of ln E' and ln E''.  Neither the number of points nor the ratio of
+    the times changes what λ means.  A spectrum without roughness is a power law between sharp ends.
+    """
+    begin = _even(misfit, tau) if start is None else _continued(start)
+    iterations = FIRST_STRENGTH_ITERATIONS if start is None else ITERATIONS
+    relaxed = misfit.relaxed(tau)
+    points = len(misfit.target)
+    roughness = strength * _curvature(tau)
+    penalty = roughness.T @ roughness
+    floor = np.log(misfit.least_glass)
+
+    def compliances(point: Array) -> Array:
+        return np.asarray(np.exp(np.append(max(point[0], floor), point[1:])))
+
+    def residual(point: Array) -> Array:
+        values = compliances(point)
+        away = misfit.residual(values[0] + relaxed @ values[1:])
+        return np.concatenate([away / np.sqrt(points), -roughness @ point])
+
+    def normal(point: Array, now: Array) -> tuple[Array, Array]:
+        values = compliances(point)
+        modes = relaxed * values[1:]
+        change = np.concatenate([np.full((len(relaxed), 1), values[0], dtype=complex), modes], axis=1)
+        jacobian = misfit.jacobian(values[0] + modes.sum(axis=1), change) / np.sqrt(points)
+        return jacobian.T @ jacobian + penalty, jacobian.T @ now[:points] + roughness.T @ now[points:]
+
+    found = compliances(descend(residual, normal, begin, iterations=iterations, tolerance=CONVERGED))
+    return Modes(float(found[0]), found[1:], tau)
+
+
+def _curvature(tau: Array) -> Array:
+    """Return the matrix whose product with (ln glass, ln C) squares to ∫ (d² ln C / d(ln τ)²)² d ln τ."""
+    spacing = float(np.mean(np.diff(np.log(tau))))
+    second = np.diff(np.eye(len(tau)), 2, axis=0) / spacing**1.5
+    return np.concatenate([np.zeros((len(second), 1)), second], axis=1)
+
+
+def _even(misfit: ModulusMisfit, tau: Array) -> Array:
+    """Return logarithms of the compliances that are seen at each mode's own frequency."""
+    seen = np.interp(-np.log(tau), np.log(misfit.angular_frequency), np.log(np.abs(misfit.measured)))
+    spacing = min(1.0, float(np.mean(np.diff(np.log(tau)))))
+    return np.append(-np.log(misfit.measured.real.max()), np.log(0.3 * spacing) - seen)
+
+
+def _continued(start: Modes) -> Array:
+    known, times = start.C > 0.0, np.log(start.tau)
+    return np.append(np.log(start.glass), np.interp(times, times[known], np.log(start.C[known])))
+
+
+def path(misfit: ModulusMisfit, tau: Array) -> list[Modes]:
+    """Return the fits at all `STRENGTHS`."""
+    fits: list[Modes] = []
+    for strength in STRENGTHS:
+        fits.append(smooth_modes(misfit, tau, float(strength), fits[-1] if fits else None))
+    return fits
+
+
+def mean_square(misfit: ModulusMisfit, modes: Modes) -> float:
+    """Return the mean square of the errors of ln E' and ln E''."""
+    away = misfit.residual(misfit.columns(modes.tau) @ np.append(modes.glass, modes.C))
+    return float(np.mean(away**2))
+
+
+def corner(misfit: ModulusMisfit, fits: list[Modes]) -> int:
+    """Return the place of the L-curve's corner: where ln misfit over ln roughness is bent most.
+
+    References
+    ----------
+    P. C. Hansen, D. P. O'Leary, SIAM J. Sci. Comput. 14 (1993) 1487.
+    """
+    roughness = _curvature(fits[0].tau)[:, 1:]
+    across = np.log([mean_square(misfit, modes) for modes in fits])
+    up = np.log([float(np.sum((roughness @ np.log(modes.C)) ** 2)) + 1e-300 for modes in fits])
+    slope = np.gradient(across), np.gradient(up)
+    bend = slope[0] * np.gradient(slope[1]) - slope[1] * np.gradient(slope[0])
+    bend /= (slope[0] ** 2 + slope[1] ** 2) ** 1.5 + 1e-12
+    return 2 + int(np.argmin(bend[2:-2]))  # from less misfit to more roughness it turns clockwise
+
+
+def cross_validated(misfit: ModulusMisfit, tau: Array, isotherm: Array) -> int:
+    """Return the place of the strength that predicts isotherms best that had no part in the fit.
+
+    The isotherms are dealt out to `FOLDS` folds in turn; single points, if there are fewer isotherms.
+    Points of one isotherm err alike, so that leaving out single ones would choose too weak a strength.  Points
+    beyond the frequencies of those that remain do not count: there a fit extrapolates, whatever its strength.
+
+    Parameters
+    ----------
+    misfit : ModulusMisfit
+        The measurement.
+    tau : (n,) array
+        Retardation times, s.
+    isotherm : (N,) array
+        What tells the isotherms apart: the temperature of each point.
+    """
+    names, number = np.unique(isotherm, return_inverse=True)
+    fold = (number if len(names) >= FOLDS else np.arange(len(isotherm))) % FOLDS
+    error = np.zeros(len(STRENGTHS))
+    for left_out in range(FOLDS):
+        used = fold != left_out
+        ends = misfit.angular_frequency[used][[0, -1]]
+        held = ~used & (misfit.angular_frequency >= ends[0]) & (misfit.angular_frequency <= ends[1])
+        part = ModulusMisfit(misfit.angular_frequency[used], misfit.measured[used])
+        if held.any():
+            check = ModulusMisfit(misfit.angular_frequency[held], misfit.measured[held])
+            error += [held.sum() * mean_square(check, modes) for modes in path(part, tau)]
+    return int(np.argmin(error))

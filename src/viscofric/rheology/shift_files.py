@@ -1,0 +1,216 @@
+"""Shift factors in files: those that viscofric saves, tables of other programs, the shift list of an Eplexor workbook.
+
+The sign is that of E(ω, T) = E(α(T) ω, T0): α falls as the temperature rises, log10 α is above zero below T0.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_bytes
+from viscofric.readers.eplexor_master import SHIFT_LIST, ShiftList, shift_list
+from viscofric.readers.source import Source
+from viscofric.readers.workbook import is_workbook, sheets
+from viscofric.rheology.shift_factors import ShiftFactors
+from viscofric.rheology.shift_laws import WLF
+from viscofric.rheology.shift_table import ShiftTable, read_shift_table
+from viscofric.units import CELSIUS_ZERO, celsius, positive
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import NDArray
+
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+
+_TITLE = "viscofric shift factors"
+
+
+def read_shift_factors(
+    path: str | PathLike[str], reference: Quantity | None = None, *, inverse: bool = False
+) -> ShiftFactors:
+    """Read a table of shift factors.
+
+    Parameters
+    ----------
+    path : str or path
+        What `ShiftFactors.save` wrote; or a text table with a column of temperatures and one of ``log10 aT``,
+        ``ln aT`` or ``aT``, units in the headings (``T_C``, ``T [K]``) or in a row of their own; or a Netzsch
+        Eplexor workbook with a shift list.  Rows stand in any order.
+    reference : float or quantity, optional
+        Temperature where α shall be 1.  If not given, it is the one that a saved file states; else the temperature
+        of the row whose log10 α is zero, or where the table, interpolated as `ShiftFactors` does, passes zero.
+    inverse : bool
+        The table holds 1/α, or its logarithm, and rises with temperature.
+
+    Returns
+    -------
+    ShiftFactors
+        With the covariance, or the standard errors, that the file gives; without either the factors are taken as
+        exact.
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be read, holds no such table, or the table rises with temperature (without `inverse`) or
+        passes zero nowhere and no reference is given.
+    InputError
+        If `reference` is not a temperature, or lies outside the table.
+    """
+    source = Source(str(path), read_bytes(path))
+    found = _from_workbook(source) if is_workbook(source) else _from_text(source)
+    order = np.argsort(found.temperatures)
+    kelvin, values = found.temperatures[order], found.log10_values[order]
+    spread = None if found.covariance is None else found.covariance[np.ix_(order, order)]
+    if kelvin.size < 2 or np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
+        problem = "shift factors need at least two temperatures, none twice, all above absolute zero."
+        raise DataFileError(source.path, problem)
+    values = _falling(source.path, kelvin, values, inverse)
+    notes = found.notes
+    if spread is None:
+        notes += ("The file of shift factors gives no uncertainty; the factors are taken as exact.",)
+    stated = found.reference
+    wanted = None if reference is None else positive(reference, "K", "reference")
+    if stated is None:
+        stated = _zero(source.path, kelvin, values, wanted)
+        if wanted is None and stated not in kelvin:
+            notes += (f"α is taken as 1 at {celsius(stated):z.2f} °C, where the table of shift factors passes zero.",)
+    try:
+        factors = ShiftFactors(kelvin, values, stated, spread, notes)
+    except InputError as error:
+        raise DataFileError(source.path, f"the reference does not fit the table: {error}") from None
+    return factors if wanted is None else factors.at_reference(wanted)
+
+
+def read_vendor_law(path: str | PathLike[str]) -> WLF:
+    """Return the WLF law that the Eplexor software fitted to the shift list of a workbook.
+
+    Parameters
+    ----------
+    path : str or path
+        A Netzsch Eplexor workbook that holds a master curve.
+
+    Returns
+    -------
+    WLF
+        About the reference temperature that the list states.
+
+    Raises
+    ------
+    DataFileError
+        If the file is no such workbook, or its list states no constants or no reference.
+    """
+    source = Source(str(path), read_bytes(path))
+    found = _eplexor_list(source) if is_workbook(source) else None
+    if found is None or found.wlf is None or found.reference is None:
+        problem = f"is no Eplexor workbook whose sheet {SHIFT_LIST!r} states a reference temperature, C1 and C2."
+        raise DataFileError(source.path, problem)
+    try:
+        return WLF(*found.wlf, found.reference)
+    except InputError as error:
+        raise DataFileError(source.path, f"the constants in sheet {SHIFT_LIST!r} are no WLF law: {error}") from None
+
+
+def write_shift_factors(factors: ShiftFactors, path: str | PathLike[str]) -> None:
+    """Write shift factors so that `read_shift_factors` returns the same ones, covariance included.
+
+    Parameters
+    ----------
+    factors : ShiftFactors
+        What to write.
+    path : str or path
+        Text table, UTF-8; a file that is there is overwritten.
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be written.
+    """
+    text = io.StringIO()
+    text.write(f"# {_TITLE}\n# reference (degC): {_in_celsius(factors.reference)}\n")
+    text.writelines(f"# note: {' '.join(note.split())}\n" for note in factors.notes)
+    table = csv.writer(text, lineterminator="\n")
+    size = factors.temperatures.size
+    numbered = [f"cov {place}" for place in range(1, size + 1)]
+    table.writerow(["temperature (degC)", "log10 shift factor", "standard error", *numbered])
+    columns = (factors.temperatures, factors.log10_values, factors.standard_errors, factors.covariance)
+    for kelvin, value, error, covariance in zip(*columns, strict=True):
+        table.writerow([_in_celsius(kelvin), *(repr(float(number)) for number in (value, error, *covariance))])
+    try:
+        Path(path).write_text(text.getvalue(), encoding="utf-8")
+    except (OSError, ValueError) as error:
+        raise DataFileError(path, f"cannot be written ({getattr(error, 'strerror', None) or error}).") from None
+
+
+def _in_celsius(kelvin: float) -> str:
+    # The difference and its way back are exact between half and double of 273.15 (Sterbenz).
+    return repr(float(kelvin) - CELSIUS_ZERO)
+
+
+def _eplexor_list(source: Source) -> ShiftList | None:
+    return shift_list(sheets(source), source.path)
+
+
+def _from_workbook(source: Source) -> ShiftTable:
+    found = _eplexor_list(source)
+    if found is None:
+        problem = f"is a workbook without a sheet {SHIFT_LIST!r}; save its table of shift factors as CSV."
+        raise DataFileError(source.path, problem)
+    # The stated reference is the programmed temperature; α is 1 at the measured one.
+    measured = found.measured_reference
+    return ShiftTable(found.temperatures, found.log10_shifts, found.reference if measured is None else measured)
+
+
+def _from_text(source: Source) -> ShiftTable:
+    if source.text is None:
+        raise DataFileError(source.path, "is a binary file; a table of shift factors is text, or an Eplexor workbook.")
+    return read_shift_table(source.text, source.path)
+
+
+def _falling(path: str, kelvin: Array, values: Array, inverse: bool) -> Array:
+    """Return log10 α that falls as the temperature rises, or refuse."""
+    values = -values if inverse else values
+    if np.polyfit(kelvin - kelvin.mean(), values, 1)[0] > 0.0:
+        if inverse:
+            raise DataFileError(
+                path, "the shift factors fall as the temperature rises already; leave out inverse=True."
+            )
+        raise DataFileError(
+            path,
+            "the shift factors rise with temperature, but α must fall, E(ω, T) = E(α(T) ω, T0); flip the sign of the "
+            "logarithm, or give inverse=True.",
+        )
+    return values
+
+
+def _zero(path: str, kelvin: Array, values: Array, wanted: float | None) -> float:
+    """Return the temperature where the table is zero; without one, the wanted reference."""
+    exact = np.flatnonzero(values == 0.0)
+    if exact.size == 1:
+        return float(kelvin[exact[0]])
+    signs = np.sign(values)
+    between = np.flatnonzero(signs[:-1] * signs[1:] < 0.0)
+    if exact.size == 0 and between.size == 1:
+        return _crossing(kelvin, values, int(between[0]))
+    if wanted is not None:
+        return wanted
+    span = f"{celsius(kelvin[0]):z.1f} and {celsius(kelvin[-1]):z.1f} °C"
+    how_often = "nowhere" if exact.size + between.size == 0 else "at more than one temperature"
+    raise DataFileError(path, f"log10 aT is zero {how_often} between {span}; say with reference= where α is 1.")
+
+
+def _crossing(kelvin: Array, values: Array, place: int) -> float:
+    from scipy.optimize import brentq
+
+    # The table's own interpolation, so that its values stay where they are.
+    about_first = ShiftFactors(kelvin, values, float(kelvin[0]))
+    root = brentq(lambda T: about_first.log10(T) + values[0], kelvin[place], kelvin[place + 1], xtol=1e-12)
+    return float(root)

@@ -1,0 +1,151 @@
+"""What every shift law is: α(T), 1 at a reference, asked with units and checked."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, overload
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.units import to_si
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+    #: One temperature, or many: plain numbers in kelvin, or text with a unit.
+    Temperatures: TypeAlias = "Array | list[float] | list[str] | tuple[float, ...] | tuple[str, ...]"
+
+GAS_CONSTANT = 8.31446261815324  # J/(mol K)
+LN10 = math.log(10.0)
+
+
+class ShiftLaw(ABC):
+    """Shift factor α(T), 1 at the reference, such that E(ω, T) = E(α(T) ω, reference); it falls as T rises.
+
+    Subclasses say what log10 α is; units, shapes and checks are dealt with here.
+    """
+
+    reference: float  # K
+
+    @abstractmethod
+    def _log10(self, kelvin: Array) -> Array:
+        """Return log10 α at temperatures that `_refuse` let pass."""
+
+    def _refuse(self, kelvin: Array) -> None:  # noqa: B027 (some laws hold everywhere)
+        """Raise `InputError` where the law has no meaning, or may not be asked."""
+
+    @abstractmethod
+    def at_reference(self, reference: Quantity) -> Self:
+        """Return the same law with α = 1 at another temperature."""
+
+    @abstractmethod
+    def _standard_error(self, kelvin: Array) -> Array:
+        """Return the standard error of log10 α at temperatures that `_refuse` let pass."""
+
+    @overload
+    def log10(self, temperature: Quantity) -> float: ...
+    @overload
+    def log10(self, temperature: Temperatures) -> Array: ...
+    def log10(self, temperature: Any) -> Any:
+        """Return log10 α(T).
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        float or array
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            If a temperature is not above absolute zero, one where the law has no meaning, or one too far from
+            those that it was fitted on.
+        """
+        kelvin = in_kelvin(temperature)
+        self._refuse(np.atleast_1d(kelvin))
+        return _in_shape(self._log10(kelvin))
+
+    @overload
+    def __call__(self, temperature: Quantity) -> float: ...
+    @overload
+    def __call__(self, temperature: Temperatures) -> Array: ...
+    def __call__(self, temperature: Any) -> Any:
+        """Return α(T); see `log10`."""
+        return 10.0 ** self.log10(temperature)
+
+    @overload
+    def standard_error(self, temperature: Quantity) -> float: ...
+    @overload
+    def standard_error(self, temperature: Temperatures) -> Array: ...
+    def standard_error(self, temperature: Any) -> Any:
+        """Return the standard error of log10 α(T), decades; zero at the reference.
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        float or array
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it, or if the law's constants were given without a covariance.
+        """
+        kelvin = in_kelvin(temperature)
+        self._refuse(np.atleast_1d(kelvin))
+        return _in_shape(self._standard_error(kelvin))
+
+    @overload
+    def extrapolates(self, temperature: Quantity) -> bool: ...
+    @overload
+    def extrapolates(self, temperature: Temperatures) -> NDArray[np.bool_]: ...
+    def extrapolates(self, temperature: Any) -> Any:
+        """Say whether the law rests on extrapolation at a temperature.
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        bool or array of bool
+            In the shape of `temperature`; True outside the temperatures that the law was fitted on.  A law that
+            was not fitted, or one that answers at measured temperatures only, extrapolates nowhere.
+        """
+        outside = self._outside(in_kelvin(temperature))
+        return bool(outside) if np.ndim(outside) == 0 else outside
+
+    def _outside(self, kelvin: Array) -> NDArray[np.bool_]:
+        return np.zeros(np.shape(kelvin), dtype=bool)
+
+
+def _in_shape(values: Array) -> Any:
+    return float(values) if np.ndim(values) == 0 else values
+
+
+def in_kelvin(temperature: Any) -> Array:
+    """Return one temperature, or many in their shape, as an array in K; refuse those not above absolute zero."""
+    if isinstance(temperature, np.ndarray) and temperature.dtype.kind == "f" and np.all(np.isfinite(temperature)):
+        kelvin = temperature.astype(float)
+    elif isinstance(temperature, (list, tuple)) or (isinstance(temperature, np.ndarray) and temperature.ndim):
+        kelvin = np.array([to_si(value, "K", "temperature") for value in np.ravel(np.asarray(temperature))])
+        kelvin = kelvin.reshape(np.shape(temperature))
+    else:
+        kelvin = np.asarray(to_si(temperature, "K", "temperature"))
+    if np.any(kelvin <= 0.0):
+        raise InputError(f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.")
+    return kelvin

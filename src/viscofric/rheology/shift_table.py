@@ -1,0 +1,212 @@
+"""Text tables of shift factors as other programs write them: one column of temperatures, one of log10 aT or aT."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.units import CELSIUS_ZERO
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+#: Heading without blanks and marks -> what one unit of the column is in log10 α; None for α itself.
+_SHIFTS: dict[str, float | None] = {
+    **{log + name: 1.0 for log in ("log", "log10", "lg") for name in ("at", "alpha", "alphat", "shiftfactor", "shift")},
+    **{"ln" + name: 1.0 / math.log(10.0) for name in ("at", "alpha", "alphat", "shiftfactor")},
+    **dict.fromkeys(("at", "alpha", "alphat", "α", "shiftfactor"), None),
+}
+_LOGARITHMS = ("log", "log10", "lg", "ln")
+_TEMPERATURES = ("t", "temp", "temperature")
+_UNITS = {"c": (1.0, CELSIUS_ZERO), "k": (1.0, 0.0), "f": (5.0 / 9.0, CELSIUS_ZERO - 160.0 / 9.0)}
+#: Beyond this neither α nor 1/α is a number that a computer holds.
+_LARGEST_LOGARITHM = 300.0
+
+_REFERENCE = re.compile(r"reference\s*\((?P<unit>[^)]*)\)\s*:\s*(?P<number>[-+0-9.eE]+)\s*$")
+_NOTE = re.compile(r"#\s*note:\s*(?P<text>.*)")
+# "T_C", "temperature (degC)", "T [°C]", "log_aT (-)"
+_HEADING = re.compile(r"(?P<name>.*?)\s*(?:[(\[]\s*(?P<unit>[^()\[\]]*)\s*[)\]]|_(?P<letter>[CKF]))?")
+_COVARIANCE = re.compile(r"cov\s*(\d+)")
+
+
+@dataclass(frozen=True, eq=False)
+class ShiftTable:
+    """What a file holds, in the order of its rows.
+
+    Parameters
+    ----------
+    temperatures : (n,) array
+        K.
+    log10_values : (n,) array
+        log10 α, or log10 of 1/α where the file holds that.
+    reference : float or None
+        Where α is 1, if the file states it, K.
+    covariance : (n, n) array or None
+        Of `log10_values`, if the file states it.
+    notes : tuple of str
+        Saved with the factors.
+    """
+
+    temperatures: Array
+    log10_values: Array
+    reference: float | None = None
+    covariance: Array | None = None
+    notes: tuple[str, ...] = ()
+
+
+@dataclass
+class _Lines:
+    """The lines of a text table: headings, an optional row of units, rows of cells, comments."""
+
+    headings: list[str] = field(default_factory=list)
+    units: list[str] = field(default_factory=list)
+    rows: list[tuple[int, list[str]]] = field(default_factory=list)
+    reference: float | None = None
+    notes: list[str] = field(default_factory=list)
+
+
+def read_shift_table(text: str, path: str) -> ShiftTable:
+    """Read a text table.
+
+    Parameters
+    ----------
+    text : str
+        What the file holds.
+    path : str
+        The file, for error messages.
+
+    Raises
+    ------
+    DataFileError
+        If there is no such table, or a cell is not a finite number.
+    """
+    lines = _lines(text, path)
+    names, units = zip(*(_name_and_unit(heading) for heading in lines.headings), strict=True)
+    if lines.units:
+        units = tuple(below.strip(" ()[]") or beside for below, beside in zip(lines.units, units, strict=True))
+    at = [place for place, name in enumerate(names) if name in _TEMPERATURES]
+    of = [place for place, name in enumerate(names) if name in _SHIFTS]
+    if len(at) != 1 or len(of) != 1:
+        raise DataFileError(
+            path,
+            "a table of shift factors has one column of temperatures, such as 'T_C', and one of 'log10 aT' or 'aT'; "
+            f"this one has {', '.join(repr(heading) for heading in lines.headings)}.",
+        )
+    cells = _Cells(path, lines)
+    factor, offset = _temperature_unit(path, units[at[0]])
+    values = cells.column(of[0])
+    scale = _SHIFTS[names[of[0]]]
+    if scale is None:
+        if np.any(values <= 0.0):
+            problem = "a shift factor aT must be above zero; name the column 'log10 aT' if it holds logarithms."
+            raise DataFileError(path, problem, lines.rows[int(np.argmax(values <= 0.0))][0])
+        values, scale = np.log10(values), 1.0
+    if np.any(np.abs(values) > _LARGEST_LOGARITHM):
+        row = lines.rows[int(np.argmax(np.abs(values) > _LARGEST_LOGARITHM))][0]
+        raise DataFileError(path, "a logarithm of a shift factor beyond 300 is none of a material.", row)
+    kelvin = factor * cells.column(at[0]) + offset
+    return ShiftTable(kelvin, scale * values, lines.reference, _covariance(names, cells), tuple(lines.notes))
+
+
+def _lines(text: str, path: str) -> _Lines:
+    lines, mark = _Lines(), ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.lstrip().startswith("#"):
+            _comment(lines, line, path, number)
+            continue
+        if not line.strip():
+            continue
+        mark = mark or max("\t;,", key=line.count)
+        cells = [cell.strip() for cell in line.split(mark)]
+        if not lines.headings:
+            lines.headings = [cell.strip('"') for cell in cells]
+            continue
+        while len(cells) > len(lines.headings) and not cells[-1]:
+            cells.pop()
+        if len(cells) != len(lines.headings):
+            problem = f"the row has {len(cells)} cells where the header names {len(lines.headings)} columns."
+            raise DataFileError(path, problem, number)
+        if not lines.rows and not lines.units and not any(any(sign.isdigit() for sign in cell) for cell in cells):
+            lines.units = cells
+        else:
+            lines.rows.append((number, cells))
+    if not lines.rows:
+        raise DataFileError(path, "holds no table: headings and rows of numbers are wanted.")
+    return lines
+
+
+def _comment(lines: _Lines, line: str, path: str, number: int) -> None:
+    """Take what saved files say in comments; those of other programs are passed over."""
+    if (note := _NOTE.fullmatch(line.strip())) is not None:
+        lines.notes.append(note["text"])
+    elif (stated := _REFERENCE.search(line)) is not None:
+        lines.reference = _stated(path, stated, number)
+
+
+def _stated(path: str, match: re.Match[str], number: int) -> float:
+    factor, offset = _temperature_unit(path, match["unit"])
+    try:
+        value = float(match["number"])
+    except ValueError:
+        raise DataFileError(path, f"{match['number']!r} is no temperature.", number) from None
+    return factor * value + offset
+
+
+def _name_and_unit(heading: str) -> tuple[str, str]:
+    match = _HEADING.fullmatch(heading.strip())
+    name, unit = (heading, "") if match is None else (match["name"], match["unit"] or match["letter"] or "")
+    covariance = _COVARIANCE.fullmatch(name.lower())
+    plain = re.sub(r"[\s_().·-]", "", name.lower())
+    if unit.lower() == "t" or plain in _LOGARITHMS:  # "log a(T)", "log10(aT)": no unit in brackets
+        return plain + re.sub(r"[\s_]", "", unit.lower()), ""
+    return (f"cov {int(covariance[1])}" if covariance else plain), unit
+
+
+def _temperature_unit(path: str, unit: str) -> tuple[float, float]:
+    plain = re.sub(r"[°\s]|deg|℃", lambda one: "c" if one.group() == "℃" else "", unit.strip()).lower()
+    plain = {"celsius": "c", "kelvin": "k"}.get(plain, plain)
+    if plain not in _UNITS:
+        shown = f"the unit {unit!r}" if unit else "no unit"
+        raise DataFileError(path, f"the temperatures have {shown}; write 'T_C' or 'T (K)' above them, or C below T.")
+    return _UNITS[plain]
+
+
+@dataclass
+class _Cells:
+    """The numbers of a table."""
+
+    path: str
+    lines: _Lines
+
+    def column(self, place: int) -> Array:
+        return np.array([self._number(row[place], line, self.lines.headings[place]) for line, row in self.lines.rows])
+
+    def _number(self, cell: str, line: int, heading: str) -> float:
+        try:
+            value = float(cell.replace(",", "."))
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value) or "_" in cell:
+            raise DataFileError(self.path, f"{cell!r} in column {heading!r} is not a finite number.", line)
+        return value
+
+
+def _covariance(names: tuple[str, ...], cells: _Cells) -> Array | None:
+    """Return the covariance that the table states, in full or by standard errors, or None."""
+    size = len(cells.lines.rows)
+    numbered = [name for name in names if name.startswith("cov ")]
+    if numbered:
+        if set(numbered) != {f"cov {place}" for place in range(1, size + 1)} or len(numbered) != size:
+            problem = f"the covariance must have the columns cov 1 to cov {size}, one for each row."
+            raise DataFileError(cells.path, problem)
+        return np.column_stack([cells.column(names.index(f"cov {place}")) for place in range(1, size + 1)])
+    if "standarderror" in names:
+        return np.diag(cells.column(names.index("standarderror")) ** 2)
+    return None

@@ -1,0 +1,124 @@
+"""Spectra of few modes: retardation times are free, and there are no more of them than an error asks for."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.rheology.modulus_misfit import Modes, descend
+from viscofric.rheology.nonnegative import nonnegative_modes
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.rheology.modulus_misfit import ModulusMisfit
+
+    Array = NDArray[np.float64]
+
+ITERATIONS = 40
+CONVERGED = 1e-4  # relative fall of the sum of squares
+#: A mode that holds less than this part of the compliance at its own frequency is none.
+NEGLIGIBLE = 1e-6
+#: The search for the fewest modes strides by this part of their number.
+STRIDES = 5
+#: Modes whose times are closer than this are one.
+SAME = 1e-3  # of ln τ
+
+
+def joint_error(misfit: ModulusMisfit, modes: Modes) -> float:
+    """Return √((rms E'² + rms E''²)/2) of the errors of log10 E' and log10 E'', decades."""
+    away = misfit.residual(misfit.columns(modes.tau) @ np.append(modes.glass, modes.C))
+    return float(np.sqrt(np.mean(away**2))) / math.log(10.0)
+
+
+def few_modes(misfit: ModulusMisfit, number: int) -> Modes:
+    """Fit a number of modes whose retardation times are free.
+
+    They begin evenly spread over the measured frequencies, and never leave them by more than the factor that
+    `ModulusMisfit.ends` allows.
+    """
+    low, high = -math.log(misfit.angular_frequency[-1]), -math.log(misfit.angular_frequency[0])
+    ends = np.linspace(low, high, number + 1)
+    start = nonnegative_modes(misfit, np.exp(0.5 * (ends[1:] + ends[:-1])))
+    return moved_modes(misfit, start)
+
+
+def moved_modes(misfit: ModulusMisfit, start: Modes, *, tidy: bool = True, converged: float = CONVERGED) -> Modes:
+    """Refine the compliances and the retardation times of modes near the answer.
+
+    Parameters
+    ----------
+    misfit : ModulusMisfit
+        The measurement.
+    start : Modes
+        Where to begin; a mode of no compliance begins with a hundredth of what would be seen.
+    tidy : bool
+        Whether to sort the modes, join those of one time and leave out those that have vanished.
+    converged : float
+        Relative fall of the sum of squares at which to stop.
+    """
+    number = len(start.tau)
+    low, high = misfit.ends
+    floor = 1e-2 / np.abs(np.interp(-np.log(start.tau), np.log(misfit.angular_frequency), np.abs(misfit.measured)))
+    begin = np.concatenate(
+        [[math.log(start.glass)], np.log(np.maximum(start.C, floor)), np.clip(np.log(start.tau), low, high)]
+    )
+
+    def unpacked(point: Array) -> tuple[float, Array, Array]:
+        glass = max(math.exp(point[0]), misfit.least_glass)
+        return glass, np.exp(point[1 : number + 1]), np.exp(np.clip(point[number + 1 :], low, high))
+
+    def residual(point: Array) -> Array:
+        glass, C, tau = unpacked(point)
+        return misfit.residual(glass + misfit.relaxed(tau) @ C)
+
+    def normal(point: Array, now: Array) -> tuple[Array, Array]:
+        glass, C, tau = unpacked(point)
+        relaxed = misfit.relaxed(tau)
+        modes = relaxed * C
+        change = np.concatenate([np.full((len(relaxed), 1), glass, dtype=complex), modes, modes * (relaxed - 1.0)], 1)
+        jacobian = misfit.jacobian(glass + modes.sum(axis=1), change)
+        return jacobian.T @ jacobian, jacobian.T @ now
+
+    found = Modes(*unpacked(descend(residual, normal, begin, iterations=ITERATIONS, tolerance=converged)))
+    return _tidied(misfit, found) if tidy else found
+
+
+def _tidied(misfit: ModulusMisfit, modes: Modes) -> Modes:
+    """Sort modes, join those of one time, and leave out those without compliance."""
+    order = np.argsort(modes.tau, kind="stable")
+    C, tau = modes.C[order], modes.tau[order]
+    groups = np.concatenate([[0], np.cumsum(np.diff(np.log(tau)) > SAME)])
+    joined = np.asarray(np.bincount(groups, weights=C), dtype=float)
+    tau = np.exp(np.bincount(groups, weights=C * np.log(tau)) / joined)
+    measured = np.interp(-np.log(tau), np.log(misfit.angular_frequency), np.abs(misfit.measured))
+    keep = joined * measured > NEGLIGIBLE
+    return Modes(modes.glass, joined[keep], tau[keep])
+
+
+def fewest_modes(misfit: ModulusMisfit, largest_error: float, most: int) -> Modes:
+    """Return the fit of fewest modes whose joint error is not above a given one, or of `most` modes if none is.
+
+    The error falls with the number of modes.  The search begins at one mode in a decade, where it falls most
+    steeply, strides up or down to numbers that enclose the answer, and halves the distance between them.
+    """
+    fits: dict[int, Modes] = {}
+
+    def meets(number: int) -> bool:
+        fits[number] = few_modes(misfit, number)
+        return joint_error(misfit, fits[number]) <= largest_error
+
+    decades = math.log10(misfit.angular_frequency[-1] / misfit.angular_frequency[0])
+    number = min(max(round(decades), 1), most)
+    stride = max(1, number // STRIDES)
+    low, high = 0, most + 1  # too few, and enough
+    while high - low > 1:
+        if meets(number):
+            high = number
+            number = max(high - stride, (low + high) // 2)
+        else:
+            low = number
+            number = min(low + stride, (low + high) // 2)
+    return fits[min(high, most)]

@@ -1,0 +1,142 @@
+"""How far apart neighbouring isotherms run where the shift along the frequency plays no part.
+
+Plotted as tan δ against |E*| (J. Booij, G. Thoone, Rheol. Acta 21 (1982) 15; M. van Gurp, J. Palmen, Rheol.
+Bull. 67 (1998) 5, with δ instead), isotherms that superpose lie on one curve, whatever their shift factors are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.data import Isotherm
+
+    Array = NDArray[np.float64]
+
+#: An isotherm of two or three decades has this much curvature, if it has points enough to tell it from noise.
+_DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)
+#: Segments of the curve that distances are taken to; their length leaves an error below 1e-4 decades.
+_SEGMENTS = 40
+
+
+@dataclass(frozen=True)
+class NeighbourDistance:
+    """How far two neighbouring isotherms lie apart in log tan δ against log |E*|.
+
+    Parameters
+    ----------
+    colder, warmer : float
+        Their temperatures, K.
+    distance : float
+        Mean distance at right angles to the curve, decades; above zero where the colder one has the greater
+        tan δ.
+    standard_error : float
+        Of the distance, from the scatter of each isotherm about its own smooth curve; decades.
+    points : int
+        Measured points of both isotherms that face the other's curve.
+    """
+
+    colder: float
+    warmer: float
+    distance: float
+    standard_error: float
+    points: int
+
+
+@dataclass(frozen=True, eq=False)
+class _Curve:
+    """One isotherm as a smooth curve (log |E*|, log tan δ) of a parameter from −1 to 1."""
+
+    temperature: float
+    basis: Array  # (n, m)
+    coefficients: Array  # (m, 2)
+    inverse: Array  # (m, m)
+    scatter: Array  # (2,)
+
+    @classmethod
+    def of(cls, isotherm: Isotherm, log10_b: float) -> _Curve:
+        decades = np.log10(isotherm.angular_frequency)
+        parameter = 2.0 * (decades - decades[0]) / np.ptp(decades) - 1.0
+        count = len(decades)
+        degree = next(degree for points, degree in _DEGREE if count >= points)
+        basis = np.polynomial.legendre.legvander(parameter, degree)
+        size = np.log10(np.hypot(isotherm.storage_modulus, isotherm.loss_modulus)) - log10_b
+        points = np.stack([size, np.log10(isotherm.loss_modulus / isotherm.storage_modulus)], axis=1)
+        inverse = np.linalg.inv(basis.T @ basis)
+        coefficients = inverse @ (basis.T @ points)
+        freedom = max(count - degree - 1, 1)
+        scatter = np.sqrt(np.sum((points - basis @ coefficients) ** 2, axis=0) / freedom)
+        return cls(isotherm.temperature, basis, coefficients, inverse, scatter)
+
+    def rows(self, parameter: Array) -> Array:
+        """Return the basis at other parameters."""
+        return np.asarray(np.polynomial.legendre.legvander(parameter, self.basis.shape[1] - 1))
+
+    def variance(self, normals: Array, rows: Array) -> float:
+        """Return the variance of the mean of the curve's components along normals (k, 2) at basis rows (k, m)."""
+        weights = (normals[:, :, None] * rows[:, None, :]).mean(axis=0)
+        return float(np.einsum("c,ci,ij,cj->", self.scatter**2, weights, self.inverse, weights))
+
+
+def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[NeighbourDistance, ...]:
+    """Compare every isotherm with its next warmer neighbour.
+
+    Parameters
+    ----------
+    isotherms : sequence of Isotherm
+        Ascending in temperature, each with at least two points.
+    log10_b : (n,) array
+        Vertical shift of each, which its moduli are divided by.
+
+    Returns
+    -------
+    tuple of NeighbourDistance
+        Of those that come to lie beside each other; others tell nothing.
+    """
+    curves = [_Curve.of(isotherm, float(b)) for isotherm, b in zip(isotherms, log10_b, strict=True)]
+    found = []
+    for colder, warmer in pairwise(curves):
+        forth, back = _distances(colder, warmer), _distances(warmer, colder)
+        both = [(forth[0], forth[1]), (-back[0], back[1])]
+        seen = [one for one, points in zip(both, (forth[2], back[2]), strict=True) if points]
+        if seen:
+            distance, error = np.mean(seen, axis=0)  # of the same noise: the two errors do not average out
+            points = forth[2] + back[2]
+            found.append(
+                NeighbourDistance(colder.temperature, warmer.temperature, float(distance), float(error), points)
+            )
+    return tuple(found)
+
+
+def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:
+    """Return the mean distance of one smoothed isotherm from the other, its standard error, and how many points."""
+    knots = np.linspace(-1.0, 1.0, _SEGMENTS + 1)
+    line = other.rows(knots) @ other.coefficients
+    points = one.basis @ one.coefficients
+    along = np.diff(line, axis=0)
+    length = np.sum(along**2, axis=1) + 1e-300
+    away = points[:, None, :] - line[None, :-1, :]
+    place = np.sum(away * along, axis=2) / length
+    offset = away - np.clip(place, 0.0, 1.0)[..., None] * along
+    nearest = np.argmin(np.sum(offset**2, axis=2), axis=1)
+    each = np.arange(len(points))
+    place = place[each, nearest]
+    # A foot beyond an end of the other curve: there is nothing to compare with.
+    beside = ~(((nearest == 0) & (place < 0.0)) | ((nearest == _SEGMENTS - 1) & (place > 1.0)))
+    if np.count_nonzero(beside) < 2:
+        return 0.0, 0.0, 0
+    tangent = along[nearest] / np.sqrt(length[nearest])[:, None]
+    normals = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
+    normals = (normals * np.where(normals[:, 1:] < 0.0, -1.0, 1.0))[beside]
+    distance = float(np.mean(np.sum(offset[each, nearest][beside] * normals, axis=1)))
+    feet = other.rows((knots[nearest] + place * (knots[1] - knots[0]))[beside])
+    variance = one.variance(normals, one.basis[beside]) + other.variance(normals, feet)
+    return distance, float(np.sqrt(variance)), int(np.count_nonzero(beside))

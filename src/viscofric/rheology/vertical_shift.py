@@ -1,0 +1,189 @@
+"""Vertical shifts b(T): how temperature changes the modulus itself, beside the time scale."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.units import Quantities, Quantity
+
+    Array = NDArray[np.float64]
+
+#: Volume expansivity of a pure-gum vulcanizate of natural rubber at 25 °C, 1/K.
+NATURAL_RUBBER_EXPANSION = 6.6e-4
+#: Two temperatures closer than this are the same one, to rounding of °C.
+_SAME_TEMPERATURE = 1e-9  # relative
+
+
+class VerticalShift(ABC):
+    """Vertical shift b(T), 1 at the reference, such that E(ω, T) = b(T) E(α(T) ω, reference).
+
+    Subclasses say what log10 b is; units, shapes and checks are dealt with here.
+    """
+
+    reference: float  # K
+
+    @abstractmethod
+    def _log10(self, kelvin: Array) -> Array:
+        """Return log10 b at temperatures that `_refuse` let pass."""
+
+    def _refuse(self, kelvin: Array) -> None:  # noqa: B027 (the density law holds everywhere)
+        """Raise `InputError` where the shift is not known."""
+
+    @abstractmethod
+    def at_reference(self, reference: Quantity) -> Self:
+        """Return the same shift with b = 1 at another temperature."""
+
+    def log10(self, temperature: Quantities) -> Any:
+        """Return log10 b(T).
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        float or array
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            If a temperature is not above absolute zero, or one where the shift is not known.
+        """
+        kelvin = to_si_array(temperature, "K", "temperature")
+        if np.any(kelvin <= 0.0):
+            raise InputError(f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.")
+        self._refuse(kelvin)
+        values = self._log10(kelvin)
+        single = isinstance(temperature, str) or np.ndim(getattr(temperature, "magnitude", temperature)) == 0
+        return float(values[0]) if single else values
+
+    def __call__(self, temperature: Quantities) -> Any:
+        """Return b(T); see `log10`."""
+        return 10.0 ** self.log10(temperature)
+
+
+@dataclass(frozen=True)
+class DensityShift(VerticalShift):
+    """The vertical shift of rubber elasticity, b = ρT/(ρ0 T0), with ρ/ρ0 = exp(−β(T − T0)).
+
+    The modulus of a rubber network is proportional to its density and to absolute temperature (J. D. Ferry,
+    Viscoelastic Properties of Polymers, 3rd ed., Wiley 1980, ch. 11).  In the glass it is not; there this
+    shift is a convention.
+
+    Parameters
+    ----------
+    reference : float or quantity
+        T0, where b = 1; K, or text such as ``"30 degC"``.
+    expansion : float
+        Volume expansivity β, not below zero, 1/K.  The default is that of unfilled natural rubber; 0 leaves
+        b = T/T0.
+
+    References
+    ----------
+    L. A. Wood, Rubber Chem. Technol. 49 (1976) 189 (the expansivity, 660e-6 1/K).
+    """
+
+    reference: float
+    expansion: float = NATURAL_RUBBER_EXPANSION
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
+        expansion = to_si(self.expansion, "1/K", "expansion")
+        if expansion < 0.0:
+            raise InputError(f"expansion = {self.expansion!r}: must not be below zero (1/K); 0 leaves b = T/T0.")
+        object.__setattr__(self, "expansion", expansion)
+
+    def _log10(self, kelvin: Array) -> Array:
+        warmer = kelvin - self.reference
+        return np.asarray(np.log10(kelvin / self.reference) - self.expansion * warmer / math.log(10.0))
+
+    def at_reference(self, reference: Quantity) -> DensityShift:
+        """Return the same law with b = 1 at another temperature; the expansivity stays."""
+        return DensityShift(positive(reference, "K", "reference"), self.expansion)
+
+
+@dataclass(frozen=True, eq=False)
+class VerticalShiftFactors(VerticalShift):
+    """A table of vertical shifts, read between its temperatures by linear interpolation of log10 b in T.
+
+    Parameters
+    ----------
+    temperatures : (n,) array or quantities
+        Ascending, at least two, K.
+    log10_values : (n,) array
+        log10 b.  They are moved as a whole so that the interpolated value at the reference is zero.
+    reference : float or quantity
+        Temperature where b = 1, inside the measured range; K.
+    covariance : (n, n) array, optional
+        Of the values, given that the one at the reference is exactly zero; zero if not given.
+
+    Raises
+    ------
+    InputError
+        If the columns do not fit each other or the reference lies outside them.
+    """
+
+    temperatures: Array
+    log10_values: Array
+    reference: float
+    covariance: Array
+
+    def __init__(
+        self, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any = None
+    ) -> None:
+        kelvin = to_si_array(temperatures, "K", "temperatures")
+        values = np.array(log10_values, dtype=float)
+        if kelvin.size < 2 or values.shape != kelvin.shape or not np.all(np.isfinite(values)):
+            raise InputError("vertical shifts need at least two temperatures, and one finite value for each.")
+        if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
+            raise InputError("temperatures of vertical shifts must ascend without repeats, above absolute zero.")
+        spread = np.zeros((kelvin.size, kelvin.size)) if covariance is None else np.array(covariance, dtype=float)
+        if spread.shape != (kelvin.size, kelvin.size) or not np.all(np.isfinite(spread)):
+            raise InputError("covariance of vertical shifts must be square, one row per temperature, and finite.")
+        object.__setattr__(self, "temperatures", kelvin)
+        object.__setattr__(self, "reference", positive(reference, "K", "reference"))
+        self._refuse(np.array([self.reference]))
+        values = values - float(np.interp(self.reference, kelvin, values))
+        object.__setattr__(self, "log10_values", values)
+        object.__setattr__(self, "covariance", spread)
+        for column in (kelvin, values, spread):
+            column.flags.writeable = False
+
+    @property
+    def standard_errors(self) -> Array:
+        """Standard error of each log10 b, zero at a reference that was measured."""
+        return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+
+    def _refuse(self, kelvin: Array) -> None:
+        low, high = self.temperatures[0], self.temperatures[-1]
+        outside = (kelvin < low * (1 - _SAME_TEMPERATURE)) | (kelvin > high * (1 + _SAME_TEMPERATURE))
+        if np.any(outside):
+            wanted = float(kelvin[outside][0])
+            raise InputError(
+                f"temperature = {celsius(wanted):z.1f} °C lies outside {celsius(low):z.1f} to {celsius(high):z.1f} °C, "
+                f"where the vertical shift was measured; use DensityShift to go beyond{kelvin_hint(wanted)}."
+            )
+
+    def _log10(self, kelvin: Array) -> Array:
+        return np.asarray(np.interp(kelvin, self.temperatures, self.log10_values))
+
+    def at_reference(self, reference: Quantity) -> VerticalShiftFactors:
+        """Return the same table with b = 1 at another temperature inside the measured range."""
+        kelvin = positive(reference, "K", "reference")
+        self._refuse(np.array([kelvin]))
+        weights = np.array([np.interp(kelvin, self.temperatures, unit) for unit in np.eye(self.temperatures.size)])
+        change = np.eye(self.temperatures.size) - weights[None, :]
+        return VerticalShiftFactors(self.temperatures, self.log10_values, kelvin, change @ self.covariance @ change.T)

@@ -1,0 +1,98 @@
+"""Planted truth: synthetic sweeps of a known spectrum, shift law and vertical shift, with known noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import viscofric as vf
+from viscofric.data import Isotherm, IsothermalSweeps
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+#: Steps of 4 K below 0 °C, where α falls by more than a decade in them, of 10 K above: all 26 overlap.
+PROGRAMME = (*np.arange(-20.0, 0.0, 4.0), *np.arange(0.0, 201.0, 10.0))  # °C
+#: The programme of the built-in example; the isotherms at -30 and -20 °C and one or two more do not overlap.
+EXAMPLE_PROGRAMME = tuple(np.arange(-30.0, 221.0, 10.0))  # °C
+FREQUENCIES = np.logspace(-1.0, 1.0, 17)  # Hz
+
+
+def synthetic_polymer() -> vf.Material:
+    """Return an invented polymer: one broad transition from 1 MPa to 2 GPa (Cole–Cole-like), WLF about 25 °C."""
+    tau = np.exp(np.arange(-28.0, 14.0))
+    weight = 1.0 / np.cosh(0.45 * np.log(tau / 1e-4))
+    C = (1.0 / 1e6 - 1.0 / 2e9) * weight / weight.sum()
+    shift = vf.WLF(C1=9.0, C2=110.0, reference="25 degC")
+    return vf.Material(vf.RetardationSpectrum(1e6, 2e9, C, tau), shift, name="invented polymer (synthetic)")
+
+
+@dataclass(frozen=True)
+class Planted:
+    """Sweeps and the truth that they were made of.
+
+    Parameters
+    ----------
+    sweeps : IsothermalSweeps
+        With noise.
+    material : viscofric.Material
+        True spectrum and α(T); `material.spectrum` holds at `material.reference`.
+    log10_b : callable
+        True log10 b of a temperature in K, zero at the material's reference.
+    """
+
+    sweeps: IsothermalSweeps
+    material: vf.Material
+    log10_b: Callable[[float], float]
+
+    def log10_alpha(self, temperatures, reference) -> np.ndarray:
+        """Return the true log10 α at temperatures (K) about a reference."""
+        return self.material.shift.at_reference(reference).log10(np.asarray(temperatures, dtype=float))
+
+    def complex_modulus(self, angular_frequency, temperature) -> np.ndarray:
+        """Return the true E(ω, T), Pa, vertical shift included; temperature in K."""
+        return 10.0 ** self.log10_b(temperature) * self.material.complex_modulus(angular_frequency, temperature)
+
+
+def no_vertical_shift(kelvin: float) -> float:
+    """Return log10 1."""
+    return 0.0 * kelvin
+
+
+def planted_sweeps(
+    seed: int,
+    noise: float = 0.01,
+    *,
+    material: vf.Material | None = None,
+    celsius=PROGRAMME,
+    frequencies=FREQUENCIES,
+    log10_b: Callable[[float], float] = no_vertical_shift,
+) -> Planted:
+    """Make sweeps with independent multiplicative noise on E' and on E''.
+
+    Parameters
+    ----------
+    seed : int
+        Of the noise.
+    noise : float
+        Relative standard deviation.
+    material : viscofric.Material, optional
+        The synthetic fluoroelastomer by default.
+    celsius : sequence of float
+        Temperatures of the isotherms, °C.
+    frequencies : sequence of float
+        Hz.
+    log10_b : callable
+        Vertical shift of a temperature in K.
+    """
+    material = material or vf.synthetic_fluoroelastomer()
+    random = np.random.default_rng(seed)
+    omega = 2.0 * np.pi * np.asarray(frequencies, dtype=float)
+    isotherms = []
+    for temperature in np.asarray(celsius, dtype=float) + 273.15:
+        modulus = 10.0 ** log10_b(temperature) * material.complex_modulus(omega, temperature)
+        scatter = 1.0 + noise * random.standard_normal((2, omega.size))
+        isotherms.append(Isotherm(temperature, omega, scatter[0] * modulus.real, scatter[1] * modulus.imag))
+    return Planted(IsothermalSweeps(tuple(isotherms)), material, log10_b)

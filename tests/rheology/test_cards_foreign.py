@@ -1,0 +1,356 @@
+"""Material cards that others typed: as the programs' manuals have them, with the physics worked out by hand."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from viscofric.errors import DataFileError
+from viscofric.rheology.cards import open_card, read_card
+from viscofric.rheology.shift_laws import GAS_CONSTANT
+
+OMEGA = np.logspace(-6, 6, 61)
+
+
+def opened(tmp_path, text, **units):
+    path = tmp_path / "card"
+    path.write_text(text)
+    return open_card(path, **units)
+
+
+def maxwell(rubber, modes, omega=OMEGA):
+    """E(ω) of the generalised Maxwell model, term by term."""
+    s = 1j * omega
+    return rubber + sum(modulus * s * tau / (1 + s * tau) for modulus, tau in modes)
+
+
+def tensile(shear, bulk):
+    """E = 9KG/(3K + G)."""
+    return 9 * bulk * shear / (3 * bulk + shear)
+
+
+# --- Abaqus ----------------------------------------------------------------------------------------------------
+
+ABAQUS = """*HEADING
+ a bush
+*MATERIAL, NAME=EPDM70
+*DENSITY
+1.1e-9,
+*ELASTIC, MODULI=INSTANTANEOUS
+60.0, 0.49
+*VISCOELASTIC, TIME=PRONY
+0.5, 0.5, 0.01
+0.3, 0.3, 1.0
+*TRS
+20., 8.86, 101.6
+"""
+
+
+def test_abaqus_card_in_megapascal(tmp_path):
+    card = opened(tmp_path, ABAQUS, modulus_unit="MPa", time_unit="s", temperature_unit="degC")
+    assert card.notes == ()
+    assert card.format == "an Abaqus card"
+    assert card.material.name == "EPDM70"
+    assert card.material.poisson_ratio == pytest.approx(0.49)
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(maxwell(12e6, [(30e6, 0.01), (18e6, 1.0)]), rel=1e-12)
+    assert card.material.shift.reference == pytest.approx(293.15)
+    # −log10 A = C1 (θ − θ0)/(C2 + θ − θ0), by hand at 50 °C
+    assert card.material.shift.log10("50 degC") == pytest.approx(-8.86 * 30 / 131.6)
+
+
+def test_abaqus_moduli_are_long_term_unless_told(tmp_path):
+    card = opened(tmp_path, ABAQUS.replace(", MODULI=INSTANTANEOUS", ""), modulus_unit="MPa", time_unit="s")
+    assert pytest.approx(60e6) == card.material.spectrum.E0
+    assert card.material.spectrum.E_inf == pytest.approx(60e6 / 0.2)
+
+
+def test_abaqus_units_that_are_not_told_are_noted(tmp_path):
+    card = opened(tmp_path, ABAQUS)
+    assert card.material.spectrum.E_inf == pytest.approx(60.0)
+    assert card.notes[0].startswith("The card does not state its units; Pa and s were assumed")
+    assert card.notes[1] == "The reference temperature 20 has no unit; it was taken for °C."
+    with pytest.warns(UserWarning, match="card: The ") as told:
+        read_card(tmp_path / "card")
+    assert [str(one.message) for one in told] == [f"{tmp_path / 'card'}: {note}" for note in card.notes]
+
+
+def test_abaqus_elastic_bulk_is_exact_and_its_poisson_ratio_noted(tmp_path):
+    text = ABAQUS.replace("0.5, 0.5, 0.01", "0.5, 0., 0.01").replace("0.3, 0.3, 1.0", "0.3, , 1.0")
+    card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s", temperature_unit="degC")
+    glass = 60e6 / 2.98
+    shear = maxwell(0.2 * glass, [(0.5 * glass, 0.01), (0.3 * glass, 1.0)])
+    bulk = 60e6 / (3 * 0.02)
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(tensile(shear, bulk), rel=1e-12)
+    rubber = 0.2 * glass
+    ratio = (3 * bulk - 2 * rubber) / (2 * (3 * bulk + rubber))
+    assert card.material.poisson_ratio == pytest.approx(ratio)
+    (note,) = card.notes
+    assert f"the Poisson ratio runs from 0.49 (glass) to {ratio:.4g} (rubber)" in note
+
+
+def test_abaqus_bulk_that_relaxes_at_its_own_times(tmp_path):
+    text = ABAQUS.replace("0.5, 0.5, 0.01", "0.5, 0., 0.01").replace("0.3, 0.3, 1.0", "0., 0.2, 7.0")
+    card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s", temperature_unit="degC")
+    G, K = 60e6 / 2.98, 60e6 / 0.06
+    expected = tensile(maxwell(0.5 * G, [(0.5 * G, 0.01)]), maxwell(0.8 * K, [(0.2 * K, 7.0)]))
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(expected, rel=1e-12)
+
+
+def test_abaqus_hyperelastic_card_gives_its_small_strain_limit(tmp_path):
+    text = """*Material, name=Rubber-1
+*Hyperelastic, mooney-rivlin
+0.4, 0.1, 0.001
+*Viscoelastic, time=PRONY
+0.6, 0., 0.1
+"""
+    card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s")
+    # Long-term: G = 2 (C10 + C01) = 1 MPa, K = 2/D1 = 2000 MPa.
+    expected = tensile(maxwell(1e6, [(1.5e6, 0.1)]), 2000e6)
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(expected, rel=1e-12)
+    assert card.notes[0] == "The card is hyperelastic; the material is its small-strain limit."
+    incompressible = opened(tmp_path, text.replace("0.4, 0.1, 0.001", "0.4, 0.1"), modulus_unit="MPa", time_unit="s")
+    assert incompressible.material.poisson_ratio == 0.5
+    assert pytest.approx(3e6) == incompressible.material.spectrum.E0
+
+
+@pytest.mark.parametrize(("model", "constants", "shear"), [("neo hooke", "0.5", 1.0), ("yeoh", "0.7, -0.1, 0.01", 1.4)])
+def test_abaqus_hyperelastic_models(tmp_path, model, constants, shear):
+    text = (
+        f"*MATERIAL, NAME=A\n*HYPERELASTIC, {model}, MODULI=LONG TERM\n{constants}\n*VISCOELASTIC, TIME=PRONY\n.5,,1.\n"
+    )
+    card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s")
+    assert pytest.approx(3e6 * shear) == card.material.spectrum.E0
+
+
+def test_abaqus_arrhenius_has_its_own_gas_constant_and_zero(tmp_path):
+    text = "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15, UNIVERSAL GAS CONSTANT=8314.0\n" + ABAQUS.replace(
+        "*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=ARRHENIUS\n20., 1.2e8"
+    )
+    shift = opened(tmp_path, text).material.shift
+    # Energy in mJ/mol with the gas constant in mJ/(mol K): E0/R = 14433 K.
+    expected = 1.2e8 / 8314.0 * (1 / 323.15 - 1 / 293.15) / math.log(10)
+    assert shift.log10("50 degC") == pytest.approx(expected)
+
+
+def test_abaqus_subroutines_and_other_keywords_are_told(tmp_path):
+    text = ABAQUS.replace("*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=USER\n*MULLINS EFFECT\n1.1, 2., 0.1")
+    card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s")
+    assert card.material.shift is None
+    assert card.notes == (
+        "Keywords that were not read: *MULLINSEFFECT.",
+        "*TRS, DEFINITION=USER is a subroutine outside the card; the material holds at its reference only.",
+    )
+
+
+def test_the_first_viscoelastic_material_of_a_deck_is_read(tmp_path):
+    steel = "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n"
+    card = opened(tmp_path, steel + ABAQUS + ABAQUS.replace("EPDM70", "NR55"), modulus_unit="MPa", time_unit="s")
+    assert card.material.name == "EPDM70"
+    assert card.notes[0] == "The file holds 2 viscoelastic materials; the first, 'EPDM70', was read."
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("0.3, 0.3, 1.0", "0.5, 0.5, 1.0", "liquid has no rubber plateau"),
+        ("0.3, 0.3, 1.0", "0.6, 0.6, 1.0", "add up to 1.1"),
+        ("0.3, 0.3, 1.0", "0.3, 0.3, soft", "line 10: '0.3, 0.3, soft' is not a row of numbers"),
+        ("0.3, 0.3, 1.0", "0.3, 0.3, 0.", "tau above zero"),
+        ("TIME=PRONY", "TIME=CREEP TEST DATA", "must have TIME=PRONY"),
+        ("60.0, 0.49", "60.0, 0.6", "from 0 to 0.5"),
+        ("*ELASTIC, MODULI=INSTANTANEOUS\n60.0, 0.49\n", "", "holds no \\*ELASTIC"),
+        ("20., 8.86, 101.6", "20., 8.86", "WLF has 3"),
+        ("*ELASTIC, MODULI", "*ELASTIC, TYPE=ORTHOTROPIC, MODULI", "must be isotropic"),
+    ],
+)
+def test_abaqus_cards_that_make_no_solid_are_refused(tmp_path, old, new, says):
+    assert old in ABAQUS
+    with pytest.raises(DataFileError, match=says):
+        opened(tmp_path, ABAQUS.replace(old, new))
+
+
+# --- ANSYS -----------------------------------------------------------------------------------------------------
+
+ANSYS = """/PREP7
+MP,EX,1,60.0e6
+MP,PRXY,1,0.45
+TB,PRONY,1,1,2,SHEAR $ TBDATA,1,0.5,0.01,0.3,1.0
+TB,PRONY,1,1,1,BULK
+TBDATA,1,0.4,5.0   ! bulk
+TB,SHIFT,1,1,2,TN
+TBDATA,1,303.15,15000
+"""
+
+
+def test_ansys_card_by_hand(tmp_path):
+    card = opened(tmp_path, ANSYS, modulus_unit="Pa", time_unit="s", temperature_unit="K")
+    G, K = 60e6 / 2.9, 60e6 / 0.3
+    expected = tensile(maxwell(0.2 * G, [(0.5 * G, 0.01), (0.3 * G, 1.0)]), maxwell(0.6 * K, [(0.4 * K, 5.0)]))
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(expected, rel=1e-12)
+    # ln A = H/R (1/Tr − 1/T) multiplies time: α = 1/A
+    expected = -15000 * (1 / 303.15 - 1 / 333.15) / math.log(10)
+    assert card.material.shift.log10(333.15) == pytest.approx(expected)
+    assert card.material.shift.activation_energy == pytest.approx(15000 * GAS_CONSTANT)
+
+
+def test_ansys_arithmetic_in_fields(tmp_path):
+    text = ANSYS.replace("2,TN\nTBDATA,1,303.15,15000", "3,WLF\nTBDATA,1,273+2*(10-5),17.44,-(-51.6)")
+    shift = opened(tmp_path, text, temperature_unit="K").material.shift
+    assert (shift.reference, shift.C1, shift.C2) == (283.0, 17.44, 51.6)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("MP,PRXY,1,0.45\n", "", "holds no MP,EX or no MP,PRXY"),
+        ("0.45", "0.5", "below 0.5"),
+        ("0.3,1.0", "0.3", "wants pairs"),
+        ("TBDATA,1,0.4,5.0", "TBDATA,2,0.4", "lacks constant 1"),
+        ("TBDATA,1,0.4,5.0", "TBDATA,1e30,0.4,5.0", "begins at constant 1e"),
+        ("303.15,15000", "303.15", "TN wants 2 constants"),
+        ("60.0e6", "__import__('os')", "neither a number nor simple arithmetic"),
+        ("60.0e6", "9**9**9", "neither a number nor simple arithmetic"),
+        (",2,SHEAR", ",2,INTEGRAL", "other options of TB,PRONY"),
+    ],
+)
+def test_ansys_cards_that_make_no_solid_are_refused(tmp_path, old, new, says):
+    assert old in ANSYS
+    with pytest.raises(DataFileError, match=says):
+        opened(tmp_path, ANSYS.replace(old, new))
+
+
+def test_published_ansys_card_with_wlf(real_data):
+    card = open_card(real_data / "instruments" / "ansys_cards" / "E1_WLF.USER_MPL", modulus_unit="Pa", time_unit="s")
+    spectrum = card.material.spectrum
+    # MP,EX is the instantaneous modulus: 9115.80 MPa; thirty shear terms, bulk elastic.
+    assert spectrum.E_inf == pytest.approx(9115.80e6, rel=1e-12)
+    assert len(card.material.spectrum.to_relaxation()) == 30
+    assert (card.material.shift.C1, card.material.shift.C2) == (199.73, 933.5)
+    assert card.material.shift.reference == 268.0  # written 273-5
+    assert "The reference temperature 268 has no unit; it was taken for K." in card.notes
+    assert any("Poisson ratio runs from 0.35 (glass)" in note for note in card.notes)
+    assert any("Commands that were not read: MP,ALPX, MP,REFT, MPAMOD, MPTEMP, MPTGEN." in note for note in card.notes)
+    # The first and last of its shear terms by hand: G_i = g_i G, G = E/(2 · 1.35).
+    share = 1.0 - spectrum.E0 / spectrum.E_inf
+    assert 0.9 < share < 1.0
+
+
+def test_published_ansys_card_with_a_subroutine_for_its_shift(real_data):
+    folder = real_data / "instruments" / "ansys_cards"
+    card = open_card(folder / "E1_Poly.USER_MPL")
+    assert card.material.shift is None
+    assert any(
+        "TB,SHIFT,…,USER is a subroutine outside the card (constants -343.398, 4.68277" in one for one in card.notes
+    )
+    same = open_card(folder / "E1_WLF.USER_MPL").material
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(same.complex_modulus(OMEGA), rel=1e-14)
+
+
+# --- LS-DYNA ---------------------------------------------------------------------------------------------------
+
+LS_DYNA = """*KEYWORD
+*MAT_GENERAL_VISCOELASTIC_TITLE
+Tread compound
+$      mid        ro      bulk       pcf        ef      tref         a         b
+         7   1.1E-09    2000.0                        303.15    15000.
+$     lcid        nt    bstart     tramp     lcidk       ntk   bstartk    trampk
+
+$       gi     betai        ki    betaki
+       1.0
+       5.0    1000.0
+       3.0       2.0
+*END
+"""
+
+
+def test_ls_dyna_card_in_standard_format(tmp_path):
+    card = opened(tmp_path, LS_DYNA, modulus_unit="MPa", time_unit="s", temperature_unit="K")
+    expected = tensile(maxwell(1e6, [(5e6, 1e-3), (3e6, 0.5)]), 2000e6)
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(expected, rel=1e-12)
+    assert card.material.name == "Tread compound"
+    # Φ = exp(−A (1/T − 1/TREF)) multiplies time: at 333.15 K by hand
+    phi = math.exp(-15000 * (1 / 333.15 - 1 / 303.15))
+    assert card.material.shift(333.15) == pytest.approx(1 / phi)
+
+
+def test_ls_dyna_wlf_multiplies_time(tmp_path):
+    fixed = "         7   1.1E-09    2000.0                        303.15    15000."
+    assert fixed in LS_DYNA
+    commas = LS_DYNA.replace(fixed, "7,1.1e-9,2000.0,,,303.15,-20.4,101.6")
+    shift = opened(tmp_path, commas, modulus_unit="MPa", time_unit="s", temperature_unit="K").material.shift
+    phi = math.exp(20.4 * 30 / 131.6)
+    assert shift(333.15) == pytest.approx(1 / phi)
+    wrong = opened(tmp_path, commas.replace("-20.4", "20.4"), modulus_unit="MPa", time_unit="s")
+    assert wrong.material.shift is None
+    assert "check the sign of A" in wrong.notes[0]
+
+
+def test_ls_dyna_long_format_is_told_by_keyword_or_deck(tmp_path):
+    lines = [
+        "".join(f"{one:>20}" for one in row)
+        for row in (("7", "1.1e-9", "2000.0"), ("0",), ("1.0",), ("5.123456789012", "1000.0"))
+    ]
+    for head in ("*KEYWORD LONG=Y\n*MAT_076\n", "*KEYWORD\n*MAT_GENERAL_VISCOELASTIC +\n"):
+        card = opened(tmp_path, head + "\n".join(lines) + "\n*END\n", modulus_unit="Pa", time_unit="s")
+        expected = tensile(maxwell(1.0, [(5.123456789012, 1e-3)]), 2000.0)
+        assert card.material.complex_modulus(OMEGA) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("       1.0\n", "", "liquid has no rubber plateau"),
+        ("    2000.0", "       0.0", "one of them must be above zero"),
+        ("       5.0    1000.0", "      -5.0    1000.0", "must not be below zero"),
+        ("       5.0    1000.0", "       5.x    1000.0", "line 10: '5.x    1000.0' is not a row"),
+        ("trampk\n\n$       gi", "trampk\n        12\n$       gi", "come from load curves"),
+        ("    2000.0", "       1.0", "must lie between 0 and 0.5"),
+    ],
+)
+def test_ls_dyna_cards_that_make_no_solid_are_refused(tmp_path, old, new, says):
+    assert old in LS_DYNA
+    with pytest.raises(DataFileError, match=says):
+        opened(tmp_path, LS_DYNA.replace(old, new))
+
+
+# --- COMSOL ----------------------------------------------------------------------------------------------------
+
+COMSOL = """G_long_term 0.5[MPa]
+nu 0.49 "Poisson ratio"
+G_1 2[MPa] "branch"
+tau_1 10[ms]
+T_reference 25[degC]
+Q_arrhenius 120[kJ/mol]
+width 3[mm]
+"""
+
+
+def test_comsol_parameters_have_units(tmp_path):
+    card = opened(tmp_path, COMSOL)
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(2.98 * maxwell(0.5e6, [(2e6, 0.01)]), rel=1e-12)
+    assert card.material.shift.activation_energy == pytest.approx(120e3)
+    assert card.material.shift.reference == pytest.approx(298.15)
+    assert card.notes == ("Parameters that were not read: width.",)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ('nu 0.49 "Poisson ratio"\n', "", "lacks the parameter nu"),
+        ("tau_1 10[ms]\n", "", "lacks the parameter tau_1"),
+        ("10[ms]", "10[mm]", "wrong kind of unit"),
+        ("10[ms]", "ten", "line 4: 'tau_1 ten' is not a name, a number"),
+        ("0.5[MPa]", "0[MPa]", "liquid"),
+    ],
+)
+def test_comsol_parameters_that_make_no_solid_are_refused(tmp_path, old, new, says):
+    assert old in COMSOL
+    with pytest.raises(DataFileError, match=says):
+        opened(tmp_path, COMSOL.replace(old, new))
+
+
+def test_a_bare_table_of_branches_lacks_its_long_term_modulus(tmp_path):
+    with pytest.raises(DataFileError, match="without a long-term modulus"):
+        opened(tmp_path, "1 2.0e6 0.01\n2 1.0e6 0.1\n")

@@ -1,0 +1,54 @@
+"""The catalogue: every number traced to what its source prints, every synthetic thing called so."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from viscofric.errors import InputError
+from viscofric.rheology.catalogue import catalogue, catalogue_material, synthetic_fluoroelastomer
+
+
+def test_every_entry_says_what_it_is_and_makes_a_material():
+    names = [entry.name for entry in catalogue()]
+    assert len(set(names)) == len(names)
+    for entry in catalogue():
+        assert entry.kind in ("published", "SYNTHETIC")
+        assert entry.holds
+        assert entry.remarks
+        assert entry.kind == "SYNTHETIC" or any(f"({year})" in entry.citation for year in range(1940, 2027))
+        assert catalogue_material(entry.name).citation == (entry.citation if entry.kind == "published" else "")
+        modulus = catalogue_material(entry.name).complex_modulus(np.logspace(-6, 6, 25))
+        assert np.all(np.diff(modulus.real) > 0)
+
+
+def test_what_is_synthetic_is_called_so():
+    kinds = {entry.name: entry.kind for entry in catalogue()}
+    assert kinds["synthetic fluoroelastomer"] == "SYNTHETIC"
+    assert all("synthetic" in name for name, kind in kinds.items() if kind == "SYNTHETIC")
+    same = catalogue_material("synthetic fluoroelastomer").spectrum
+    assert np.array_equal(same.C, synthetic_fluoroelastomer().spectrum.C)
+
+
+def test_vhb_4910_has_the_moduli_of_its_source():
+    rubber = catalogue_material("VHB 4910")
+    # Wang et al. print in kPa: equilibrium 15.36, branches 26.06, 26.53, 10.83 at 0.6074, 6.56, 61.25 s (shear).
+    prony = rubber.spectrum.to_relaxation()
+    assert pytest.approx(15.36e3, rel=1e-12) == prony.E0 / 3
+    assert pytest.approx([26.06e3, 26.53e3, 10.83e3], rel=1e-12) == prony.E / 3
+    assert prony.tau == pytest.approx([0.6074, 6.56, 61.25], rel=1e-12)
+    assert rubber.spectrum.E_inf / 3 == pytest.approx(78.78e3, rel=1e-12)  # their sum, by hand
+    # E' at 1 rad/s by hand: 3 (15.36 + 26.06·0.2695 + 26.53·0.97729 + 10.83·0.99973) = 3 · 59.138 kPa
+    assert rubber.complex_modulus(1.0).real == pytest.approx(3 * 59.138e3, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["vhb 4910", "VHB-4910", "Vhb_4910"])
+def test_capitals_and_hyphens_do_not_matter(name):
+    assert catalogue_material(name).name == "VHB 4910 acrylic elastomer"
+
+
+def test_a_slip_of_the_keyboard_is_answered_with_the_nearest_name():
+    with pytest.raises(InputError, match="did you mean 'VHB 4910'"):
+        catalogue_material("VBH 4901")
+    with pytest.raises(InputError, match="the names are 'VHB 4910', 'synthetic fluoroelastomer'"):
+        catalogue_material("xyz")

@@ -1,0 +1,171 @@
+"""Whether superposition holds: simple materials pass at any noise, complex ones and real failures are told."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.data import Isotherm, IsothermalSweeps
+from viscofric.rheology.consistency import check_superposition
+from viscofric.rheology.van_gurp_palmen import neighbour_distances
+
+RUBBER = vf.synthetic_fluoroelastomer()
+OMEGA = 2 * np.pi * np.logspace(-1, 1, 17)
+CELSIUS = np.arange(0.0, 151.0, 10.0)
+
+
+def sweeps(modulus, noise, seed=0, celsius=CELSIUS):
+    """Sweep a material, given as a function of ω and T (K), with noise in E' and in E''."""
+    random = np.random.default_rng(seed)
+    isotherms = []
+    for temperature in celsius + 273.15:
+        exact = modulus(OMEGA, temperature)
+        scatter = 1 + noise * random.standard_normal((2, len(OMEGA)))
+        isotherms.append(Isotherm(temperature, OMEGA, scatter[0] * exact.real, scatter[1] * exact.imag))
+    return IsothermalSweeps(tuple(isotherms))
+
+
+def two_processes(omega, temperature):
+    """Two broad relaxations whose times depend on temperature differently: WLF and a weak Arrhenius law."""
+    decades = np.arange(-12.0, 12.0, 0.25)
+    total = np.full(len(omega), 2e6, dtype=complex)
+    for law, centre, strength in (
+        (vf.WLF(12.0, 90.0, "30 degC"), -1.0, 3e6),
+        (vf.Arrhenius("40 kJ/mol", "30 degC"), -2.0, 3e6),
+    ):
+        weight = np.exp(-0.5 * ((decades - centre) / 1.2) ** 2)
+        tau = 10.0**decades * law(temperature)
+        product = 1j * np.outer(omega, tau)
+        total += strength * (product / (1.0 + product)) @ (weight / weight.sum())
+    return total
+
+
+@pytest.mark.parametrize("noise", [0.003, 0.01, 0.03])
+def test_one_shift_for_all_relaxations_superposes(noise):
+    check = check_superposition(vf.superpose(sweeps(RUBBER.complex_modulus, noise), "30 degC"))
+    assert check.holds
+    # Over seeds these have figures below 0.3; the distances are what the noise within isotherms makes of them.
+    assert check.figure_of_merit < 0.4
+    assert check.between < 3.0 * check.within + 1e-3
+    assert check.kramers_kronig.holds
+    assert check.sentences[0].startswith("Superposition holds")
+
+
+def test_distances_of_neighbours_lie_within_their_standard_errors():
+    scores = []
+    for seed in range(30):
+        measured = sweeps(RUBBER.complex_modulus, 0.01, seed, CELSIUS[5:12])
+        pairs = neighbour_distances(measured.isotherms, np.zeros(7))
+        scores.append([pair.distance / pair.standard_error for pair in pairs])
+    # 180 scores, neighbours in them correlated by a half: some 100 independent, whose spread is known to 7 % (one
+    # sigma).  50 to 110 °C, where cubics follow the isotherms; near the dip of tan δ they do to 0.006 decades only.
+    assert np.std(scores) == pytest.approx(1.0, abs=0.25)
+    assert np.mean(np.abs(scores) < 1.96) > 0.88
+
+
+def test_relaxations_that_shift_apart_do_not_superpose():
+    check = check_superposition(vf.superpose(sweeps(two_processes, 0.01), "30 degC"))
+    assert not check.holds
+    assert check.sentences[0].startswith("Superposition does not hold")
+    assert "°C" in check.sentences[0]
+
+
+def strongly_shifted(omega, temperature):
+    """Raise the modulus of the simple rubber by a tenth every ten kelvin."""
+    return RUBBER.complex_modulus(omega, temperature) * 1.1 ** ((temperature - 303.15) / 10.0)
+
+
+def test_a_change_of_modulus_alone_is_mended_by_a_vertical_shift():
+    measured = sweeps(strongly_shifted, 0.01, celsius=CELSIUS[2:])
+    without = check_superposition(vf.superpose(measured, "30 degC"))
+    assert not without.holds
+    assert 'vertical="free"' in without.sentences[0]
+    mended = check_superposition(vf.superpose(measured, "30 degC", vertical="free"))
+    assert mended.holds
+    assert mended.between < 0.3 * without.between
+
+
+def test_distance_tells_which_isotherm_is_more_lossy():
+    pair = sweeps(RUBBER.complex_modulus, 0.0, celsius=np.array([80.0, 90.0])).isotherms
+    same = neighbour_distances(pair, np.zeros(2))[0]
+    # Cubics over two decades follow this rubber to about a thousandth of a decade.
+    assert same.distance == pytest.approx(0.0, abs=2e-3)
+    colder, warmer = pair
+    # Away from the peak of tan δ the curve slopes, so that 0.1 decades of tan δ are a little less across it.
+    lossier = Isotherm(colder.temperature, OMEGA, colder.storage_modulus, colder.loss_modulus * 10**0.1)
+    shifted = neighbour_distances((lossier, warmer), np.zeros(2))[0]
+    assert 0.04 < shifted.distance < 0.1
+    assert (
+        neighbour_distances(
+            (colder, Isotherm(warmer.temperature, OMEGA, warmer.storage_modulus, warmer.loss_modulus * 10**0.1)),
+            np.zeros(2),
+        )[0].distance
+        < -0.04
+    )
+
+
+def test_units_of_modulus_and_time_do_not_matter():
+    measured = sweeps(RUBBER.complex_modulus, 0.01)
+    changed = IsothermalSweeps(
+        tuple(
+            Isotherm(one.temperature, 1e3 * one.angular_frequency, 1e-6 * one.storage_modulus, 1e-6 * one.loss_modulus)
+            for one in measured.isotherms
+        )
+    )
+    here, there = (neighbour_distances(one.isotherms, np.zeros(len(one))) for one in (measured, changed))
+    assert [pair.distance for pair in there] == pytest.approx([pair.distance for pair in here], rel=1e-6, abs=1e-12)
+
+
+def test_diagrams_hold_every_point_without_its_vertical_shift():
+    fit = vf.superpose(sweeps(RUBBER.complex_modulus, 0.01), "30 degC")
+    check = check_superposition(fit)
+    storage = np.concatenate([one.storage_modulus for one in fit.isotherms])
+    loss = np.concatenate([one.loss_modulus for one in fit.isotherms])
+    assert check.cole_cole.x == pytest.approx(storage)
+    assert check.cole_cole.y == pytest.approx(loss)
+    assert check.wicket.y == pytest.approx(loss / storage)
+    assert np.tan(check.van_gurp_palmen.y) == pytest.approx(check.booij_thoone_palmen.y)
+    assert check.van_gurp_palmen.x == pytest.approx(np.abs(storage + 1j * loss))
+    assert sorted(set(check.wicket.temperature)) == [one.temperature for one in fit.isotherms]
+
+
+def of_file(real_data, name, reference):
+    deformation = "tension" if "adhesive" in name else "shear"
+    return vf.superpose(vf.read_dma(real_data / "dma" / name, deformation=deformation), reference)
+
+
+@pytest.mark.parametrize("name", ["acrylic_468mp.csv", "vinyl_nitrile_foam.csv"])
+def test_measured_rubbers_superpose(real_data, name):
+    check = check_superposition(of_file(real_data, name, "20 degC"))
+    assert check.holds
+    assert check.kramers_kronig.holds
+
+
+def test_eva_is_told_as_a_failure(real_data):
+    check = check_superposition(of_file(real_data, "eva_shear.csv", "20 degC"))
+    assert not check.holds
+    assert check.figure_of_merit > 2.0
+    assert check.sentences[0].startswith("Superposition does not hold")
+
+
+def test_the_adhesive_fails_by_a_little(real_data):
+    """Its neighbours between −20 and 20 °C lie 0.02 to 0.06 decades apart, always to the same side."""
+    check = check_superposition(of_file(real_data, "adhesive_ems_ca.csv", "25 degC"))
+    assert not check.holds
+    assert check.figure_of_merit < 2.0
+    cold = [pair.distance for pair in check.neighbours if 253.0 < pair.colder < 293.0]
+    assert max(cold) < -0.015
+
+
+def test_the_check_takes_no_time():
+    fit = vf.superpose(sweeps(RUBBER.complex_modulus, 0.01), "30 degC")
+    check_superposition(fit)
+    best = np.inf
+    for _ in range(3):
+        start = time.perf_counter()
+        check_superposition(fit)
+        best = min(best, time.perf_counter() - start)
+    assert best < 0.05  # about 0.01 s on one core

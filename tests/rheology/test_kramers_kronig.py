@@ -1,0 +1,120 @@
+"""Kramers–Kronig: causal pairs of moduli pass, wrong loss moduli do not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import viscofric as vf
+from viscofric.data import MasterCurve
+from viscofric.errors import InputError
+from viscofric.rheology.kramers_kronig import kramers_kronig
+
+RUBBER = vf.synthetic_fluoroelastomer().spectrum
+TRANSITION = np.logspace(-2, 9, 200)
+
+
+def curve(omega=TRANSITION, noise=0.0, seed=0, loss=1.0, swap=False, spectrum=RUBBER):
+    random = np.random.default_rng(seed)
+    modulus = spectrum.complex_modulus(omega)
+    storage = modulus.real * (1 + noise * random.standard_normal(len(omega)))
+    lost = loss * modulus.imag * (1 + noise * random.standard_normal(len(omega)))
+    if swap:
+        storage, lost = lost, storage
+    return MasterCurve(omega, storage, lost, np.full(len(omega), 303.15), 303.15)
+
+
+def test_a_causal_material_agrees_with_itself():
+    found = kramers_kronig(curve())
+    # Three modes per decade follow a smooth spectrum to a thousandth.
+    assert found.rms_storage < 0.002
+    assert found.rms_loss < 0.02
+    assert found.loss_scale == pytest.approx(1.0, abs=0.005)
+    assert found.holds
+
+
+@pytest.mark.parametrize("noise", [0.003, 0.01, 0.03])
+@pytest.mark.parametrize(
+    "omega", [TRANSITION, np.logspace(-6, 0, 100), np.logspace(2, 6, 80)], ids=["all", "plateau", "rise"]
+)
+def test_noise_alone_is_never_called_a_contradiction(noise, omega):
+    for seed in range(10):
+        found = kramers_kronig(curve(omega, noise, seed))
+        assert found.holds
+        # What noise makes of it: about its own size, in decades.
+        assert found.rms_storage < 0.5 * noise + 0.002
+
+
+def test_the_scale_lies_within_its_standard_error():
+    for omega in (TRANSITION, np.logspace(0, 6, 120), np.logspace(2, 6, 80)):
+        found = [kramers_kronig(curve(omega, 0.02, seed)) for seed in range(40)]
+        scores = np.array([(one.loss_scale - 1.0) / one.loss_scale_error for one in found])
+        # The error counts neighbouring bins as alike, which noise alone is not: it may be too large, not too small.
+        assert np.mean(np.abs(scores) < 1.96) > 0.85
+
+
+@pytest.mark.parametrize("factor", [1.3, 1 / 1.3])
+@pytest.mark.parametrize(
+    "omega", [TRANSITION, np.logspace(-6, 0, 100), np.logspace(2, 6, 80)], ids=["all", "plateau", "rise"]
+)
+def test_a_loss_modulus_wrong_by_a_factor_is_caught(factor, omega):
+    found = kramers_kronig(curve(omega, 0.01, 1, loss=factor))
+    assert not found.holds
+    assert found.loss_scale == pytest.approx(factor, rel=0.05)
+    assert f"E'' is {found.loss_scale:.2f}" in found.sentence
+
+
+def test_swapped_columns_are_caught():
+    found = kramers_kronig(curve(noise=0.01, swap=True))
+    assert not found.holds
+    assert found.rms_storage > 0.3
+    assert "swapped" in found.sentence
+
+
+def test_a_frequency_in_wrong_units_changes_nothing():
+    """Kramers and Kronig know no unit of time: hertz taken for rad/s must be told from elsewhere."""
+    omega = TRANSITION
+    here = kramers_kronig(curve(omega, 0.01))
+    modulus = curve(omega, 0.01)
+    there = kramers_kronig(
+        MasterCurve(omega / (2 * np.pi), modulus.storage_modulus, modulus.loss_modulus, modulus.temperature, 303.15)
+    )
+    # The lattice of modes is laid from the ends, so that it moves along.
+    assert there.rms_storage == pytest.approx(here.rms_storage, rel=1e-6)
+
+
+@settings(max_examples=10, deadline=None)
+@given(scale=st.floats(-9, 9), seed=st.integers(0, 100))
+def test_the_unit_of_modulus_does_not_matter(scale, seed):
+    plain = curve(noise=0.01, seed=seed)
+    factor = 10.0**scale
+    scaled = MasterCurve(
+        plain.angular_frequency,
+        factor * plain.storage_modulus,
+        factor * plain.loss_modulus,
+        plain.temperature,
+        plain.reference,
+    )
+    assert kramers_kronig(scaled).rms_storage == pytest.approx(kramers_kronig(plain).rms_storage, rel=1e-6)
+    assert kramers_kronig(scaled).loss_scale == pytest.approx(kramers_kronig(plain).loss_scale, rel=1e-6)
+
+
+def test_the_local_relation_is_good_to_some_tenths_of_a_decade():
+    found = kramers_kronig(curve())
+    assert np.sqrt(np.mean(found.local_deviation[found.judged] ** 2)) < 0.3
+    assert abs(np.median(found.local_deviation[found.judged])) < 0.15
+
+
+def test_what_lies_beyond_the_measurement_counts_at_its_ends_only():
+    found = kramers_kronig(curve(np.logspace(0, 6, 120)))
+    assert np.all(found.truncation >= 0.0)
+    assert found.truncation[found.judged].max() <= found.truncation[~found.judged].max()
+    assert not found.judged[0]
+    assert not found.judged[-1]
+
+
+def test_a_short_curve_tells_nothing():
+    with pytest.raises(InputError, match="too short"):
+        kramers_kronig(curve(np.logspace(0, 1, 20)))

@@ -1,0 +1,237 @@
+"""Shift factors in files: what is saved comes back, other programs' tables are read, signs are not guessed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from readers.samples import eplexor
+from viscofric.errors import DataFileError, InputError
+from viscofric.rheology.shift_factors import ShiftFactors
+from viscofric.rheology.shift_files import read_shift_factors, read_vendor_law, write_shift_factors
+
+CELSIUS = np.array([-20.0, 0.0, 20.0, 40.0])
+LOG10 = np.array([4.0, 1.5, 0.0, -1.0])
+
+
+def written(folder, text, name="shifts.csv", encoding="utf-8"):
+    path = folder / name
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+def table(header, scale=LOG10, temperatures=CELSIUS, mark=","):
+    rows = [f"{T!r}{mark}{value!r}" for T, value in zip(map(float, temperatures), map(float, scale), strict=True)]
+    return "\n".join([header, *rows]) + "\n"
+
+
+@pytest.mark.parametrize("reference", [283.15, 293.15, 288.6180339887])
+def test_saved_factors_come_back_with_their_covariance(tmp_path, reference):
+    rng = np.random.default_rng(1)
+    kelvin = 273.15 + np.sort(rng.uniform(-60.0, 90.0, 12))
+    kelvin[[0, -1]] = 200.1, 371.7
+    root = rng.normal(size=(12, 12))
+    saved = ShiftFactors(kelvin, np.sort(rng.normal(0.0, 5.0, 12))[::-1], reference, 1e-3 * root @ root.T)
+    write_shift_factors(saved, tmp_path / "saved.csv")
+    found = read_shift_factors(tmp_path / "saved.csv")
+    # Values are moved by what rounding leaves at the reference; all else is exact.
+    assert np.allclose(found.log10_values, saved.log10_values, rtol=0.0, atol=1e-14)
+    assert np.array_equal(found.temperatures, saved.temperatures)
+    assert found.reference == saved.reference
+    assert np.array_equal(found.covariance, saved.covariance)
+
+
+def test_notes_are_saved_with_the_factors(tmp_path):
+    notes = ("The shift factor at 20.0 °C was corrected by hand.", "reference (degC): 3 is no reference here.")
+    write_shift_factors(ShiftFactors(CELSIUS + 273.15, LOG10, 293.15, notes=notes), tmp_path / "saved.csv")
+    found = read_shift_factors(tmp_path / "saved.csv")
+    assert found.notes == notes
+    assert found.reference == 293.15
+
+
+def test_table_without_uncertainty_is_told(tmp_path):
+    assert any(
+        "no uncertainty" in note for note in read_shift_factors(written(tmp_path, table("T_C,aT", 10**LOG10))).notes
+    )
+
+
+def test_saved_file_is_readable_text(tmp_path):
+    factors = ShiftFactors(CELSIUS + 273.15, LOG10, 293.15, np.diag([0.04, 0.01, 0.0, 0.09]))
+    write_shift_factors(factors, tmp_path / "saved.csv")
+    lines = (tmp_path / "saved.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[:2] == ["# viscofric shift factors", "# reference (degC): 20.0"]
+    assert lines[2] == "temperature (degC),log10 shift factor,standard error,cov 1,cov 2,cov 3,cov 4"
+    assert lines[3] == "-20.0,4.0,0.2,0.04,0.0,0.0,0.0"
+
+
+@pytest.mark.parametrize(
+    ("header", "scale"),
+    [
+        ("T_C,log10_aT", LOG10),
+        ("T,log_aT\nC,-", LOG10),
+        ("T,log_aT\n°C,", LOG10),
+        ("T (degC),log aT", LOG10),
+        ("Temperature [°C],log10(aT)", LOG10),
+        ("T_C,lg a(T)", LOG10),
+        ("T_C,ln aT", LOG10 * np.log(10.0)),
+        ("T_C,aT", 10.0**LOG10),
+        ("T_C,alpha (-)", 10.0**LOG10),
+        ("# Tref 99 C\nT_C,log_a_T", LOG10),
+    ],
+)
+@pytest.mark.parametrize("mark", [",", "\t"])
+def test_tables_of_other_programs_are_read(tmp_path, header, scale, mark):
+    path = written(tmp_path, table(header.replace(",", mark), scale, mark=mark), encoding="utf-8-sig")
+    found = read_shift_factors(path)
+    assert np.allclose(found.temperatures, CELSIUS + 273.15, rtol=1e-14)
+    assert np.allclose(found.log10_values, LOG10, rtol=0.0, atol=1e-12)  # of a logarithm of a power
+    assert found.reference == pytest.approx(293.15, abs=1e-9)
+    assert not found.covariance.any()
+
+
+@pytest.mark.parametrize(("unit", "printed"), [("K", CELSIUS + 273.15), ("F", CELSIUS * 1.8 + 32.0)])
+def test_unit_of_temperature_is_heeded(tmp_path, unit, printed):
+    found = read_shift_factors(written(tmp_path, table(f"T_{unit},log10_aT", temperatures=printed)))
+    assert np.allclose(found.temperatures, CELSIUS + 273.15, rtol=1e-12)
+
+
+def test_decimal_comma_is_read(tmp_path):
+    text = table("T_C;log10_aT", mark=";").replace(".", ",")
+    assert read_shift_factors(written(tmp_path, text)).log10_values.tolist() == LOG10.tolist()
+
+
+def test_descending_temperatures_are_sorted_with_their_covariance(tmp_path):
+    ascending = table("T_C,log10_aT,standard error").splitlines()
+    rows = [f"{row},{0.1 * place:g}" for place, row in enumerate(ascending[1:])]
+    up = read_shift_factors(written(tmp_path, "\n".join([ascending[0], *rows])))
+    down = read_shift_factors(written(tmp_path, "\n".join([ascending[0], *rows[::-1]])))
+    assert np.array_equal(up.temperatures, down.temperatures)
+    assert np.array_equal(up.log10_values, down.log10_values)
+    assert np.allclose(up.standard_errors, [0.0, 0.1, 0.2, 0.3], rtol=1e-12)
+    assert np.array_equal(up.covariance, down.covariance)
+
+
+def test_columns_of_covariance_follow_their_rows(tmp_path):
+    covariance = np.array([[4.0, 1.0, 0.5], [1.0, 9.0, 2.0], [0.5, 2.0, 16.0]])
+    factors = ShiftFactors([260.0, 280.0, 300.0], [3.0, 1.0, 0.0], 300.0, covariance)
+    write_shift_factors(factors, tmp_path / "saved.csv")
+    lines = (tmp_path / "saved.csv").read_text(encoding="utf-8").splitlines()
+    # Rows turned round, with the columns of covariance numbered as the rows now stand.
+    turned = [line.split(",") for line in lines[:2:-1]]
+    text = [*lines[:3], *(",".join([*cells[:3], *cells[:2:-1]]) for cells in turned)]
+    found = read_shift_factors(written(tmp_path, "\n".join(text)))
+    assert np.array_equal(found.covariance, covariance)
+
+
+def test_reference_is_found_between_rows(tmp_path):
+    found = read_shift_factors(written(tmp_path, table("T_C,log10_aT", LOG10 - 0.7)))
+    assert 273.15 < found.reference < 293.15
+    assert any("passes zero" in note for note in found.notes)
+    # The table keeps its values: the zero of the very interpolation that reads it is the reference.
+    assert np.allclose(found.log10_values, LOG10 - 0.7, rtol=0.0, atol=1e-9)
+
+
+def test_reference_can_be_chosen(tmp_path):
+    path = written(tmp_path, table("T_C,log10_aT"))
+    found = read_shift_factors(path, "0 degC")
+    assert found.reference == 273.15
+    assert np.allclose(found.log10_values, LOG10 - 1.5, rtol=0.0, atol=1e-14)
+
+
+def test_table_without_zero_asks_for_a_reference(tmp_path):
+    path = written(tmp_path, table("T_C,log10_aT", LOG10 + 2.0))
+    with pytest.raises(DataFileError, match=r"zero nowhere between -20.0 and 40.0 °C; say with reference="):
+        read_shift_factors(path)
+    assert np.allclose(read_shift_factors(path, 293.15).log10_values, LOG10, rtol=0.0, atol=1e-14)
+
+
+def test_reference_outside_the_table_is_refused(tmp_path):
+    with pytest.raises(InputError, match="outside the measured"):
+        read_shift_factors(written(tmp_path, table("T_C,log10_aT")), "90 degC")
+
+
+def test_rising_table_is_refused_unless_it_is_said_to_be_inverse(tmp_path):
+    path = written(tmp_path, table("T_C,log10_aT", -LOG10))
+    with pytest.raises(DataFileError, match=r"rise with temperature.*flip the sign.*inverse=True"):
+        read_shift_factors(path)
+    assert np.array_equal(read_shift_factors(path, inverse=True).log10_values, LOG10)
+    with pytest.raises(DataFileError, match="leave out inverse=True"):
+        read_shift_factors(written(tmp_path, table("T_C,log10_aT")), inverse=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "holds no table"),
+        ("T_C,log10_aT\n", "holds no table"),
+        ("T_C,E\n1,2\n3,4\n", "one column of temperatures, such as 'T_C', and one of 'log10 aT'"),
+        ("T,log_aT\n1,2\n3,0\n", "have no unit; write 'T_C'"),
+        ("T_C,aT\n1,2\n3,-1\n", "line 3: a shift factor aT must be above zero"),
+        ("T_C,log_aT\n1,2\n3\n", "line 3: the row has 1 cells where the header names 2"),
+        ("T_C,log_aT\n1,2\n3,zero\n", "line 3: 'zero' in column 'log_aT' is not a finite number"),
+        ("T_C,log_aT\n1,2\n3,nan\n", "line 3: 'nan'"),
+        ("T_C,log_aT\n1,0\n", "at least two temperatures"),
+        ("T_C,log_aT\n1,1\n1,0\n", "none twice"),
+        ("T_C,log_aT\n-300,1\n1,0\n", "above absolute zero"),
+        ("T_C,log_aT\n1,1e200\n2,0\n", "line 2: a logarithm of a shift factor beyond 300"),
+        ("T_C,log_aT,cov 1\n1,1,0\n2,0,0\n", "cov 1 to cov 2"),
+        ("# reference (degC): 80\nT_C,log_aT\n1,1\n2,0\n", "reference does not fit the table"),
+    ],
+)
+def test_damaged_tables_are_told(tmp_path, text, told):
+    with pytest.raises(DataFileError, match=told):
+        read_shift_factors(written(tmp_path, text))
+
+
+def test_file_that_cannot_be_written_is_told(tmp_path):
+    factors = ShiftFactors(CELSIUS + 273.15, LOG10, 293.15)
+    with pytest.raises(DataFileError, match="cannot be written"):
+        write_shift_factors(factors, tmp_path / "nowhere" / "saved.csv")
+
+
+def test_list_of_a_workbook_is_read(tmp_path):
+    path = eplexor.SAMPLES["eplexor master"](tmp_path)
+    found = read_shift_factors(path)
+    assert found.temperatures.tolist() == [263.15, 283.15, 303.15]
+    assert found.log10_values.tolist() == [1.5, 0.0, -1.26]
+    assert found.reference == 283.15
+    law = read_vendor_law(path)
+    assert (law.C1, law.C2, law.reference) == (8.0, 100.0, 283.15)
+
+
+def test_workbook_without_a_list_is_refused(tmp_path):
+    path = eplexor.SAMPLES["eplexor raw"](tmp_path)
+    with pytest.raises(DataFileError, match="without a sheet 'Shiftlist'"):
+        read_shift_factors(path)
+    with pytest.raises(DataFileError, match="no Eplexor workbook whose sheet 'Shiftlist' states"):
+        read_vendor_law(path)
+
+
+def test_genuine_workbook_agrees_with_its_table(real_data):
+    workbook = real_data / "instruments" / "eplexor" / "freq_Eplexor_master.xls"
+    found = read_shift_factors(workbook)
+    listed = read_shift_factors(real_data / "dma" / "adhesive_ems_ca__vendor_shift.csv")
+    assert np.allclose(found.temperatures, listed.temperatures, rtol=0.0, atol=1e-3)  # six digits
+    assert np.allclose(found.log10_values, listed.log10_values, rtol=0.0, atol=1e-12)
+    assert found.reference == pytest.approx(24.97374 + 273.15, abs=1e-9)
+    assert found.log10_values[0] == pytest.approx(15.6, abs=1e-12)
+    law = read_vendor_law(workbook)
+    assert (law.C1, law.C2, law.reference) == (13.5, 141.19, 298.15)
+    # The vendor's own fit, where it was made: above the reference it keeps to its table.
+    warm = found.temperatures > law.reference
+    assert np.max(np.abs(law.log10(found.temperatures[warm]) - found.log10_values[warm])) < 1.0
+
+
+@pytest.mark.parametrize(
+    ("name", "rows", "reference", "coldest"),
+    [
+        ("dma/eva_shear__vendor_shift.csv", 23, -30.004, 11.76),
+        ("instruments/two_row_csv/freq_user_master__shift_factors.csv", 21, -5.0, 12.75),
+        ("instruments/two_row_csv/time_user_raw__shift_factors.csv", 21, 3.0, 12.341761942568635),
+    ],
+)
+def test_genuine_tables_are_read(real_data, name, rows, reference, coldest):
+    found = read_shift_factors(real_data / name)
+    assert found.temperatures.size == rows
+    assert found.reference == pytest.approx(reference + 273.15, abs=1e-9)
+    assert found.log10_values[0] == pytest.approx(coldest, abs=1e-12)
