@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from viscofric.rheology.cards.native import plain
+from viscofric.rheology.shift_laws import WLF
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -63,17 +66,12 @@ def _dma() -> dict[str, xr.Dataset]:
         },
         {
             "reference_temperature": REFERENCE,
-            "wlf_C1": C1,
-            "wlf_C2": C2,
-            "wlf_C1_error": 0.05,
-            "wlf_C2_error": 0.6,
             "shift_used": "measured",
             "isotherms_given": 14,
             "isotherms_used": 14,
             "temperatures_given": json.dumps(steps.tolist()),
             "overlap_rms_log10_storage": 0.0061,
             "overlap_rms_log10_loss": 0.0083,
-            "wlf_rms": 0.31,
         },
     ).assign_coords(temperature=("temperature", steps, {"units": "K", "long_name": "temperature"}))
     return {
@@ -86,6 +84,22 @@ def _dma() -> dict[str, xr.Dataset]:
             },
         ),
         "shift_factors": factors,
+        "shift_law": dataset(
+            "temperature",
+            {
+                "log10_shift_factor": (log10_alpha(steps), "1", "decadic logarithm of the shift factor"),
+                "standard_error": (0.001 * np.abs(steps - REFERENCE), "1", "standard error of log10 α"),
+            },
+            {
+                "law": "WLF",
+                "rms": 0.31,
+                "constants": json.dumps(plain(WLF(C1, C2, REFERENCE))),
+                "wlf_C1": C1,
+                "wlf_C2": C2,
+                "wlf_C1_error": 0.05,
+                "wlf_C2_error": 0.6,
+            },
+        ).assign_coords(temperature=("temperature", steps, {"units": "K", "long_name": "temperature"})),
         "master_curve": dataset(
             "reading",
             {

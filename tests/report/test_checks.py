@@ -21,7 +21,7 @@ def verdicts(tree: xr.DataTree) -> dict[str, str]:
 
 def test_sound_results_pass(tree: xr.DataTree) -> None:
     found = verdicts(tree)
-    assert found.pop("WLF law") == "noted"
+    assert found.pop("Shift law") == "noted"
     assert set(found.values()) == {"passed"}
     assert list(found) == [
         "Isotherms used",
@@ -41,7 +41,7 @@ def test_sound_results_pass(tree: xr.DataTree) -> None:
     [
         ("shift_factors", "overlap_rms_log10_loss", 0.2, "Overlap of the isotherms"),
         ("master_curve", "rms_log10_storage", 0.2, "Fit of the spectrum"),
-        ("shift_factors", "shift_used", "wlf", "WLF law"),
+        ("shift_factors", "shift_used", "wlf", "Shift law"),
     ],
 )
 def test_unsound_rheology_is_pointed_out(

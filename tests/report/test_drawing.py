@@ -20,7 +20,15 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-NAMES = ["isotherms", "shift_factors", "master_curve", "friction_against_speed", "friction_master_curve"]
+NAMES = [
+    "isotherms",
+    "superposition",
+    "shift_factors",
+    "master_curve",
+    "spectrum",
+    "friction_against_speed",
+    "friction_master_curve",
+]
 
 
 def png_size(content: bytes) -> tuple[int, int]:
@@ -105,7 +113,7 @@ def test_figures_that_the_results_lack_are_left_out(tree: xr.DataTree, tmp_path:
     for name in ("isotherms", "prediction_master", "measurement"):
         del tree[name]
     names = {path.stem for path in report.draw_figures(tree, tmp_path)}
-    assert names == {"shift_factors", "master_curve", "friction_against_speed"}
+    assert names == {"shift_factors", "master_curve", "spectrum", "friction_against_speed"}
 
 
 def test_figures_survive_the_round_trip_through_a_file(tree: xr.DataTree, tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from viscofric import report
 from viscofric.report import house_style
+from viscofric.report.figure_data import law_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -69,16 +70,16 @@ def test_shift_factors_fall_on_a_log_axis_with_their_errors(axes: Axes, tree: xr
     np.testing.assert_allclose(ends_of_bars(measured), expected, rtol=1e-9)
 
 
-def test_wlf_line_is_the_law_of_the_attributes(axes: Axes, tree: xr.DataTree) -> None:
-    report.plot_shift_factors(axes, group(tree, "shift_factors"))
+def test_wlf_line_is_the_law_of_the_results(axes: Axes, tree: xr.DataTree) -> None:
+    report.plot_shift_factors(axes, group(tree, "shift_factors"), law_of(group(tree, "shift_law")))
     (line,) = [line for line in axes.lines if str(line.get_label()).startswith("WLF")]
     above = np.asarray(line.get_xdata()) - 30.0
     np.testing.assert_allclose(np.log10(line.get_ydata()), -10.04 * above / (89.6 + above), atol=1e-9)
 
 
-def test_shift_factors_without_a_wlf_law_are_drawn_alone(axes: Axes, tree: xr.DataTree) -> None:
+def test_shift_factors_without_a_law_are_drawn_alone(axes: Axes, tree: xr.DataTree) -> None:
     factors = group(tree, "shift_factors")
-    report.plot_shift_factors(axes, factors.assign_attrs(wlf_C1=np.nan, wlf_C2=np.nan))
+    report.plot_shift_factors(axes, factors)
     assert len(legend_texts(axes)) == 1
 
 
@@ -89,9 +90,9 @@ def test_master_curve_shows_readings_and_spectrum(axes: Axes, tree: xr.DataTree)
     assert "(rad/s) at 30 °C" in axes.get_xlabel()
     assert axes.get_ylabel() == "modulus (MPa)"
     shown = {str(line.get_label()): line for line in axes.lines}
-    assert list(shown) == ["$E'$ measured", "$E'$ fitted spectrum", "$E''$ measured", "$E''$ fitted spectrum"]
+    assert list(shown) == ["$E'$ measured", "$E'$ fitted", "$E''$ measured", "$E''$ fitted"]
     for symbol, name in (("$E'$", "storage_modulus"), ("$E''$", "loss_modulus")):
-        measured, fitted = shown[f"{symbol} measured"], shown[f"{symbol} fitted spectrum"]
+        measured, fitted = shown[f"{symbol} measured"], shown[f"{symbol} fitted"]
         np.testing.assert_allclose(measured.get_xdata(), curve["angular_frequency"].values)
         np.testing.assert_allclose(measured.get_ydata(), curve[name].values / 1e6)
         np.testing.assert_allclose(fitted.get_xdata(), fit["angular_frequency"].values)

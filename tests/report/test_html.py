@@ -83,7 +83,7 @@ def test_page_has_every_part(tree: xr.DataTree, tmp_path: Path) -> None:
     assert len(ids) == len(set(ids))
     assert {"asked", "answer", "checks", "figures", "tables", "reproduce"} <= set(ids)
     assert {f"figure-{name}" for name in ("friction_against_speed", "master_curve", "isotherms")} <= set(ids)
-    assert page.count("img") == 5
+    assert page.count("img") == 7
     assert all(page.attributes("alt"))
 
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # What still counts as sound
 _OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
 _FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
-_WLF = 0.1  # decades of α, rms
+_LAW = 0.1  # decades of α, rms
 _COMPLEMENTARITY = 1e-6  # over the indentation
 _CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
 # How far apart, in units of the accuracy, friction from the pressure and from the dissipation may be.
@@ -91,15 +91,24 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
             f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
             f"{_decades(loss)} in the loss modulus (rms; up to {_decades(_OVERLAP)} counts as sound).",
         )
-    rms = number(factors.attrs, "wlf_rms")
-    if math.isfinite(rms):
-        far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the WLF law"
-        if str(factors.attrs.get("shift_used", "measured")) == "wlf":
-            words = f"{far} that the prediction uses (up to {_WLF:g} counts as sound)."
-            yield _check("WLF law", rms <= _WLF, words)
-        else:
-            words = f"{far}; the prediction uses the measured shift factors, not this law."
-            yield Check("WLF law", "noted", words)
+    yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
+    whole = group(tree, "superposition")
+    if whole is not None:
+        holds = number(whole.attrs, "holds") == 1.0
+        yield _check("Superposition", holds, " ".join(sentences(whole.attrs, "sentences")))
+
+
+def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
+    law = group(tree, "shift_law")
+    rms = math.nan if law is None else number(law.attrs, "rms")
+    if law is None or not math.isfinite(rms):
+        return
+    far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
+    if measured_used:
+        words = f"{far}; the prediction uses the measured shift factors, not this law."
+        yield Check("Shift law", "noted", words)
+    else:
+        yield _check("Shift law", rms <= _LAW, f"{far} that the prediction uses (up to {_LAW:g} counts as sound).")
 
 
 def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
@@ -215,6 +224,8 @@ def _measurement(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def _cases(tree: xr.DataTree) -> Iterator[Check]:
+    if group(tree, "prediction") is None:
+        return
     failures = sentences(tree.attrs, "failures")
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"

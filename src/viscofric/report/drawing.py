@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING
 
 import matplotlib
 
+from viscofric.files import write_atomically
+from viscofric.report.consistency_figures import plot_cole_cole, plot_van_gurp_palmen
+from viscofric.report.figure_data import law_of, vertical_shift_of
 from viscofric.report.friction_figures import plot_friction_curves, plot_friction_master_curve
-from viscofric.report.house_style import STYLE, mark_synthetic, new_figure
-from viscofric.report.results import group, is_synthetic, reference_temperature
-from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_shift_factors
-from viscofric.study.store import write_atomically
+from viscofric.report.house_style import STYLE, mark_synthetic, new_figure, temperature_bar
+from viscofric.report.results import group, is_synthetic, reference_temperature, values
+from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_residuals
+from viscofric.report.shift_figures import plot_shift_factors, plot_vertical_shift
+from viscofric.report.spectrum_figures import plot_retardation_spectrum
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,23 +34,32 @@ def _isotherms(tree: xr.DataTree) -> Figure | None:
     figure = new_figure(9.0, 4.3)
     left, right = figure.subplots(1, 2)
     plot_isotherms(left, sweeps, "storage")
-    scale = plot_isotherms(right, sweeps, "loss")
-    bar = figure.colorbar(scale, ax=[left, right], label="temperature (°C)", pad=0.015, aspect=30)
-    bar.ax.tick_params(top=False, bottom=False, left=False)
+    temperature_bar(figure, plot_isotherms(right, sweeps, "loss"), [left, right])
+    return figure
+
+
+def _superposition(tree: xr.DataTree) -> Figure | None:
+    sweeps = group(tree, "isotherms")
+    if sweeps is None:
+        return None
+    figure = new_figure(9.0, 4.3)
+    left, right = figure.subplots(1, 2)
+    plot_van_gurp_palmen(left, sweeps)
+    temperature_bar(figure, plot_cole_cole(right, sweeps), [left, right])
     return figure
 
 
 def _master_curve(tree: xr.DataTree) -> Figure | None:
-    curve = group(tree, "master_curve")
+    curve, spectrum = group(tree, "master_curve"), group(tree, "spectrum_curve")
     if curve is None:
         return None
-    figure = new_figure()
-    plot_master_curve(
-        figure.subplots(),
-        curve,
-        group(tree, "spectrum_curve"),
-        reference_temperature=reference_temperature(tree),
-    )
+    figure = new_figure(6.2, 5.6)
+    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[2.6, 1.0])
+    reference = reference_temperature(tree)
+    band = spectrum if spectrum is not None and "storage_modulus_lower" in spectrum else None
+    plot_master_curve(top, curve, spectrum, reference_temperature=reference, band=band)
+    plot_residuals(bottom, curve, reference_temperature=reference)
+    top.set_xlabel("")
     return figure
 
 
@@ -55,7 +68,26 @@ def _shift_factors(tree: xr.DataTree) -> Figure | None:
     if factors is None:
         return None
     figure = new_figure()
-    plot_shift_factors(figure.subplots(), factors)
+    plot_shift_factors(figure.subplots(), factors, law_of(group(tree, "shift_law")))
+    return figure
+
+
+def _vertical_shift(tree: xr.DataTree) -> Figure | None:
+    factors = group(tree, "shift_factors")
+    shift = vertical_shift_of(factors)
+    if factors is None or shift is None:
+        return None
+    figure = new_figure()
+    plot_vertical_shift(figure.subplots(), shift, values(factors, "temperature"))
+    return figure
+
+
+def _spectrum(tree: xr.DataTree) -> Figure | None:
+    spectrum = group(tree, "spectrum")
+    if spectrum is None:
+        return None
+    figure = new_figure()
+    plot_retardation_spectrum(figure.subplots(), spectrum)
     return figure
 
 
@@ -85,8 +117,11 @@ def _friction_master_curve(tree: xr.DataTree) -> Figure | None:
 #: Name of the files -> what draws the figure, or gives None if the results lack it.
 FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "isotherms": _isotherms,
+    "superposition": _superposition,
     "shift_factors": _shift_factors,
+    "vertical_shift": _vertical_shift,
     "master_curve": _master_curve,
+    "spectrum": _spectrum,
     "friction_against_speed": _friction_against_speed,
     "friction_master_curve": _friction_master_curve,
 }
@@ -113,8 +148,7 @@ def figure_images(tree: xr.DataTree, formats: tuple[str, ...] = ("png", "svg")) 
             if figure is None:
                 continue
             if is_synthetic(tree):
-                panels = [axes for axes in figure.axes if axes.get_label() != "<colorbar>"]
-                mark_synthetic(panels[-1])
+                mark_synthetic([axes for axes in figure.axes if axes.get_label() != "<colorbar>"])
             images[name] = {form: _image(figure, form) for form in formats}
     return images
 
@@ -139,8 +173,7 @@ def draw_figures(tree: xr.DataTree, folder: str | Path) -> list[Path]:
     Returns
     -------
     list of Path
-        ``isotherms``, ``shift_factors``, ``master_curve``, ``friction_against_speed`` and
-        ``friction_master_curve``, each with ``.png`` and ``.svg``; without those that the results lack.
+        One for each name in `FIGURES`, with ``.png`` and ``.svg``; without those that the results lack.
 
     Raises
     ------

@@ -6,10 +6,14 @@ import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import matplotlib
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import (
     FixedFormatter,
     FixedLocator,
+    LogFormatterSciNotation,
     LogLocator,
     MaxNLocator,
     NullFormatter,
@@ -19,14 +23,18 @@ from matplotlib.ticker import (
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
+    from matplotlib.colorbar import Colorbar
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 # Okabe and Ito's colours, which colour-blind readers tell apart
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
-INK = "#222222"
+INK, GREY = "#222222", "#8a8a8a"
 
 _COLOURS = (BLUE, GREEN, VERMILION, PURPLE, ORANGE, SKY)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
@@ -87,6 +95,18 @@ def looks(count: int) -> list[Look]:
     ]
 
 
+#: What changes for a figure that is printed one column wide (85 mm), where text must not shrink below 7 pt.
+COLUMN: Mapping[Any, Any] = {
+    "font.size": 7.5,
+    "axes.labelsize": 8.0,
+    "legend.fontsize": 7.0,
+    "legend.title_fontsize": 7.0,
+    "legend.handlelength": 1.6,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4.0,
+}
+
+
 def new_figure(width: float = 6.2, height: float = 4.3) -> Figure:
     """Return an empty figure of a size in inches, without pyplot's global state."""
     return Figure(figsize=(width, height))
@@ -98,14 +118,42 @@ def degrees(kelvin: float) -> str:
     return f"{text} °C".replace("-", "−")
 
 
+#: Axes of fewer decades than this have 2s and 5s labelled too, in plain numbers …
+_FEW_DECADES = 2.0
+#: … or, where those would be too long, as multiples of powers of ten, for which there is less room.
+_FEWER_DECADES = 1.0
+
+
 def decade_ticks(axis: Axis) -> None:
-    """Label a log axis at whole powers of ten, not too many, and tick each decade between."""
+    """Label a log axis at whole powers of ten, as many as have room, and tick each decade between.
+
+    An axis of up to two decades is labelled at 1, 2 and 5 of each, a shorter one at round numbers.
+    """
     low, high = sorted(axis.get_view_interval())
     decades = math.log10(high / low)
-    axis.set_major_locator(LogLocator(base=10.0, numticks=9))
+    axis.set_minor_formatter(NullFormatter())
+    plain = low >= 1e-3 and high < 1e4
+    if decades < (_FEW_DECADES if plain else _FEWER_DECADES):
+        _short_log_ticks(axis, low, high, plain)
+        return
+    axis.set_major_locator(LogLocator(base=10.0, numticks="auto"))  # type: ignore[arg-type]
+    axis.set_major_formatter(LogFormatterSciNotation(base=10.0))
     subs = [1.0] if decades > 6 else [float(digit) for digit in range(1, 10)]
     axis.set_minor_locator(LogLocator(base=10.0, subs=subs, numticks=200))
-    axis.set_minor_formatter(NullFormatter())
+
+
+def _short_log_ticks(axis: Axis, low: float, high: float, plain: bool) -> None:
+    shown = _preferred_numbers(low, high)
+    axis.set_major_locator(FixedLocator(shown))
+    axis.set_major_formatter(FixedFormatter([f"{number:.4g}" if plain else _scientific(number) for number in shown]))
+    ticks = [float(digit) for digit in range(1, 10)]
+    axis.set_minor_locator(LogLocator(base=10.0, subs=ticks, numticks=50) if len(shown) > 2 else NullLocator())
+
+
+def _scientific(number: float) -> str:
+    power = math.floor(math.log10(number) + 1e-9)
+    digits = f"{number / 10.0**power:.3g}"
+    return rf"$10^{{{power}}}$" if digits == "1" else rf"${digits}\times10^{{{power}}}$"
 
 
 def speed_ticks(axis: Axis) -> None:
@@ -114,13 +162,7 @@ def speed_ticks(axis: Axis) -> None:
     if math.log10(high / low) > 3.2:
         decade_ticks(axis)
         return
-    shown = _preferred_numbers(low, high)
-    axis.set_major_locator(FixedLocator(shown))
-    axis.set_major_formatter(FixedFormatter([f"{number:.4g}" for number in shown]))
-    if len(shown) > 2:
-        axis.set_minor_locator(LogLocator(base=10.0, subs=[float(digit) for digit in range(1, 10)], numticks=50))
-    else:
-        axis.set_minor_locator(NullLocator())
+    _short_log_ticks(axis, low, high, plain=True)
     axis.set_minor_formatter(NullFormatter())
 
 
@@ -142,22 +184,56 @@ def plain_numbers(axes: Axes, axis: Literal["x", "y"]) -> None:
     axes.ticklabel_format(axis=axis, style="plain", useOffset=False)
 
 
-def mark_synthetic(axes: Axes) -> None:
-    """Say within the figure that its data are synthetic, and call nothing in its legend measured."""
-    legend = axes.get_legend()
-    if legend is not None:
-        for text in (legend.get_title(), *legend.get_texts()):
-            text.set_text(text.get_text().replace("measured", "synthetic"))
-    axes.text(
-        1.0,
-        1.012,
-        "synthetic data",
-        transform=axes.transAxes,
-        ha="right",
-        va="bottom",
-        fontsize=9,
-        color=VERMILION,
+def legend_above(axes: Axes, handles: Sequence[Any], columns: int = 2) -> None:
+    """Put a legend above the axes, where it covers no data."""
+    legend = axes.legend(
+        handles=list(handles),
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=columns,
+        borderaxespad=0.2,
+        columnspacing=1.2,
     )
+    legend.set_gid(_ABOVE)
+
+
+_ABOVE = "legend above"
+
+
+def mark_synthetic(panels: Sequence[Axes]) -> None:
+    """Say beside the last panel that the data are synthetic, and call nothing in any legend measured."""
+    for axes in panels:
+        legend = axes.get_legend()
+        if legend is not None:
+            for text in (legend.get_title(), *legend.get_texts()):
+                text.set_text(text.get_text().replace("measured", "synthetic"))
+    last = panels[-1]
+    legend = last.get_legend()
+    # Beside the axes where the legend stands above them, for neither may hide the other.
+    place: dict[str, Any] = {"x": 1.01, "y": 1.0, "rotation": 270, "ha": "left", "va": "top"}
+    if legend is None or legend.get_gid() != _ABOVE:
+        place = {"x": 1.0, "y": 1.012, "ha": "right", "va": "bottom"}
+    last.text(s="synthetic data", transform=last.transAxes, fontsize=9, color=VERMILION, **place)
+
+
+def temperature_scale(nominal: Array) -> ScalarMappable:
+    """Return colours of temperatures (K in, °C on the scale), dark where cold, none too light for paper."""
+    cold, hot = (celsius(float(kelvin)) for kelvin in (nominal.min(), nominal.max()))
+    if cold == hot:
+        cold, hot = cold - 1.0, hot + 1.0
+    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.92, 256))
+    return ScalarMappable(Normalize(cold, hot), ListedColormap(colours))
+
+
+_BAR_WIDTH = 0.13  # inches
+
+
+def temperature_bar(figure: Figure, scale: ScalarMappable, panels: Sequence[Axes]) -> Colorbar:
+    """Add the colour bar of a temperature scale to the right of panels."""
+    slender = max(figure.get_figheight() / _BAR_WIDTH, 15.0)
+    bar = figure.colorbar(scale, ax=list(panels), label="temperature (°C)", pad=0.015, aspect=slender)
+    bar.ax.tick_params(top=False, bottom=False, left=False)
+    return bar
 
 
 def at_temperature(kelvin: float | None) -> str:

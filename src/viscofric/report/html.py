@@ -9,13 +9,13 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from viscofric.files import write_atomically
 from viscofric.report.checks import all_checks
 from viscofric.report.drawing import figure_images
 from viscofric.report.messages import grouped_failures, readable
 from viscofric.report.results import group, is_synthetic, sentences, table
 from viscofric.report.tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.words import captions, key_numbers, what_was_asked
-from viscofric.study.store import write_atomically
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -88,7 +88,7 @@ def _content(tree: xr.DataTree) -> dict[str, Any]:
         "failures": grouped_failures(sentences(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
         "warnings": [readable(warning) for warning in sentences(tree.attrs, "warnings")],
         "notes": [readable(note) for note in sentences(tree.attrs, "notes")],
-        "command": f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
+        "command": attrs.get("command") or f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
         "study_text": attrs.get("study_text", ""),
         "software": table(tree.attrs, "software"),
         "hashes": table(tree.attrs, "input_hashes"),

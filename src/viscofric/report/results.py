@@ -101,5 +101,5 @@ def nearest(nominal: Array, temperature: Array) -> NDArray[np.int64]:
 def reference_temperature(tree: xr.DataTree) -> float | None:
     """Temperature at which the shift factor is one, K, or None if the results do not say."""
     factors = group(tree, "shift_factors")
-    found = math.nan if factors is None else number(factors.attrs, "reference_temperature")
+    found = number(tree.attrs if factors is None else factors.attrs, "reference_temperature")
     return found if math.isfinite(found) else None

@@ -1,164 +1,237 @@
-"""Figures of the rubber: its isotherms, their shift factors and its master curve, each drawn on an Axes."""
+"""Figures of the rubber: its isotherms, and its master curve with what the fitted spectrum leaves unexplained."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-import matplotlib
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
 
+from viscofric.report.figure_data import Moduli, moduli_of_master_curve, moduli_of_sweeps, modulus_band
 from viscofric.report.house_style import (
     BLUE,
+    GREY,
     INK,
     VERMILION,
     at_temperature,
     decade_ticks,
     degrees,
-    plain_numbers,
+    legend_above,
+    temperature_scale,
 )
-from viscofric.report.results import nearest, nominal_temperatures, number, values
+from viscofric.report.results import nearest, nominal_temperatures, values
+from viscofric.rheology.superposition import Superposition
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from numpy.typing import NDArray
+
+    from viscofric.report.figure_data import Master, Sweeps
+    from viscofric.rheology.modulus_table import ModulusTable
+    from viscofric.rheology.spectrum import RetardationSpectrum
+
+    Array = NDArray[np.float64]
+    Fitted = RetardationSpectrum | ModulusTable | xr.Dataset
+
 
 _PASCAL_PER_MEGAPASCAL = 1e6
+#: The fitted line goes so far beyond the measured frequencies, as a factor.
+_BEYOND = 10.0
 
 
-def plot_isotherms(
-    axes: Axes, isotherms: xr.Dataset, modulus: Literal["storage", "loss"] = "storage"
-) -> ScalarMappable:
+def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "loss"] = "storage") -> ScalarMappable:
     """Draw the storage or the loss modulus of every sweep as measured, coloured by temperature.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    isotherms : xarray.Dataset
-        `temperature`, `angular_frequency`, `storage_modulus`, `loss_modulus` along `reading`.
+    isotherms : IsothermalSweeps, Superposition, sequence of Isotherm, or xarray.Dataset
+        A dataset has `temperature`, `angular_frequency`, `storage_modulus`, `loss_modulus` along `reading`.
     modulus : {"storage", "loss"}
 
     Returns
     -------
     matplotlib.cm.ScalarMappable
-        Temperatures in °C to colours, for a colour bar.
+        Temperatures in °C to colours, for a colour bar (`house_style.temperature_bar`).
     """
-    temperature = values(isotherms, "temperature")
-    frequency = values(isotherms, "angular_frequency")
-    value = values(isotherms, f"{modulus}_modulus") / _PASCAL_PER_MEGAPASCAL
-    nominal = nominal_temperatures(temperature)
-    scale = ScalarMappable(
-        Normalize(celsius(float(nominal[0])), celsius(float(nominal[-1]))),
-        matplotlib.colormaps["viridis"].resampled(256),
-    )
+    measured = moduli_of_sweeps(isotherms)
+    value = (measured.storage if modulus == "storage" else measured.loss) / _PASCAL_PER_MEGAPASCAL
     marker = "s" if modulus == "storage" else "o"
-    which = nearest(nominal, temperature)
-    shades = scale.to_rgba(np.array([celsius(float(kelvin)) for kelvin in nominal]))
-    for index, kelvin in enumerate(nominal):
-        rows = np.flatnonzero(which == index)
-        rows = rows[np.argsort(frequency[rows], kind="stable")]
-        axes.plot(
-            frequency[rows],
-            value[rows],
-            color=shades[index],
-            marker=marker,
-            markersize=3,
-            linewidth=0.8,
-            label=degrees(float(kelvin)),
-        )
+    scale = draw_by_temperature(axes, measured, measured.angular_frequency, value, marker)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel(r"angular frequency $\omega$ (rad/s)")
-    axes.set_ylabel(r"storage modulus $E'$ (MPa)" if modulus == "storage" else r"loss modulus $E''$ (MPa)")
+    axes.set_ylabel(modulus_label(measured.symbol, modulus))
     decade_ticks(axes.xaxis)
     decade_ticks(axes.yaxis)
     return scale
 
 
-def plot_shift_factors(axes: Axes, shift_factors: xr.Dataset) -> None:
-    """Draw the measured shift factors with their standard errors, and the WLF law (the paper's Figure 4).
+def draw_by_temperature(axes: Axes, measured: Moduli, x: Array, y: Array, marker: str = "o") -> ScalarMappable:
+    """Draw one line with marks for each temperature, points in the order of their frequencies."""
+    nominal = nominal_temperatures(measured.temperature)
+    if not nominal.size:
+        nominal = np.array([293.15])  # a scale for the colour bar of an empty figure
+    scale = temperature_scale(nominal)
+    which = nearest(nominal, measured.temperature)
+    for index, kelvin in enumerate(nominal):
+        rows = np.flatnonzero(which == index)
+        if not rows.size:
+            continue
+        rows = rows[np.argsort(measured.angular_frequency[rows], kind="stable")]
+        label = degrees(float(kelvin))
+        colour = scale.to_rgba(np.array(celsius(float(kelvin))))
+        axes.plot(x[rows], y[rows], color=colour, marker=marker, markersize=3, linewidth=0.8, label=label)
+    return scale
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    shift_factors : xarray.Dataset
-        `log10_shift_factor` and `standard_error` (of log10) along `temperature` (K); attributes
-        `reference_temperature`, `wlf_C1` and `wlf_C2` (K).
-    """
-    temperature = values(shift_factors, "temperature")
-    log10 = values(shift_factors, "log10_shift_factor")
-    error = np.nan_to_num(values(shift_factors, "standard_error"))
-    factor = 10.0**log10
-    bars = np.array([factor * (1.0 - 10.0**-error), factor * (10.0**error - 1.0)])
-    measured = axes.errorbar(
-        celsius(temperature),  # type: ignore[arg-type]  # an array serves as well
-        factor,
-        yerr=bars,
-        fmt="o",
-        color=BLUE,
-        zorder=3,
-        label="from the sweeps, ± standard error",
-    )
-    handles: list[Any] = [measured]
-    reference, C1, C2 = (number(shift_factors.attrs, name) for name in ("reference_temperature", "wlf_C1", "wlf_C2"))
-    if np.all(np.isfinite([reference, C1, C2])):
-        line = np.linspace(temperature.min(), temperature.max(), 400)
-        line = line[C2 + line - reference > 0.02 * C2]  # WLF has a pole below
-        law = 10.0 ** np.clip(-C1 * (line - reference) / (C2 + line - reference), -300, 300)
-        label = f"WLF: $C_1$ = {C1:.4g}, $C_2$ = {C2:.4g} K at {degrees(reference)}"
-        handles += axes.plot(celsius(line), law, color=VERMILION, label=label)  # type: ignore[arg-type]
-    low, high = np.nanmin(log10), np.nanmax(log10)
-    room = 0.06 * max(high - low, 1.0)
-    axes.set_yscale("log")
-    axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
-    axes.set_xlabel("temperature (°C)")
-    axes.set_ylabel(r"shift factor $\alpha_T$")
-    plain_numbers(axes, "x")
-    decade_ticks(axes.yaxis)
-    axes.legend(handles=handles)
+
+def modulus_label(symbol: str, modulus: Literal["storage", "loss"]) -> str:
+    """Return the label of an axis of moduli in MPa."""
+    primes = "'" if modulus == "storage" else "''"
+    return f"{modulus} modulus ${symbol}{primes}$ (MPa)"
 
 
 def plot_master_curve(
     axes: Axes,
-    master_curve: xr.Dataset,
-    spectrum_curve: xr.Dataset | None = None,
+    master_curve: Master,
+    spectrum_curve: Fitted | None = None,
     *,
     reference_temperature: float | None = None,
+    band: Any = None,
 ) -> None:
     """Draw the measured master curve with the fitted retardation spectrum (the paper's Figure 5).
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    master_curve : xarray.Dataset
-        `angular_frequency` (reduced), `storage_modulus`, `loss_modulus` and, for the fit,
+    master_curve : MasterCurve, Superposition or xarray.Dataset
+        A dataset has `angular_frequency` (reduced), `storage_modulus`, `loss_modulus` and, for the fit,
         `fitted_storage_modulus` and `fitted_loss_modulus` along `reading`.
-    spectrum_curve : xarray.Dataset, optional
-        The fit over a wider range: `storage_modulus` and `loss_modulus` along `angular_frequency`.
+    spectrum_curve : RetardationSpectrum, ModulusTable or xarray.Dataset, optional
+        The fit; a dataset has `storage_modulus` and `loss_modulus` along `angular_frequency`.
     reference_temperature : float, optional
-        K, for the label.
+        K, for the label; known already where a master curve is given as an object.
+    band : ModulusBand, MaterialSamples or xarray.Dataset, optional
+        Bounds of E' and E''; see `figure_data.modulus_band`.
     """
-    frequency = values(master_curve, "angular_frequency")
-    if spectrum_curve is None:
-        fit, prefix = master_curve, "fitted_"
-    else:
-        fit, prefix = spectrum_curve, ""
-    line = values(fit, "angular_frequency")
-    order = np.argsort(line, kind="stable")
+    measured = moduli_of_master_curve(master_curve)
+    frequency = measured.angular_frequency
+    line, fitted = _fitted_line(master_curve, spectrum_curve, frequency)
+    bounds = None if band is None else modulus_band(band, _wide(frequency) if line is None else line)
+    handles: list[Any] = []
+    bands: list[Any] = []
     for name, symbol, marker, colour, dashes in (
-        ("storage_modulus", "$E'$", "s", BLUE, "-"),
-        ("loss_modulus", "$E''$", "o", VERMILION, (0, (5, 1.5))),
+        ("storage", "$E'$", "s", BLUE, "-"),
+        ("loss", "$E''$", "o", VERMILION, (0, (5, 1.5))),
     ):
-        value = values(master_curve, name) / _PASCAL_PER_MEGAPASCAL
-        axes.plot(frequency, value, marker, color=colour, markersize=4, fillstyle="none", label=f"{symbol} measured")
-        fitted = values(fit, prefix + name)[order] / _PASCAL_PER_MEGAPASCAL
-        axes.plot(line[order], fitted, color=INK, linestyle=dashes, linewidth=1.3, label=f"{symbol} fitted spectrum")
+        value = getattr(measured, name) / _PASCAL_PER_MEGAPASCAL
+        handles += axes.plot(
+            frequency,
+            value,
+            marker,
+            color=colour,
+            markersize=3.5,
+            markeredgewidth=0.8,
+            fillstyle="none",
+            label=f"{symbol} measured",
+        )
+        if line is not None:
+            part = (fitted.real if name == "storage" else fitted.imag) / _PASCAL_PER_MEGAPASCAL
+            handles += axes.plot(line, part, color=INK, linestyle=dashes, linewidth=1.2, label=f"{symbol} fitted")
+        if bounds is not None:
+            lower, upper = getattr(bounds, name) / _PASCAL_PER_MEGAPASCAL
+            look: dict[str, Any] = {
+                "color": colour,
+                "alpha": 0.25,
+                "linewidth": 0,
+                "zorder": 1,
+                "label": f"{symbol}, 95 %",
+            }
+            bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, **look))
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(reference_temperature))
+    axes.set_xlabel(_reduced_label(master_curve, reference_temperature))
     axes.set_ylabel("modulus (MPa)")
     decade_ticks(axes.xaxis)
     decade_ticks(axes.yaxis)
-    axes.legend()
+    legend_above(axes, handles + bands, columns=3 if bands else 2)
+
+
+def plot_residuals(
+    axes: Axes,
+    master_curve: Master,
+    spectrum: Fitted | None = None,
+    *,
+    reference_temperature: float | None = None,
+) -> None:
+    """Draw log10 of measured over fitted E' and E'' against reduced frequency: the panel below a master curve.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    master_curve, spectrum, reference_temperature
+        See `plot_master_curve`; of a dataset the columns `fitted_storage_modulus` and `fitted_loss_modulus`.
+    """
+    measured = moduli_of_master_curve(master_curve)
+    frequency = measured.angular_frequency
+    fitted = _fitted_at_readings(master_curve, spectrum, frequency)
+    handles: list[Any] = []
+    largest = 0.01
+    for symbol, value, fit, marker, colour in (
+        ("$E'$", measured.storage, fitted.real, "s", BLUE),
+        ("$E''$", measured.loss, fitted.imag, "o", VERMILION),
+    ):
+        left = np.log10(value / fit)
+        rms = float(np.sqrt(np.mean(left**2))) if left.size else 0.0
+        largest = max(largest, float(np.max(np.abs(left), initial=0.0)))
+        handles += axes.plot(
+            frequency,
+            left,
+            marker,
+            color=colour,
+            markersize=3,
+            markeredgewidth=0.7,
+            fillstyle="none",
+            label=f"{symbol}, rms {rms:#.3g}",
+        )
+    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=0)
+    axes.set_xscale("log")
+    axes.set_ylim(-1.12 * largest, 1.12 * largest)
+    axes.set_xlabel(_reduced_label(master_curve, reference_temperature))
+    axes.set_ylabel(r"$\log_{10}\,\frac{\mathrm{measured}}{\mathrm{fit}}$")
+    decade_ticks(axes.xaxis)
+    legend_above(axes, handles)
+
+
+def _reduced_label(master_curve: Master, reference: float | None) -> str:
+    if isinstance(master_curve, Superposition):
+        master_curve = master_curve.master_curve
+    known = getattr(master_curve, "reference", None) if reference is None else reference
+    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(known)
+
+
+def _wide(frequency: Array) -> Array:
+    return np.geomspace(frequency.min() / _BEYOND, frequency.max() * _BEYOND, 300)
+
+
+def _fitted_line(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> tuple[Array | None, Any]:
+    """Return frequencies and complex moduli of the fit, ascending; None without a fit."""
+    if spectrum is not None and not hasattr(spectrum, "data_vars"):
+        line = _wide(frequency)
+        return line, spectrum.complex_modulus(line)
+    source: Any = master_curve if spectrum is None else spectrum
+    prefix = "fitted_" if spectrum is None else ""
+    if not hasattr(source, "data_vars"):
+        return None, None
+    line = values(source, "angular_frequency")
+    fitted = values(source, prefix + "storage_modulus") + 1j * values(source, prefix + "loss_modulus")
+    order = np.argsort(line, kind="stable")
+    return line[order], fitted[order]
+
+
+def _fitted_at_readings(master_curve: Any, spectrum: Fitted | None, frequency: Array) -> Any:
+    if spectrum is not None and not hasattr(spectrum, "data_vars"):
+        return spectrum.complex_modulus(frequency)
+    return values(master_curve, "fitted_storage_modulus") + 1j * values(master_curve, "fitted_loss_modulus")

@@ -12,6 +12,7 @@ from viscofric.report.doubts import EXTRAPOLATED, WIDE, remarks
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import ABSENT, percent, signed_percent, significant, with_error
 from viscofric.report.results import group, nearest, nominal_temperatures, number, values
+from viscofric.report.results import table as texts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -227,9 +228,32 @@ def _shift_factor_table(tree: xr.DataTree) -> Table | None:
         _Column("log₁₀ α", "log10_shift_factor", _times(1.0)),
         _Column("standard error", "standard_error", _times(1.0, 2)),
         _Column("α", "alpha", _times(1.0)),
+        _Column("log₁₀ b", "log10_vertical_shift", _times(1.0)),
+        _Column("standard error of log₁₀ b", "vertical_standard_error", _times(1.0, 2)),
     ]
     full = factors.assign(alpha=10.0 ** factors["log10_shift_factor"])
     return _table("shift-factors", "Shift factors measured on the sweeps.", full, columns, is_open=False)
+
+
+def _law_table(tree: xr.DataTree) -> Table | None:
+    laws = group(tree, "laws")
+    if laws is None:
+        return None
+    rows = [
+        [str(law), str(constants), significant(float(criterion), 3), significant(float(scatter), 2)]
+        for law, constants, criterion, scatter in zip(
+            *(laws[name].values for name in ("law", "constants", "information_criterion", "law_scatter")), strict=True
+        )
+    ]
+    refused = "".join(f" {title}: {reason}" for title, reason in texts(laws.attrs, "refused").items())
+    return Table(
+        "laws",
+        "Shift laws fitted to the shift factors, compared by the information criterion.",
+        ["law", "constants", "AICc above the lowest", "scatter beyond the errors (decades)"],
+        rows,
+        False,
+        f"{laws.attrs.get('explanation', '')}{refused}".strip(),
+    )
 
 
 def _spectrum_table(tree: xr.DataTree) -> Table | None:
@@ -257,6 +281,7 @@ def detail_tables(tree: xr.DataTree) -> list[Table]:
             False,
         ),
         _shift_factor_table(tree),
+        _law_table(tree),
         _spectrum_table(tree),
     ]
     return [table for table in found if table is not None]

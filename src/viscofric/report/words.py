@@ -81,10 +81,16 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
     if sweeps is not None:
         steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(sweeps, "temperature"))]
         at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
+        file = f" ({attrs['dma_format']})" if attrs.get("dma_format") else ""
         said.append(
-            f"The rubber is known from dynamic mechanical analysis in {attrs.get('deformation', 'tension')}: "
+            f"The rubber is known from dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
             f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s"
             f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
+        )
+    elif attrs.get("material"):
+        source = f" ({attrs['citation']})" if attrs.get("citation") else ""
+        said.append(
+            f"The rubber is {attrs['material']}{source}. Poisson's ratio is {short(number(attrs, 'poisson_ratio'))}."
         )
     measurement = group(tree, "measurement")
     if measurement is not None:
@@ -141,17 +147,15 @@ def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
 
 
 def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
-    factors, reference = group(tree, "shift_factors"), reference_temperature(tree)
-    if factors is None or reference is None:
+    factors, law, reference = group(tree, "shift_factors"), group(tree, "shift_law"), reference_temperature(tree)
+    if factors is None or law is None or reference is None:
         return []
-    C1, C2, error1, error2 = (
-        number(factors.attrs, name) for name in ("wlf_C1", "wlf_C2", "wlf_C1_error", "wlf_C2_error")
-    )
+    C1, C2, error1, error2 = (number(law.attrs, name) for name in ("wlf_C1", "wlf_C2", "wlf_C1_error", "wlf_C2_error"))
     if not math.isfinite(C1):
         return []
-    used = "used in the prediction"
-    if str(factors.attrs.get("shift_used", "measured")) != "wlf":
-        used = "a summary: the prediction uses the measured shift factors"
+    used = "used"
+    if str(factors.attrs.get("shift_used", "measured")) == "measured":
+        used = "a summary: the measured shift factors are used"
     return [
         KeyNumber("WLF constant C₁", with_error(C1, error1), f"about {degrees(reference)}; {used}"),
         KeyNumber("WLF constant C₂", f"{with_error(C2, error2)} K", f"about {degrees(reference)}"),
@@ -167,6 +171,8 @@ def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         value = number(spectrum.attrs, name)
         beyond = number(spectrum.attrs, f"{name}_extrapolated") == 1.0
         remark = "extrapolated: beyond what the sweeps reach" if beyond else "reached by the sweeps"
+        if f"{name}_extrapolated" not in spectrum.attrs:
+            remark = ""
         found.append(KeyNumber(title, megapascals(value) if math.isfinite(value) else ABSENT, remark))
     return found
 
@@ -188,12 +194,24 @@ def captions(tree: xr.DataTree) -> dict[str, str]:
         "friction_master_curve": f"Viscoelastic friction against speed times shift factor, at {at}. "
         f"Line: predicted over the whole range{_thin(tree, 'prediction_master')}.{bars}{together}",
         "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: "
-        f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them.",
+        f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them"
+        f"{_banded(tree)}; below, what the spectrum leaves over.",
+        "spectrum": "Retardation spectrum: the compliance of each mode over its retardation time.",
         "shift_factors": "Shift factors found by laying the isotherms over one another, with their standard "
-        "errors, and the WLF law fitted to them.",
+        "errors, and a law fitted to them.",
+        "vertical_shift": "Vertical shift b of the modulus.",
+        "superposition": "Loss angle against the size of the modulus (van Gurp–Palmen), and loss against storage "
+        "modulus (Cole–Cole), which no shift along the frequency changes: where superposition holds, all temperatures "
+        "lie on one line.",
         "isotherms": f"Storage and loss modulus {'of the synthetic sweeps' if made else 'as measured'}, one curve "
         "for each temperature.",
     }
+
+
+def _banded(tree: xr.DataTree) -> str:
+    spectrum = group(tree, "spectrum_curve")
+    banded = spectrum is not None and "storage_modulus_lower" in spectrum
+    return ", with the 95 % band of its modulus" if banded else ""
 
 
 def _thin(tree: xr.DataTree, name: str) -> str:

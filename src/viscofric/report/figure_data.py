@@ -1,0 +1,191 @@
+"""What figures draw, as plain columns, taken from a study's datasets or from the objects of the Python interface."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
+
+import numpy as np
+
+from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
+from viscofric.errors import InputError
+from viscofric.report.results import number, values
+from viscofric.rheology.shift_factors import ShiftFactors
+from viscofric.rheology.superposition import Superposition
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from viscofric.rheology.consistency import SuperpositionCheck
+    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.vertical_shift import VerticalShift
+
+    Array = NDArray[np.float64]
+    #: Sweeps as read, isotherms as joined, or either as a dataset along `reading`.
+    Sweeps: TypeAlias = IsothermalSweeps | Superposition | Sequence[Isotherm] | xr.Dataset
+    #: A master curve, what it came from, or a dataset along `reading`.
+    Master: TypeAlias = MasterCurve | Superposition | xr.Dataset
+    #: Shift factors, what they came with, or a dataset along `temperature`.
+    Shifts: TypeAlias = ShiftFactors | Superposition | xr.Dataset
+
+
+class Moduli(NamedTuple):
+    """Measured moduli, one row per reading.
+
+    Parameters
+    ----------
+    temperature : (n,) array
+        K.
+    angular_frequency : (n,) array
+        rad/s.
+    storage, loss : (n,) array
+        Pa.
+    symbol : str
+        E, or G for moduli measured in shear.
+    """
+
+    temperature: Array
+    angular_frequency: Array
+    storage: Array
+    loss: Array
+    symbol: str = "E"
+
+    @property
+    def loss_tangent(self) -> Array:
+        """Ratio of loss to storage modulus."""
+        return np.asarray(self.loss / self.storage)
+
+
+class ModulusBand(NamedTuple):
+    """Lower and upper bounds of E' and E''.
+
+    Parameters
+    ----------
+    angular_frequency : (n,) array
+        rad/s.
+    storage, loss : (2, n) array
+        Lower and upper bound, Pa.
+    """
+
+    angular_frequency: Array
+    storage: Array
+    loss: Array
+
+
+class ShiftTable(NamedTuple):
+    """Measured shift factors: K, log10 α, its standard error, and the reference in K."""
+
+    temperature: Array
+    log10: Array
+    error: Array
+    reference: float
+
+
+def moduli_of_sweeps(source: Sweeps | SuperpositionCheck) -> Moduli:
+    """Return the readings of sweeps, isotherm by isotherm; those of a check are without their vertical shift."""
+    if hasattr(source, "cole_cole"):
+        points = source.cole_cole
+        return Moduli(points.temperature, np.arange(float(len(points.x))), points.x, points.y)
+    symbol = "G" if isinstance(source, IsothermalSweeps) and source.deformation == "shear" else "E"
+    if isinstance(source, (IsothermalSweeps, Superposition)):
+        return _of_isotherms(source.isotherms, symbol)
+    if isinstance(source, (list, tuple)):
+        return _of_isotherms(source, symbol)
+    return _of_dataset(cast("xr.Dataset", source))
+
+
+def moduli_of_master_curve(source: Master) -> Moduli:
+    """Return the points of a master curve; their frequencies are reduced."""
+    if isinstance(source, Superposition):
+        source = source.master_curve
+    if isinstance(source, MasterCurve):
+        return Moduli(source.temperature, source.angular_frequency, source.storage_modulus, source.loss_modulus)
+    return _of_dataset(source)
+
+
+def shift_table(source: Shifts) -> ShiftTable:
+    """Return measured shift factors."""
+    if isinstance(source, Superposition):
+        source = source.shift_factors
+    if isinstance(source, ShiftFactors):
+        return ShiftTable(source.temperatures, source.log10_values, source.standard_errors, source.reference)
+    return ShiftTable(
+        values(source, "temperature"),
+        values(source, "log10_shift_factor"),
+        np.nan_to_num(values(source, "standard_error")),
+        number(source.attrs, "reference_temperature"),
+    )
+
+
+def modulus_band(source: Any, angular_frequency: Array) -> ModulusBand:
+    """Return bounds of E(ω).
+
+    Parameters
+    ----------
+    source : ModulusBand, MaterialSamples, Band or xarray.Dataset
+        Samples give their 95 % band; a `Band` holds complex moduli at the given frequencies; a dataset has
+        `angular_frequency`, `storage_modulus_lower`, `storage_modulus_upper`, `loss_modulus_lower` and
+        `loss_modulus_upper`.
+    angular_frequency : (n,) array
+        Where samples are asked, rad/s.
+    """
+    if isinstance(source, ModulusBand):
+        return source
+    if hasattr(source, "data_vars"):
+        bounds = [np.stack([values(source, f"{name}_modulus_{side}") for side in _SIDES]) for name in _MODULI]
+        return ModulusBand(values(source, "angular_frequency"), *bounds)
+    band = source.modulus_band(angular_frequency) if hasattr(source, "modulus_band") else source
+    sides = np.stack([np.asarray(getattr(band, side)) for side in _SIDES])
+    if sides.shape != (2, np.size(angular_frequency)):
+        raise InputError(
+            f"a band of moduli must have lower and upper values for each of {np.size(angular_frequency)} frequencies."
+        )
+    return ModulusBand(angular_frequency, sides.real, sides.imag)
+
+
+_SIDES = ("lower", "upper")
+_MODULI = ("storage", "loss")
+
+
+def _of_isotherms(isotherms: Sequence[Isotherm], symbol: str) -> Moduli:
+    def column(name: str) -> Array:
+        return np.concatenate([np.empty(0), *(getattr(isotherm, name) for isotherm in isotherms)])
+
+    temperature = np.repeat([isotherm.temperature for isotherm in isotherms], [len(each) for each in isotherms])
+    return Moduli(
+        np.asarray(temperature, dtype=float),
+        column("angular_frequency"),
+        column("storage_modulus"),
+        column("loss_modulus"),
+        symbol,
+    )
+
+
+def _of_dataset(source: xr.Dataset) -> Moduli:
+    return Moduli(
+        values(source, "temperature"),
+        values(source, "angular_frequency"),
+        values(source, "storage_modulus"),
+        values(source, "loss_modulus"),
+    )
+
+
+def law_of(source: xr.Dataset | None) -> ShiftLaw | None:
+    """Return the shift law that results hold, or None if they hold none."""
+    from viscofric.rheology.cards.native import shift_of
+
+    text = None if source is None else source.attrs.get("constants")
+    law: ShiftLaw | None = shift_of(json.loads(text)) if text else None
+    return law
+
+
+def vertical_shift_of(source: xr.Dataset | None) -> VerticalShift | None:
+    """Return the vertical shift that results hold, or None if they hold none."""
+    from viscofric.rheology.cards import native
+
+    text = None if source is None else source.attrs.get("vertical_shift")
+    shift: VerticalShift | None = native.vertical_shift_of(json.loads(text)) if text else None
+    return shift

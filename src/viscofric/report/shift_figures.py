@@ -1,0 +1,216 @@
+"""Figures of what temperature does: shift factors and their laws, vertical shifts, what laws leave unexplained."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.report.figure_data import shift_table
+from viscofric.report.house_style import (
+    BLUE,
+    GREY,
+    VERMILION,
+    decade_ticks,
+    degrees,
+    legend_above,
+    looks,
+    plain_numbers,
+)
+from viscofric.units import CELSIUS_ZERO
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from viscofric.report.figure_data import Shifts
+    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.vertical_shift import VerticalShift
+
+    Array = NDArray[np.float64]
+
+LEVEL_95 = 1.959963984540054
+#: 10 to this power is still a float, and beyond any axis.
+_LARGEST = 100.0
+#: Laws are not drawn this near to a pole, K.
+_NEAR_POLE = 1.0
+
+
+def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | None = None) -> None:
+    """Draw measured shift factors with their standard errors, and a law with its 95 % band (the paper's Figure 4).
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    shift_factors : ShiftFactors, Superposition or xarray.Dataset
+        A dataset has `log10_shift_factor` and `standard_error` (of log10) along `temperature` (K), and the attribute
+        `reference_temperature`.
+    law : ShiftLaw or str, optional
+        A law, or the kind of one to be fitted here (see `ShiftFactors.law`).
+    """
+    table = shift_table(shift_factors)
+    if isinstance(law, str):
+        law = _fitted(shift_factors, law)
+    handles: list[Any] = [
+        axes.errorbar(
+            table.temperature - CELSIUS_ZERO,
+            10.0**table.log10,
+            yerr=_bars(table.log10, table.error),
+            fmt="o",
+            color=BLUE,
+            markersize=4.5,
+            elinewidth=1.0,
+            zorder=3,
+            label="from the sweeps, ± standard error",
+        )
+    ]
+    if law is not None:
+        handles += _plot_law(axes, law, table.temperature)
+    low, high = np.nanmin(table.log10), np.nanmax(table.log10)
+    room = 0.06 * max(high - low, 1.0)
+    axes.set_yscale("log")
+    axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
+    axes.set_xlabel("temperature (°C)")
+    axes.set_ylabel(r"shift factor $\alpha_T$")
+    plain_numbers(axes, "x")
+    decade_ticks(axes.yaxis)
+    legend_above(axes, handles, columns=1)
+
+
+def plot_vertical_shift(axes: Axes, vertical_shift: VerticalShift, temperatures: Array | None = None) -> None:
+    """Draw the vertical shift b(T): a table with its standard errors, or a law.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    vertical_shift : VerticalShift
+    temperatures : (n,) array, optional
+        K; where to draw a law.  By default 100 K about its reference.
+    """
+    measured = getattr(vertical_shift, "temperatures", None)
+    if measured is not None:
+        b = vertical_shift(measured)
+        error = np.log(10.0) * b * vertical_shift.standard_errors  # type: ignore[attr-defined]
+        axes.errorbar(measured - CELSIUS_ZERO, b, yerr=error, fmt="o", color=BLUE, markersize=4.5, elinewidth=1.0)
+    else:
+        reference = vertical_shift.reference
+        near = np.array([reference - 50.0, reference + 50.0]) if temperatures is None else temperatures
+        line = np.linspace(float(near.min()), float(near.max()), 200)
+        axes.plot(line - CELSIUS_ZERO, vertical_shift(line), color=VERMILION)
+    axes.axhline(1.0, color=GREY, linewidth=0.8, zorder=0)
+    axes.set_xlabel("temperature (°C)")
+    axes.set_ylabel(r"vertical shift $b_T$")
+    plain_numbers(axes, "x")
+    plain_numbers(axes, "y")
+
+
+def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLaw]) -> None:
+    """Draw what each law leaves unexplained, log10 of measured over predicted α, in the measurement's 95 % band.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    shift_factors : ShiftFactors, Superposition or xarray.Dataset
+        See `plot_shift_factors`.
+    laws : sequence of ShiftLaw
+        With the same reference.  One that is far worse than the two best runs out of the axes.
+    """
+    table = shift_table(shift_factors)
+    warm = table.temperature - CELSIUS_ZERO
+    doubt = LEVEL_95 * table.error
+    handles: list[Any] = [
+        axes.fill_between(warm, -doubt, doubt, color=GREY, alpha=0.3, linewidth=0, label="95 % of measured")
+    ]
+    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
+    every = []
+    for law, look in zip(laws, looks(len(laws)), strict=True):
+        answered = _answered(law, table.temperature)
+        left = table.log10[answered] - np.asarray(law.log10(table.temperature[answered]))
+        handles += axes.plot(
+            warm[answered],
+            left,
+            color=look.colour,
+            marker=look.marker,
+            linestyle=look.dashes,
+            markersize=4,
+            linewidth=1.0,
+            label=getattr(law, "title", type(law).__name__),
+        )
+        every.append(left)
+    axes.set_ylim(*_limits_of_residuals(every, doubt))
+    axes.set_xlabel("temperature (°C)")
+    axes.set_ylabel(r"$\log_{10}$ of measured over law's $\alpha_T$")
+    plain_numbers(axes, "x")
+    legend_above(axes, handles, columns=2)
+
+
+def _limits_of_residuals(every: list[Array], doubt: Array) -> tuple[float, float]:
+    # The band of a plateau may be endless: the laws set the scale, with the usual doubt.
+    usual = min(float(np.median(doubt)), 1.0)
+    largest = [float(np.max(np.abs(left), initial=0.0)) for left in every]
+    scale = max(usual, *sorted(largest)[:2], 1e-3)
+    shown = np.concatenate([np.array([-usual, usual]), *(left for left in every if _not_far(left, scale))])
+    low, high = float(shown.min()), float(shown.max())
+    room = 0.08 * max(high - low, 1e-3)
+    return low - room, high + room
+
+
+def _not_far(left: Array, scale: float) -> bool:
+    return float(np.max(np.abs(left), initial=0.0)) <= 3.0 * scale
+
+
+def _bars(log10: Array, error: Array) -> Array:
+    """Lengths of error bars of 10**log10 for a standard error of log10; endless ones end beyond any axis."""
+    factor, error = 10.0**log10, np.minimum(error, _LARGEST)
+    return np.array([factor * (1.0 - 10.0**-error), factor * (10.0**error - 1.0)])
+
+
+def _plot_law(axes: Axes, law: ShiftLaw, temperatures: Array) -> list[Any]:
+    line = np.linspace(temperatures.min(), temperatures.max(), 400)
+    line = line[_answered(law, line)]
+    if not line.size:
+        return []
+    warm, log10 = line - CELSIUS_ZERO, np.asarray(law.log10(line))
+    handles: list[Any] = axes.plot(
+        warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=VERMILION, label=_described(law)
+    )
+    if getattr(law, "covariance", None) is not None:
+        doubt = LEVEL_95 * np.asarray(law.standard_error(line))
+        lower, upper = (10.0 ** np.clip(log10 + side * doubt, -_LARGEST, _LARGEST) for side in (-1.0, 1.0))
+        handles.append(
+            axes.fill_between(warm, lower, upper, color=VERMILION, alpha=0.25, linewidth=0, label="its 95 % band")
+        )
+    return handles
+
+
+def _answered(law: ShiftLaw, temperatures: Array) -> NDArray[np.bool_]:
+    """Say where a law answers, with some room to its pole."""
+    measured = getattr(law, "temperatures", None)
+    if measured is not None:
+        low, high = measured[0], measured[-1]
+        return np.asarray((temperatures >= low) & (temperatures <= high))
+    low, high = getattr(law, "extrapolation_limits", (0.0, np.inf))
+    pole = getattr(law, "pole", None)
+    if pole is not None:
+        low = max(low, pole + _NEAR_POLE)
+    return np.asarray((temperatures >= low) & (temperatures <= high))
+
+
+def _described(law: ShiftLaw) -> str:
+    """Name a law with its constants, where they are two that everybody quotes."""
+    at = f"at {degrees(law.reference)}"
+    if hasattr(law, "C1") and not hasattr(law, "glass_transition"):
+        return f"WLF: $C_1$ = {law.C1:.4g}, $C_2$ = {law.C2:.4g} K {at}"  # type: ignore[attr-defined]
+    if hasattr(law, "glass_transition"):
+        return f"WLF above {degrees(law.glass_transition)}, Arrhenius below"
+    if type(law).__name__ == "Arrhenius":
+        return f"Arrhenius: {law.activation_energy / 1e3:.4g} kJ/mol"  # type: ignore[attr-defined]
+    return f"{getattr(law, 'title', type(law).__name__)} {at}"
+
+
+def _fitted(shift_factors: Shifts, kind: str) -> ShiftLaw:
+    factors: Any = getattr(shift_factors, "shift_factors", shift_factors)
+    fitted: ShiftLaw = factors.law(kind)
+    return fitted
