@@ -32,18 +32,40 @@ if TYPE_CHECKING:
     from viscofric.friction.tribometry import separate as separate
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
+    from viscofric.readers.master_curves import read_master_curve as read_master_curve
+    from viscofric.rheology.cards import Card as Card
+    from viscofric.rheology.cards import open_card as open_card
+    from viscofric.rheology.cards import read_card as read_card
+    from viscofric.rheology.cards import write_card as write_card
+    from viscofric.rheology.catalogue import CatalogueEntry as CatalogueEntry
+    from viscofric.rheology.catalogue import catalogue as catalogue
+    from viscofric.rheology.catalogue import catalogue_material as catalogue_material
     from viscofric.rheology.catalogue import synthetic_fluoroelastomer as synthetic_fluoroelastomer
+    from viscofric.rheology.consistency import SuperpositionCheck as SuperpositionCheck
+    from viscofric.rheology.consistency import check_superposition as check_superposition
+    from viscofric.rheology.law_comparison import LawComparison as LawComparison
     from viscofric.rheology.material import Material as Material
+    from viscofric.rheology.material_samples import MaterialSamples as MaterialSamples
+    from viscofric.rheology.modulus_table import ModulusTable as ModulusTable
     from viscofric.rheology.overlap import OverlapQuality as OverlapQuality
+    from viscofric.rheology.relaxation import RelaxationSpectrum as RelaxationSpectrum
     from viscofric.rheology.shift_factors import ShiftFactors as ShiftFactors
+    from viscofric.rheology.shift_files import read_shift_factors as read_shift_factors
+    from viscofric.rheology.shift_files import read_vendor_law as read_vendor_law
+    from viscofric.rheology.shift_laws import VFT as VFT
     from viscofric.rheology.shift_laws import WLF as WLF
     from viscofric.rheology.shift_laws import Arrhenius as Arrhenius
+    from viscofric.rheology.shift_laws import InversePolynomial as InversePolynomial
     from viscofric.rheology.shift_laws import WLFArrhenius as WLFArrhenius
     from viscofric.rheology.spectrum import RetardationSpectrum as RetardationSpectrum
     from viscofric.rheology.spectrum import SpectrumFit as SpectrumFit
     from viscofric.rheology.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
     from viscofric.rheology.superposition import Superposition as Superposition
     from viscofric.rheology.superposition import superpose as superpose
+    from viscofric.rheology.uncertainty import sample_materials as sample_materials
+    from viscofric.rheology.vertical_shift import DensityShift as DensityShift
+    from viscofric.rheology.vertical_shift import VerticalShift as VerticalShift
+    from viscofric.rheology.vertical_shift import VerticalShiftFactors as VerticalShiftFactors
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
     from viscofric.study import load_study as load_study
@@ -77,23 +99,45 @@ _HOME = {
     "separate": "viscofric.friction.tribometry",
     "read_dma": "viscofric.readers",
     "read_mtm": "viscofric.readers",
+    "read_master_curve": "viscofric.readers.master_curves",
+    "Card": "viscofric.rheology.cards",
+    "open_card": "viscofric.rheology.cards",
+    "read_card": "viscofric.rheology.cards",
+    "write_card": "viscofric.rheology.cards",
+    "catalogue": "viscofric.rheology.catalogue",
+    "catalogue_material": "viscofric.rheology.catalogue",
+    "CatalogueEntry": "viscofric.rheology.catalogue",
     "synthetic_fluoroelastomer": "viscofric.rheology.catalogue",
+    "check_superposition": "viscofric.rheology.consistency",
+    "SuperpositionCheck": "viscofric.rheology.consistency",
+    "LawComparison": "viscofric.rheology.law_comparison",
     "Material": "viscofric.rheology.material",
+    "MaterialSamples": "viscofric.rheology.material_samples",
+    "ModulusTable": "viscofric.rheology.modulus_table",
     "OverlapQuality": "viscofric.rheology.overlap",
+    "RelaxationSpectrum": "viscofric.rheology.relaxation",
     "ShiftFactors": "viscofric.rheology.shift_factors",
+    "read_shift_factors": "viscofric.rheology.shift_files",
+    "read_vendor_law": "viscofric.rheology.shift_files",
     "Arrhenius": "viscofric.rheology.shift_laws",
+    "InversePolynomial": "viscofric.rheology.shift_laws",
+    "VFT": "viscofric.rheology.shift_laws",
     "WLF": "viscofric.rheology.shift_laws",
     "WLFArrhenius": "viscofric.rheology.shift_laws",
     "RetardationSpectrum": "viscofric.rheology.spectrum",
     "SpectrumFit": "viscofric.rheology.spectrum",
     "fit_retardation_spectrum": "viscofric.rheology.spectrum_fit",
-    "Superposition": "viscofric.rheology.superposition",
     "superpose": "viscofric.rheology.superposition",
-    "Study": "viscofric.study",
-    "StudyResults": "viscofric.study",
+    "Superposition": "viscofric.rheology.superposition",
+    "sample_materials": "viscofric.rheology.uncertainty",
+    "DensityShift": "viscofric.rheology.vertical_shift",
+    "VerticalShift": "viscofric.rheology.vertical_shift",
+    "VerticalShiftFactors": "viscofric.rheology.vertical_shift",
     "load_study": "viscofric.study",
     "open_results": "viscofric.study",
     "run_study": "viscofric.study",
+    "Study": "viscofric.study",
+    "StudyResults": "viscofric.study",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

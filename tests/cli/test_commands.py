@@ -101,9 +101,9 @@ TWO_ISOTHERMS = (
 @pytest.mark.parametrize(
     ("dma", "words"),
     [
-        (sweeps("30,1,-1,0.1", *TWO_ISOTHERMS), ["dma.csv", "line 2", "storage"]),
-        (sweeps("30,1,nan,0.1", *TWO_ISOTHERMS), ["dma.csv", "line 2"]),
-        (sweeps("30,1,,0.1", *TWO_ISOTHERMS), ["dma.csv", "line 2"]),
+        (sweeps("30,1,-1,0.1", "30,10,-1,0.1", "20,1,14,3"), ["dma.csv", "line 2", "storage"]),
+        (sweeps("30,1,nan,0.1", "30,10,nan,0.1", "20,1,14,3"), ["dma.csv", "line 2"]),
+        (sweeps("30,1,,0.1", "30,10,,0.1", "20,1,14,3"), ["dma.csv", "line 2"]),
         (sweeps(*TWO_ISOTHERMS).replace("(MPa)", "(mm)"), ["dma.csv", "mm"]),
         (sweeps(*TWO_ISOTHERMS[:3]), ["dma.csv", "isotherm"]),
         (sweeps("20,0.1,1000,20", "20,1,1010,20", "90,0.1,2,0.02", "90,1,2.02,0.02"), ["dma.csv", "overlap"]),

@@ -28,12 +28,30 @@ def test_quantities_become_si_and_paths_are_beside_the_run_file(tmp_path: Path) 
     path = tmp_path / "study.toml"
     path.write_text(GOOD, encoding="utf-8")
     study = load_study(path)
-    assert study.material.dma == tmp_path / "dma.csv"
+    assert study.material.dma == (tmp_path / "dma.csv",)
     assert study.material.reference_temperature == pytest.approx(303.15, rel=1e-15)
     assert study.indenter.radius == pytest.approx(9.525e-3, rel=1e-15)
     # Three speeds over one decade, logarithmically spaced.
     np.testing.assert_allclose(study.conditions.speeds(), [0.02, np.sqrt(0.02 * 0.2), 0.2], rtol=1e-12)
     assert study.conditions.temperature == pytest.approx((303.15, 333.15), rel=1e-15)
+
+
+def test_a_pattern_stands_for_all_files_of_that_kind(tmp_path: Path) -> None:
+    for name in ("T20.txt", "T0.txt", "notes.md"):
+        (tmp_path / name).write_text("", encoding="utf-8")
+    path = tmp_path / "study.toml"
+    path.write_text(GOOD.replace('"dma.csv"', '"T*.txt"'), encoding="utf-8")
+    assert load_study(path).material.dma == (tmp_path / "T0.txt", tmp_path / "T20.txt")
+    path.write_text(GOOD.replace('"dma.csv"', '["notes.md", "X*.txt"]'), encoding="utf-8")
+    # Where nothing answers to the pattern, its reader says that there is no such file.
+    assert load_study(path).material.dma == (tmp_path / "notes.md", tmp_path / "X*.txt")
+
+
+def test_fixed_shift_factors_are_by_kelvin() -> None:
+    text = GOOD.replace('"dma.csv"', '"dma.csv"\nfixed_shift_factors = { "-20 degC" = 4.2 }')
+    study = parse_study(text, Path("study.toml"))
+    ((kelvin, value),) = study.material.fixed_shift_factors.items()
+    assert (kelvin, value) == (pytest.approx(253.15, rel=1e-15), 4.2)
 
 
 def test_one_speed_or_temperature_needs_no_list() -> None:
@@ -58,7 +76,21 @@ def test_one_speed_or_temperature_needs_no_list() -> None:
         ("points = 3", "point = 3", ["did you mean 'points'?"]),
         ('["30 degC", "60 degC"]', "[]", ["conditions.temperature", "empty"]),
         ('"60 degC"', '"-300 degC"', ["conditions.temperature.1", "absolute zero"]),
-        ('dma = "dma.csv"', "", ["material.dma: is missing"]),
+        ('dma = "dma.csv"', "", ["material: nothing says where the rubber comes from", "dma ="]),
+        ('dma = "dma.csv"', 'dma = "dma.csv"\nfile = "rubber.json"', ["material: dma and file are both given"]),
+        ('dma = "dma.csv"', 'catalogue = "a"\ntau_ratio = 2.0', ["tau_ratio cannot be chosen", "(catalogue)"]),
+        ('reference_temperature = "30 degC"', "", ["material: reference_temperature is missing"]),
+        ('dma = "dma.csv"', 'dma = "dma.csv"\nmodes = 12', ['modes is for spectrum = "sparse" only']),
+        (
+            'dma = "dma.csv"',
+            'dma = "dma.csv"\nshift_factors = "a.csv"\nfixed_shift_factors = { "0 degC" = 1.2 }',
+            ["shift_factors and fixed_shift_factors are both given"],
+        ),
+        (
+            'dma = "dma.csv"',
+            'dma = "dma.csv"\nfixed_shift_factors = { "cold" = 1.2 }',
+            ["material.fixed_shift_factors", "has no number"],
+        ),
         ('dma = "dma.csv"', 'dma = "dma.csv"\npoisson_ratio = 0.6', ["material.poisson_ratio", "0.5"]),
         ('title = "a rubber"', 'title = "a rubber', ["not valid TOML"]),
     ],

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from viscofric.errors import DataFileError
-from viscofric.study.store import CaseRecord, CaseStore, case_key, write_atomically
+from viscofric.files import write_atomically
+from viscofric.study.store import CaseRecord, CaseStore, case_key
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -67,7 +68,7 @@ def test_nothing_is_left_behind_by_a_failed_write(tmp_path: Path, monkeypatch: p
     def full_disk(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("viscofric.study.store.os.fsync", full_disk)
+    monkeypatch.setattr("viscofric.files.os.fsync", full_disk)
     with pytest.raises(DataFileError, match="No space left"):
         write_atomically(tmp_path / "a.json", b"{}")
     assert list(tmp_path.iterdir()) == []

@@ -7,7 +7,6 @@ import sys
 INTERRUPTED, TERMINATED = 130, 143
 
 try:
-    import importlib
     import os
     import signal
     import threading
@@ -15,6 +14,8 @@ try:
     from typing import TYPE_CHECKING, Any, Never
 
     import click
+
+    from viscofric.cli.lazy import LazyGroup
 except KeyboardInterrupt:  # the user may change their mind while Python still loads
     sys.stderr.write("Interrupted.\n")
     sys.exit(INTERRUPTED)
@@ -23,11 +24,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-# command -> module of this package that defines it, and what the overview says
+# command, which is also the module of this package that defines it -> what the overview says
 _COMMANDS = {
     "demo": "Run the built-in example (synthetic data) from start to end.",
     "run": "Run a study: DMA sweeps in, friction, figures and a report out.",
     "new": "Write a run file to start from, with synthetic data to replace.",
+    "material": "Make a rubber of DMA sweeps, look at one, write it for other programs.",
     "report": "Write figures and report of a finished study again.",
 }
 
@@ -36,8 +38,8 @@ class Terminated(KeyboardInterrupt):
     """The system asked the program to end (SIGTERM); it ends as it does at Ctrl-C, with another status."""
 
 
-class _LazyGroup(click.Group):
-    """Commands whose modules are imported only when they are called, so that --help answers at once."""
+class _Program(LazyGroup):
+    """The whole program: what its commands leave behind becomes an exit status."""
 
     def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
         """Run the command line; an interruption at any moment is one sentence and its own exit status."""
@@ -56,28 +58,6 @@ class _LazyGroup(click.Group):
             click.echo("Terminated." if terminated else "Interrupted.", err=True)
             sys.exit(TERMINATED if terminated else INTERRUPTED)
         sys.exit(status if isinstance(status, int) else 0)
-
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(_COMMANDS)
-
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        if cmd_name not in _COMMANDS:
-            return None
-        command: click.Command = importlib.import_module(f"viscofric.cli.{cmd_name}").command
-        return command
-
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        with formatter.section("Commands"):
-            formatter.write_dl(list(_COMMANDS.items()))
-
-    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        if args and args[0] not in _COMMANDS and not args[0].startswith("-"):
-            import difflib
-
-            near = difflib.get_close_matches(args[0], _COMMANDS, n=1)
-            hint = f" Did you mean '{near[0]}'?" if near else ""
-            raise click.UsageError(f"No such command '{args[0]}'.{hint}", ctx)
-        return super().resolve_command(ctx, args)
 
 
 @contextmanager
@@ -103,7 +83,13 @@ def _keep_matplotlib_here() -> None:
         os.environ.setdefault("MPLCONFIGDIR", os.path.join(sys.prefix, "var", "matplotlib"))  # noqa: PTH118
 
 
-@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]}, invoke_without_command=True)
+@click.group(
+    cls=_Program,
+    package=__name__,
+    summaries=_COMMANDS,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    invoke_without_command=True,
+)
 @click.version_option(package_name="viscofric", prog_name="viscofric")
 @click.pass_context
 def main(ctx: click.Context) -> None:

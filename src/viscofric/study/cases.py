@@ -50,7 +50,7 @@ class CaseSolver:
     ) -> None:
         self.material, self.shift, self.ball, self.accuracy = material, shift, ball, accuracy
         self.store, self.progress = store, progress
-        fit = material.spectrum.fit
+        fit = getattr(material.spectrum, "fit", None)
         self.frequency_range = (0.0, math.inf) if fit is None else fit.frequency_range
         self.failures: list[str] = []
         self._solved: list[CaseRecord] = []
@@ -83,7 +83,7 @@ class CaseSolver:
         return CaseRecord.of(solution, temperature)
 
     def _key(self, temperature: float, speed: float, load: float) -> str:
-        spectrum = self.material.at(temperature)
+        spectrum = self.material.modes_at(temperature)
         return case_key(
             {
                 "E0": spectrum.E0,

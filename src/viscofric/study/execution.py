@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -15,16 +14,16 @@ from viscofric.friction.agreement import compare
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.master_curve import shift_friction
 from viscofric.friction.tribometry import separate
-from viscofric.readers import read_dma, read_mtm
-from viscofric.readers.dma_csv import deformation_is_told
-from viscofric.rheology.material import Material
-from viscofric.rheology.spectrum_fit import fit_retardation_spectrum
-from viscofric.rheology.superposition import superpose
+from viscofric.readers import read_mtm
+from viscofric.rheology.spectrum import RetardationSpectrum
 from viscofric.study import labels
 from viscofric.study.cases import CaseSolver, Progress, kept
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
+from viscofric.study.rubber import Rubber, make_rubber
+from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.run_file import Study, parse_study, read_study_text
 from viscofric.study.store import CaseRecord, CaseStore
+from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -32,8 +31,7 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
-    from viscofric.rheology.shift_laws import WLF, ShiftLaw
-    from viscofric.rheology.superposition import Superposition
+    from viscofric.rheology.shift_laws import ShiftLaw
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -82,30 +80,30 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
         measured = separate(read_mtm(*study.measurement.mtm))
         progress("measurement", 1, 1)
     progress("material", 0, 1)
-    rubber = _material(study)
+    rubber = make_rubber(study.material)
     progress("material", 1, 1)
+    shift = _shift(rubber)
     # Temperatures without a shift factor are told now, not case by case.
-    rubber.shift(np.array(study.conditions.temperature))
+    shift(np.array(study.conditions.temperature))
 
     solver = CaseSolver(
         rubber.material,
-        rubber.shift,
+        shift,
         Ball(study.indenter.radius),
         study.solver.accuracy,
         CaseStore(folder / CASES_FOLDER),
         progress,
     )
-    tree = _tree(study, rubber, measured, solver)
+    tree = _tree(study, rubber, shift, measured, solver)
     tree.attrs = {
         "title": study.title,
         "data_origin": study.data_origin,
         "study_file": path.name,
         "study_text": text,
-        "notes": _listed([*rubber.fit.notes, *(_measurement_notes(measured, rubber.shift) if measured else ())]),
-        "warnings": _listed(solver.warnings),
+        "notes": _listed([*rubber.notes, *(_measurement_notes(measured, shift) if measured else ())]),
+        "warnings": _listed([*_doubts(study, rubber, shift), *solver.warnings]),
         "failures": _listed(solver.failures),
-        "deformation": rubber.deformation,
-        "poisson_ratio": study.material.poisson_ratio,
+        **rubber.attributes,
         "indenter": f"ball of radius {1e3 * study.indenter.radius:.6g} mm",
         "indenter_radius": study.indenter.radius,
         "frequency_range": solver.frequency_range,
@@ -131,44 +129,41 @@ def _listed(sentences: Iterable[str]) -> str:
     return json.dumps(list(sentences), ensure_ascii=False)
 
 
-@dataclass(frozen=True, eq=False)
-class _Rubber:
-    """The material of a study with everything it was made from."""
-
-    material: Material
-    shift: ShiftLaw
-    fit: Superposition
-    law: WLF | None
-    isotherms: xarray.Dataset
-    deformation: str
-
-
-def _material(study: Study) -> _Rubber:
-    wanted = study.material
-    sweeps = read_dma(wanted.dma, deformation=wanted.deformation)
-    if not deformation_is_told(sweeps):
+def _shift(rubber: Rubber) -> ShiftLaw:
+    """Return α(T) of a rubber that contacts can be solved with."""
+    material = rubber.material
+    if not isinstance(material.spectrum, RetardationSpectrum):
         raise StudyError(
-            f"{wanted.dma}: does not say whether it was measured in tension or in shear, a factor of 3 in the modulus; "
-            'write deformation = "tension" or "shear" below [material].'
+            f"material: {material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball "
+            "needs retardation modes, which fitting a spectrum to the table gives (viscofric material fit)."
         )
-    try:
-        fit = superpose(sweeps, wanted.reference_temperature, poisson_ratio=wanted.poisson_ratio)
-    except InputError as error:
-        raise type(error)(f"{wanted.dma}: {error}") from error
-    spectrum = fit_retardation_spectrum(fit.master_curve, tau_ratio=wanted.tau_ratio)
-    try:
-        law = fit.shift_factors.law("wlf")
-    except InputError:
-        if wanted.shift == "wlf":
-            raise
-        law = None
-    shift: ShiftLaw = law if wanted.shift == "wlf" and law is not None else fit.shift_factors
-    material = Material(spectrum, shift=shift, poisson_ratio=wanted.poisson_ratio)
-    isotherms = labels.isotherm_data(sweeps.in_tension(wanted.poisson_ratio))
-    return _Rubber(material, shift, fit, law, isotherms, sweeps.deformation)
+    if material.shift is None:
+        raise StudyError(
+            f"material: {material.name or 'the rubber'} has no shift factors, so that its temperature cannot be "
+            "chosen; give a rubber that has, or sweeps at several temperatures."
+        )
+    return material.shift
 
 
-def _tree(study: Study, rubber: _Rubber, measured: FrictionCurves | None, solver: CaseSolver) -> xarray.DataTree:
+def _doubts(study: Study, rubber: Rubber, shift: ShiftLaw) -> list[str]:
+    """Tell what of the prediction rests on more than was measured, or does not lie on one curve."""
+    asked = np.array(study.conditions.temperature)
+    beyond = asked[np.asarray(shift.extrapolates(asked))]
+    said = []
+    if beyond.size:
+        at = ", ".join(f"{celsius(float(kelvin)):z.4g}" for kelvin in np.unique(beyond))
+        said.append(f"At {at} °C the shift factor is extrapolated beyond the temperatures of the sweeps, by its law.")
+    if rubber.material.vertical_shift is not None:
+        said.append(
+            "The modulus has a vertical shift b(T), so that curves of other temperatures fall on the friction master "
+            "curve only at the load F/b; at one load they lie beside it."
+        )
+    return said
+
+
+def _tree(
+    study: Study, rubber: Rubber, shift: ShiftLaw, measured: FrictionCurves | None, solver: CaseSolver
+) -> xarray.DataTree:
     import xarray
 
     conditions = study.conditions
@@ -178,16 +173,14 @@ def _tree(study: Study, rubber: _Rubber, measured: FrictionCurves | None, solver
     records = kept(solver.solve("friction", temperature, speed, np.full(len(speed), conditions.load)))
     if not records:
         raise StudyError(f"no case could be solved; the first one failed: {solver.failures[0]}")
-    reduced = speed * rubber.shift(temperature)
+    reduced = speed * shift(temperature)
     groups: dict[str, xarray.Dataset] = {
-        "/isotherms": rubber.isotherms,
-        "/shift_factors": labels.shift_factor_data(rubber.fit, rubber.law, rubber.isotherms, study.material.shift),
-        **labels.spectrum_data(rubber.fit, rubber.material.spectrum),
+        **rubber_data(rubber),
         "/prediction": _prediction(records, solver),
     }
     if measured is not None:
         at_points = solver.solve("measured points", measured.temperature, measured.speed, measured.load)
-        reduced_measured = measured.speed * rubber.shift(measured.temperature)
+        reduced_measured = measured.speed * shift(measured.temperature)
         reduced = np.concatenate([reduced, reduced_measured])
         groups["/measurement"] = labels.measurement_data(
             measured,
@@ -197,7 +190,7 @@ def _tree(study: Study, rubber: _Rubber, measured: FrictionCurves | None, solver
         )
         groups |= _agreement(measured, at_points)
     master_speeds = np.geomspace(reduced.min(), reduced.max(), study.solver.master_curve_points)
-    reference = np.full(len(master_speeds), study.material.reference_temperature)
+    reference = np.full(len(master_speeds), shift.reference)
     loads = np.full(len(master_speeds), conditions.load)
     groups["/prediction_master"] = _prediction(
         kept(solver.solve("master curve", reference, master_speeds, loads)), solver

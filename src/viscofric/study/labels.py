@@ -3,11 +3,7 @@
 The tree of a study's results (every variable in SI, with ``units`` and ``long_name``):
 
 ======================  ==========================================================================
-``/isotherms``          the measured moduli (tensile) that were used
-``/shift_factors``      log10 α of each isotherm with its standard error, and the fitted WLF law
-``/master_curve``       the isotherms shifted to the reference temperature, and the fit at the same points
-``/spectrum``           the retardation spectrum at the reference temperature
-``/spectrum_curve``     its storage and loss modulus over a wider range
+``/isotherms`` …        the rubber: see `viscofric.study.rubber_labels`
 ``/prediction``         one entry per speed and temperature asked for
 ``/prediction_master``  friction at the reference temperature over the reduced speeds α(T)·v
 ``/measurement``        the separated measurement and the prediction at the same points (if measured)
@@ -17,12 +13,10 @@ The tree of a study's results (every variable in SI, with ``units`` and ``long_n
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.errors import InputError
 from viscofric.study.store import NUMBERS, CaseRecord
 
 if TYPE_CHECKING:
@@ -30,12 +24,8 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from viscofric.data import IsothermalSweeps
     from viscofric.friction.agreement import Agreement
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.shift_laws import WLF
-    from viscofric.rheology.spectrum import RetardationSpectrum
-    from viscofric.rheology.superposition import Superposition
 
 # variable -> unit, long name
 _MEANING = {
@@ -47,6 +37,16 @@ _MEANING = {
     "fitted_loss_modulus": ("Pa", "loss modulus of the fitted spectrum"),
     "log10_shift_factor": ("1", "decadic logarithm of the shift factor"),
     "standard_error": ("1", "standard error of log10 of the shift factor"),
+    "log10_vertical_shift": ("1", "decadic logarithm of the vertical shift b"),
+    "vertical_standard_error": ("1", "standard error of log10 of the vertical shift"),
+    "storage_modulus_lower": ("Pa", "lower end of the 95 % band of the storage modulus"),
+    "storage_modulus_upper": ("Pa", "upper end of the 95 % band of the storage modulus"),
+    "loss_modulus_lower": ("Pa", "lower end of the 95 % band of the loss modulus"),
+    "loss_modulus_upper": ("Pa", "upper end of the 95 % band of the loss modulus"),
+    "law": ("1", "shift law"),
+    "constants": ("1", "constants of the law"),
+    "information_criterion": ("1", "corrected Akaike information criterion above that of the best law"),
+    "law_scatter": ("1", "scatter of log10 of the shift factors about the law beyond their uncertainties"),
     "retardation_time": ("s", "retardation time"),
     "creep_coefficient": ("1/Pa", "creep coefficient C of the mode"),
     "speed": ("m/s", "speed at which the rubber is deformed"),
@@ -111,92 +111,6 @@ def dataset(
     }
     result = xarray.Dataset(variables, attrs=attributes)
     return result.set_coords(coordinate) if coordinate else result
-
-
-def isotherm_data(sweeps: IsothermalSweeps) -> xarray.Dataset:
-    """Label the measured moduli."""
-    return dataset(
-        "reading",
-        {
-            "temperature": np.concatenate([np.full(len(one), one.temperature) for one in sweeps.isotherms]),
-            "angular_frequency": np.concatenate([one.angular_frequency for one in sweeps.isotherms]),
-            "storage_modulus": np.concatenate([one.storage_modulus for one in sweeps.isotherms]),
-            "loss_modulus": np.concatenate([one.loss_modulus for one in sweeps.isotherms]),
-        },
-    )
-
-
-def shift_factor_data(
-    fit: Superposition, law: WLF | None, isotherms: xarray.Dataset, shift_used: str
-) -> xarray.Dataset:
-    """Label the shift factors with the law fitted to them."""
-    factors = fit.shift_factors
-    given = np.unique(isotherms["temperature"].values)
-    attributes: dict[str, Any] = {
-        "reference_temperature": factors.reference,
-        "shift_used": shift_used,
-        "isotherms_given": len(given),
-        "isotherms_used": len(factors.temperatures),
-        "temperatures_given": json.dumps(given.tolist()),
-        "overlap_rms_log10_storage": fit.quality.storage,
-        "overlap_rms_log10_loss": fit.quality.loss,
-    }
-    if law is not None:
-        residual = factors.log10_values - law.log10(factors.temperatures)
-        attributes |= {"wlf_C1": law.C1, "wlf_C2": law.C2, "wlf_rms": float(np.sqrt(np.mean(residual**2)))}
-        if law.standard_errors is not None:
-            attributes |= {"wlf_C1_error": law.standard_errors[0], "wlf_C2_error": law.standard_errors[1]}
-    return dataset(
-        "temperature",
-        {
-            "temperature": factors.temperatures,
-            "log10_shift_factor": factors.log10_values,
-            "standard_error": factors.standard_errors,
-        },
-        "temperature",
-        **attributes,
-    )
-
-
-def spectrum_data(fit: Superposition, spectrum: RetardationSpectrum) -> dict[str, xarray.Dataset]:
-    """Label the master curve, the spectrum fitted to it and the curve of that spectrum."""
-    curve = fit.master_curve
-    fitted = spectrum.complex_modulus(curve.angular_frequency)
-    quality = spectrum.fit
-    if quality is None:
-        raise InputError("spectrum: has not been fitted to a master curve.")
-    wide = np.geomspace(curve.angular_frequency[0] / 100.0, curve.angular_frequency[-1] * 100.0, 600)
-    smooth = spectrum.complex_modulus(wide)
-    return {
-        "/master_curve": dataset(
-            "reading",
-            {
-                "angular_frequency": curve.angular_frequency,
-                "storage_modulus": curve.storage_modulus,
-                "loss_modulus": curve.loss_modulus,
-                "temperature": curve.temperature,
-                "fitted_storage_modulus": fitted.real,
-                "fitted_loss_modulus": fitted.imag,
-            },
-            reference_temperature=curve.reference,
-            rms_log10_storage=quality.rms_storage,
-            rms_log10_loss=quality.rms_loss,
-        ),
-        "/spectrum": dataset(
-            "mode",
-            {"retardation_time": spectrum.tau, "creep_coefficient": spectrum.C},
-            E0=spectrum.E0,
-            E_inf=spectrum.E_inf,
-            E0_extrapolated=int(quality.E0_extrapolated),
-            E_inf_extrapolated=int(quality.E_inf_extrapolated),
-            statements=json.dumps(list(quality.notes), ensure_ascii=False),
-        ),
-        "/spectrum_curve": dataset(
-            "angular_frequency",
-            {"angular_frequency": wide, "storage_modulus": smooth.real, "loss_modulus": smooth.imag},
-            "angular_frequency",
-        ),
-    }
 
 
 def prediction_data(records: Sequence[CaseRecord], within: Sequence[bool]) -> xarray.Dataset:

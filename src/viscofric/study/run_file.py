@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import math
 import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -11,8 +10,6 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import (
     BaseModel,
-    BeforeValidator,
-    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -21,46 +18,17 @@ from pydantic import (
 )
 
 from viscofric.errors import StudyError
-from viscofric.units import Quantity, positive, to_si
-
-# Stands for the field's name in messages about units; the location says it better.
-_VALUE = "value"
-
-
-def _with_unit(value: object) -> Quantity:
-    """Refuse bare numbers: in a run file every quantity carries its unit."""
-    if not isinstance(value, str):
-        raise ValueError(f"{value!r} has no unit; write text such as '25 N', '100 mm/s', '30 degC'")
-    return value
-
-
-def _kelvin(value: object) -> float:
-    kelvin = to_si(_with_unit(value), "K", _VALUE)
-    if kelvin <= 0.0:
-        raise ValueError(f"{value!r} lies below absolute zero")
-    return kelvin
-
-
-# A user's value, already turned into SI.
-_Length = Annotated[float, BeforeValidator(lambda value: positive(_with_unit(value), "m", _VALUE))]
-_Force = Annotated[float, BeforeValidator(lambda value: positive(_with_unit(value), "N", _VALUE))]
-_Speed = Annotated[float, BeforeValidator(lambda value: positive(_with_unit(value), "m/s", _VALUE))]
-_Temperature = Annotated[float, BeforeValidator(_kelvin)]
+from viscofric.study.material_table import MaterialTable
+from viscofric.study.quantities import VALUE, Force, Length, Speed, Table, Temperature
 
 _MOST_POINTS = 10_000
 
 
-class _Table(BaseModel):
-    """A table of the run file: no unknown keys, no changes afterwards."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class SpeedRange(_Table):
+class SpeedRange(Table):
     """Speeds from one to another."""
 
-    first: _Speed = Field(alias="from")
-    last: _Speed = Field(alias="to")
+    first: Speed = Field(alias="from")
+    last: Speed = Field(alias="to")
     points: int = Field(ge=2, le=_MOST_POINTS)
     spacing: Literal["log", "linear"] = "log"
 
@@ -70,33 +38,22 @@ class SpeedRange(_Table):
         return tuple(float(speed) for speed in spread(self.first, self.last, self.points))
 
 
-class MaterialTable(_Table):
-    """[material]: the DMA file and how the rubber is made of it."""
-
-    dma: Path
-    deformation: Literal["tension", "shear"] | None = None
-    poisson_ratio: float = Field(default=0.5, ge=0.0, le=0.5)
-    reference_temperature: _Temperature
-    shift: Literal["measured", "wlf"] = "measured"
-    tau_ratio: float = Field(default=math.e, gt=1.0, le=100.0)
-
-
-class IndenterTable(_Table):
+class IndenterTable(Table):
     """[indenter]: what slides or rolls over the rubber."""
 
     shape: Literal["ball"] = "ball"
-    radius: _Length
+    radius: Length
 
 
-class ConditionsTable(_Table):
+class ConditionsTable(Table):
     """[conditions]: load, speeds and temperatures to predict friction at."""
 
-    load: _Force
+    load: Force
     speed: Annotated[
-        Annotated[SpeedRange, Tag("range")] | Annotated[tuple[_Speed, ...], Tag("list"), Field(min_length=1)],
+        Annotated[SpeedRange, Tag("range")] | Annotated[tuple[Speed, ...], Tag("list"), Field(min_length=1)],
         Discriminator(lambda value: "range" if isinstance(value, dict | SpeedRange) else "list"),
     ]
-    temperature: tuple[_Temperature, ...] = Field(min_length=1)
+    temperature: tuple[Temperature, ...] = Field(min_length=1)
 
     @model_validator(mode="before")
     @classmethod
@@ -113,7 +70,7 @@ class ConditionsTable(_Table):
         return self.speed.speeds() if isinstance(self.speed, SpeedRange) else self.speed
 
 
-class MeasurementTable(_Table):
+class MeasurementTable(Table):
     """[measurement]: traction runs to lay beside the prediction."""
 
     mtm: tuple[Path, ...] = Field(min_length=1)
@@ -126,14 +83,14 @@ class MeasurementTable(_Table):
         return values
 
 
-class SolverTable(_Table):
+class SolverTable(Table):
     """[solver]: how accurate the friction is to be."""
 
     accuracy: float = Field(default=1e-3, ge=1e-4, le=0.1, allow_inf_nan=False)
     master_curve_points: int = Field(default=41, ge=2, le=_MOST_POINTS)
 
 
-class Study(_Table):
+class Study(Table):
     """A whole run file; quantities in SI, paths resolved against the run file's folder."""
 
     title: str = "Viscoelastic friction"
@@ -147,7 +104,7 @@ class Study(_Table):
     @property
     def inputs(self) -> tuple[Path, ...]:
         """All data files."""
-        return (self.material.dma, *(self.measurement.mtm if self.measurement else ()))
+        return (*self.material.inputs, *(self.measurement.mtm if self.measurement else ()))
 
 
 def load_study(path: str | Path) -> Study:
@@ -194,16 +151,34 @@ def parse_study(text: str, path: Path) -> Study:
     try:
         study = Study.model_validate(values)
     except ValidationError as error:
-        found = error.errors()
-        # A list whose entries are wrong counts as empty too: say only what is wrong with the entries.
-        inside = {problem["loc"][:depth] for problem in found for depth in range(len(problem["loc"]))}
-        problems = [_sentence(problem) for problem in found if problem["loc"] not in inside]
-        raise StudyError(f"{path}: " + " ".join(dict.fromkeys(problems))) from None
+        raise StudyError(f"{path}: {_sentences(error)}") from None
     return _resolve_paths(study, path.parent)
 
 
+def material_of(values: dict[str, Any]) -> MaterialTable:
+    """Check the values of [material] alone, with paths as they are.
+
+    Raises
+    ------
+    StudyError
+        With every wrong key, unit and range.
+    """
+    try:
+        return MaterialTable.model_validate(values)
+    except ValidationError as error:
+        raise StudyError(_sentences(error)) from None
+
+
+def _sentences(error: ValidationError) -> str:
+    """Say all that pydantic found."""
+    found = error.errors()
+    # A list whose entries are wrong counts as empty too: say only what is wrong with the entries.
+    inside = {problem["loc"][:depth] for problem in found for depth in range(len(problem["loc"]))}
+    return " ".join(dict.fromkeys(_sentence(problem) for problem in found if problem["loc"] not in inside))
+
+
 def _resolve_paths(study: Study, folder: Path) -> Study:
-    material = study.material.model_copy(update={"dma": folder / study.material.dma})
+    material = study.material.beside(folder)
     measurement = study.measurement
     if measurement is not None:
         measurement = measurement.model_copy(update={"mtm": tuple(folder / file for file in measurement.mtm)})
@@ -228,8 +203,9 @@ def _sentence(problem: Any) -> str:
             return f"{field}: {problem['input']!r} is neither text with a unit, nor a list of such, nor a table."
         case "model_type":
             return f"{field}: {problem['input']!r} is not a table; write [{field}] with its keys below it."
-    message = problem["msg"].removeprefix("Value error, ").removeprefix(f"{_VALUE} = ")
-    return f"{field}: {message}" + ("" if message.endswith((".", "?")) else ".")
+    message = problem["msg"].removeprefix("Value error, ").removeprefix(f"{VALUE} = ")
+    place = f"{field}: " if field else ""
+    return f"{place}{message}" + ("" if message.endswith((".", "?")) else ".")
 
 
 def _known_keys(path: list[Any]) -> list[str]:

@@ -6,16 +6,15 @@ import functools
 import hashlib
 import json
 import math
-import os
-import tempfile
 from dataclasses import asdict, dataclass, fields
 from importlib.resources import files
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from viscofric.errors import DataFileError
+from viscofric.files import write_atomically
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.contact.solution import ContactSolution
 
 
@@ -125,39 +124,5 @@ class CaseStore:
 NUMBERS = tuple(field.name for field in fields(CaseRecord) if field.name != "warnings")
 
 
-def _umask() -> int:
-    """Return the process's file mode mask, which can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
 def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file by way of a temporary one beside it, moved into place when it is complete.
-
-    Raises
-    ------
-    DataFileError
-        If the folder or the file cannot be written.
-    """
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        temporary = Path(name)
-        try:
-            with os.fdopen(handle, "wb") as file:
-                # Temporary files are for their owner alone; what is written here is to be handed on.
-                temporary.chmod(0o666 & ~_umask())
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            temporary.replace(path)
-        except BaseException:
-            temporary.unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error

@@ -1,0 +1,36 @@
+"""``viscofric material convert RUBBER OUTPUT``: a rubber as a material card of another program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from viscofric.cli.errors import told
+
+if TYPE_CHECKING:
+    from viscofric.rheology.cards import CardFormat
+
+FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json")
+
+
+@click.command(name="convert")
+@click.argument("rubber")
+@click.argument("output", type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--format", "form", type=click.Choice(FORMATS), required=True, help="Program to write for.")
+@click.option(
+    "--poisson-ratio", type=float, help="For the card instead of the rubber's own: ANSYS and LS-DYNA cannot take 0.5."
+)
+@click.option("--density", metavar="RHO", help="Such as '1100 kg/m^3'; LS-DYNA needs it.")
+def command(rubber: str, output: Path, form: CardFormat, poisson_ratio: float | None, density: str | None) -> None:
+    """Write RUBBER as a material card of another program into the file OUTPUT.
+
+    RUBBER is a material file (JSON, CSV, or a card of any of these programs), or a name of the catalogue.
+    """
+    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.rheology import write_card
+
+    with told():
+        write_card(find_rubber(rubber), output, format=form, poisson_ratio=poisson_ratio, density=density)
+    click.echo(f"card     {output}")

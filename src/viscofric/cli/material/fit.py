@@ -1,0 +1,157 @@
+"""``viscofric material fit FILES``: shift factors, master curve and spectrum of DMA files, with figures."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.errors import told
+from viscofric.cli.material.convert import FORMATS
+from viscofric.cli.material.options import reading_options
+
+if TYPE_CHECKING:
+    from viscofric.rheology.cards import CardFormat
+    from viscofric.study.results import StudyResults
+
+_LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
+
+
+@click.command(name="fit")
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option("--reference", metavar="T", required=True, help="Temperature of the master curve, such as '20 degC'.")
+@reading_options
+@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="0 to 0.5.")
+@click.option(
+    "--vertical-shift",
+    type=click.Choice(["none", "free", "density"]),
+    default="none",
+    show_default=True,
+    help="b(T): none, fitted freely, or that of density and temperature.",
+)
+@click.option(
+    "--shift",
+    type=click.Choice(_LAWS),
+    default="measured",
+    show_default=True,
+    help="Shift factors of the rubber: as measured, or the law fitted to them.",
+)
+@click.option(
+    "--shift-factors",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Take the factors of this file instead of finding them.",
+)
+@click.option("--fix", metavar="T=LOG10", multiple=True, help="Hold one factor, such as '-20 degC=4.2'.")
+@click.option(
+    "--spectrum",
+    type=click.Choice(["non-negative", "regularised", "sparse"]),
+    default="non-negative",
+    show_default=True,
+    help="How retardation modes are fitted.",
+)
+@click.option("--modes", type=int, help="With --spectrum sparse: this many modes at most.")
+@click.option("--tau-ratio", type=float, default=math.e, help="From one retardation time to the next [default: e].")
+@click.option("--card", "cards", type=click.Choice(FORMATS), multiple=True, help="Also write a card for this program.")
+@click.option("--samples", type=int, default=200, show_default=True, help="Draws for the bands of E; 0 for none.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for the results [default: FILE.material beside the first file].",
+)
+def command(
+    files: tuple[Path, ...], output: Path | None, cards: tuple[CardFormat, ...], samples: int, **asked: Any
+) -> None:
+    """Make a rubber of DMA FILES: shift factors, master curve, spectrum, figures and a report.
+
+    The folder holds rubber.json (for run files and the other commands), tables (CSV), figures and report.html.
+    """
+    if samples < 0:
+        raise click.BadParameter("must not be below zero.", param_hint="--samples")
+    with told():
+        from viscofric.report import draw_figures, write_report
+        from viscofric.study.rubber_results import run_material, write_cards
+
+        folder = files[0].with_suffix(".material") if output is None else output
+        results, rubber, written = run_material(
+            _table(files, asked),
+            folder,
+            title=f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if len(files) > 1 else ""),
+            command=_command(files, output, cards, samples, asked),
+            samples=samples,
+        )
+        figures = draw_figures(results.tree, results.folder / "figures")
+        report = write_report(results.tree, results.folder)
+        _tell(results)
+        for path in written:
+            click.echo(f"file     {path}")
+        for path in figures:
+            click.echo(f"figure   {path}")
+        click.echo(f"report   {report}")
+        # last, since a program may not be able to hold the rubber
+        for path in write_cards(rubber.material, folder / "cards", cards):
+            click.echo(f"card     {path}")
+    if cards and rubber.shift_used == "measured":
+        click.echo(
+            "Note: other programs take a shift law but no table of factors, so that their cards hold at the reference "
+            "temperature only; --shift best gives them a law.",
+            err=True,
+        )
+
+
+def _table(files: tuple[Path, ...], asked: dict[str, Any]) -> Any:
+    """Check what was asked for as a run file's [material] is checked."""
+    from viscofric.study.run_file import material_of
+
+    values: dict[str, Any] = {
+        "dma": [str(path) for path in files],
+        "reference_temperature": asked["reference"],
+        "fixed_shift_factors": dict(_fixed(text) for text in asked["fix"]),
+    }
+    for name, value in asked.items():
+        if name not in ("reference", "fix") and value not in (None, ()):
+            values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
+    return material_of(values)
+
+
+def _fixed(text: str) -> tuple[str, float]:
+    temperature, _, value = text.rpartition("=")
+    try:
+        return temperature, float(value)
+    except ValueError:
+        raise click.BadParameter(
+            f"{text!r}: write temperature and decadic logarithm, such as '-20 degC=4.2'.", param_hint="--fix"
+        ) from None
+
+
+def _command(
+    files: tuple[Path, ...], output: Path | None, cards: tuple[str, ...], samples: int, asked: dict[str, Any]
+) -> str:
+    """Return the command that does the same again, without what is the default anyway."""
+    defaults = {option.name: option.default for option in command.params}
+    words = ["viscofric", "material", "fit", *map(str, files)]
+    for name, value in {**asked, "card": cards, "samples": samples, "output": output}.items():
+        if value in (None, (), defaults.get(name)):
+            continue
+        for one in value if isinstance(value, tuple) else (value,):
+            words += [f"--{name.replace('_', '-')}", str(one)]
+    return shlex.join(words)
+
+
+def _tell(results: StudyResults) -> None:
+    """Print the key numbers, and what was doubtful."""
+    from viscofric.report.messages import readable
+    from viscofric.report.results import group, sentences
+    from viscofric.report.words import key_numbers
+
+    for note in results.notes:
+        click.echo(f"Note: {readable(note)}", err=True)
+    whole = group(results.tree, "superposition")
+    if whole is not None:
+        for sentence in sentences(whole.attrs, "sentences"):
+            click.echo(readable(sentence))
+    for item in key_numbers(results.tree):
+        click.echo(f"{item.name}: {item.value}" + (f" ({item.remark})" if item.remark else ""))

@@ -1,0 +1,20 @@
+"""``viscofric material list``: the rubbers of the catalogue."""
+
+from __future__ import annotations
+
+import click
+
+from viscofric.cli.errors import told
+
+
+@click.command(name="list")
+def command() -> None:
+    """List the rubbers of the catalogue, with their source."""
+    from viscofric.rheology import catalogue
+
+    with told():
+        for entry in catalogue():
+            click.echo(f"{entry.name}  [{entry.kind}]")
+            for line in (entry.holds, entry.citation, entry.remarks):
+                if line:
+                    click.echo(f"    {line}")

@@ -1,0 +1,139 @@
+"""``viscofric material …``: what the commands print and write, and how they fail."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+import viscofric as vf
+from viscofric.cli import main
+
+EXAMPLE = Path(vf.__file__).parent / "example" / "dma.csv"
+
+
+def call(*words: object) -> Result:
+    return CliRunner().invoke(main, ["material", *map(str, words)], standalone_mode=True)
+
+
+@pytest.fixture(scope="module")
+def fitted(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Make the rubber of the example once; return its folder, and what was printed."""
+    folder = tmp_path_factory.mktemp("fitted") / "out"
+    done = call(
+        "fit", EXAMPLE, "--reference", "30 degC", "--shift", "best", "--samples", 20, "--card", "abaqus", "-o", folder
+    )
+    assert done.exit_code == 0, done.output
+    return folder, done.output
+
+
+def test_read_says_what_the_file_holds(tmp_path: Path) -> None:
+    done = call("read", EXAMPLE, "--csv", tmp_path / "again.csv")
+    assert done.exit_code == 0, done.output
+    assert "26 isotherms" in done.output
+    assert "moduli in tension" in done.output
+    before, after = vf.read_dma(EXAMPLE), vf.read_dma(tmp_path / "again.csv")
+    # ten printed digits
+    for one, other in zip(before.isotherms, after.isotherms, strict=True):
+        np.testing.assert_allclose(other.storage_modulus, one.storage_modulus, rtol=1e-9)
+        np.testing.assert_allclose(other.angular_frequency, one.angular_frequency, rtol=1e-9)
+    assert after.deformation == "tension"
+
+
+def test_fit_writes_the_rubber_for_everyone(fitted: tuple[Path, str]) -> None:
+    folder, printed = fitted
+    for name in ("rubber.json", "shift_factors.csv", "master_curve.csv", "spectrum.csv", "report.html", "results.nc"):
+        assert (folder / name).stat().st_size > 0, name
+    assert (folder / "figures" / "master_curve.svg").exists()
+    assert (folder / "cards" / "rubber_abaqus.inp").exists()
+    assert "WLF" in printed
+
+
+def test_what_fit_writes_is_the_same_rubber(fitted: tuple[Path, str]) -> None:
+    folder, _ = fitted
+    rubber, card = vf.read_card(folder / "rubber.json"), vf.read_card(folder / "cards" / "rubber_abaqus.inp")
+    omega = np.geomspace(1e-3, 1e6, 10)
+    for kelvin in (303.15, 333.15):
+        # The card's moduli are printed in full, and converted exactly.
+        np.testing.assert_allclose(
+            card.complex_modulus(omega, kelvin), rubber.complex_modulus(omega, kelvin), rtol=1e-10
+        )
+    factors = vf.read_shift_factors(folder / "shift_factors.csv")
+    again = vf.superpose(vf.read_dma(EXAMPLE), "30 degC")
+    np.testing.assert_allclose(factors.log10_values, again.shift_factors.log10_values, atol=1e-12)
+
+
+def test_the_report_tells_the_command_that_made_it(fitted: tuple[Path, str]) -> None:
+    folder, _ = fitted
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert "viscofric material fit" in page
+    assert "--shift best" in page
+    assert "--samples 20" in page
+    assert "--poisson-ratio" not in page  # the default needs no mention
+
+
+def test_show_prints_the_modulus_asked_for(fitted: tuple[Path, str]) -> None:
+    folder, _ = fitted
+    done = call("show", folder / "rubber.json", "--temperature", "60 degC", "--frequency", "1 Hz")
+    assert done.exit_code == 0, done.output
+    rubber = vf.read_card(folder / "rubber.json")
+    modulus = complex(rubber.complex_modulus(2 * np.pi, "60 degC")) / 1e6
+    assert f"{modulus.real:.4g}" in done.output
+    assert f"{modulus.imag:.4g}" in done.output
+
+
+def test_convert_there_and_back_loses_nothing(fitted: tuple[Path, str], tmp_path: Path) -> None:
+    folder, _ = fitted
+    assert call("convert", folder / "rubber.json", tmp_path / "a.txt", "--format", "comsol").exit_code == 0
+    assert call("convert", tmp_path / "a.txt", tmp_path / "b.json", "--format", "json").exit_code == 0
+    before, after = (vf.read_card(path) for path in (folder / "rubber.json", tmp_path / "b.json"))
+    np.testing.assert_allclose(after.complex_modulus(1.0), before.complex_modulus(1.0), rtol=1e-12)
+
+
+def test_catalogue_is_listed_with_its_sources() -> None:
+    done = call("list")
+    assert done.exit_code == 0, done.output
+    for entry in vf.catalogue():
+        assert entry.name in done.output
+        assert entry.citation in done.output
+    assert "SYNTHETIC" in done.output
+
+
+def test_sparse_spectrum_has_no_more_modes_than_asked(tmp_path: Path) -> None:
+    done = call(
+        "fit", EXAMPLE, "--reference", "30 degC", "--spectrum", "sparse", "--modes", 8, "--samples", 0, "-o", tmp_path
+    )
+    assert done.exit_code == 0, done.output
+    rubber = json.loads((tmp_path / "rubber.json").read_text(encoding="utf-8"))
+    assert rubber
+    spectrum = vf.read_card(tmp_path / "rubber.json").spectrum
+    assert isinstance(spectrum, vf.RetardationSpectrum)
+    assert 1 <= len(spectrum) <= 8
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["fit", "nothing.csv", "--reference", "30 degC"], "nothing.csv: no such file"),
+        (["fit", EXAMPLE, "--reference", "30"], "reference_temperature"),
+        (["fit", EXAMPLE, "--reference", "500 degC"], "outside the joined isotherms"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--modes", "3"], 'modes is for spectrum = "sparse"'),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "cold"], "--fix"),
+        (["show", "no such rubber"], "no such rubber"),
+        (["show", "rubber.json"], "rubber.json: no such file"),
+        (["read", "nothing.csv"], "nothing.csv: no such file"),
+        (["show", "synthetic fluoroelastomer", "--frequency", "10"], "Hz or rad/s"),
+        (["fitt"], "Did you mean 'fit'?"),
+    ],
+)
+def test_mistakes_are_one_sentence(
+    words: list[object], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = call(*words)
+    assert done.exit_code in (1, 2)
+    assert told in done.output
+    assert "Traceback" not in done.output
