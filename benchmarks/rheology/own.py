@@ -1,0 +1,98 @@
+"""viscofric's rows: shifting, spectra, honesty of its bands, exactness of its conversions."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import viscofric as vf
+
+sys.path.insert(0, str(Path(__file__).resolve().parent / "peers"))
+import measures
+from exchange import timed
+
+if TYPE_CHECKING:
+    from cases import Case
+
+    from viscofric.data import MasterCurve
+
+LEVEL_95 = 1.959963984540054
+#: Methods of `fit_retardation_spectrum` and what they are asked for.
+SPECTRA: dict[str, dict[str, Any]] = {
+    "non-negative, τ ratio e": {},
+    "regularised, τ ratio e": {"method": "regularised"},
+    "sparse, 16 modes": {"method": "sparse", "modes": 16},
+}
+
+
+def shifting(case: Case) -> dict[str, Any]:
+    """Superpose with uncertainties; time them."""
+    fit, seconds = timed(lambda: vf.superpose(case.sweeps, case.reference))
+    factors = fit.shift_factors
+    row: dict[str, Any] = {"tool": "viscofric", "seconds": seconds, "uncertainty": True}
+    row |= measures.of_shifts(case, factors.log10_values)
+    row["C1"], row["C2"] = measures.wlf_constants(case, factors.log10_values)
+    law = factors.law("wlf")
+    row["law"] = f"own WLF fit, weighted: C1 {law.C1:.3f} ± {law.standard_errors[0]:.3f}, "
+    row["law"] += f"C2 {law.C2:.2f} ± {law.standard_errors[1]:.2f} K"
+    row["wlf"] = [law.C1, law.C2, *law.standard_errors]
+    return row
+
+
+def spectrum(curve: MasterCurve, name: str) -> dict[str, Any]:
+    """Fit a spectrum by one of the methods; time it."""
+    found, seconds = timed(lambda: vf.fit_retardation_spectrum(curve, **SPECTRA[name]))
+    row = {"tool": f"viscofric, {name}", "seconds": seconds, "modes": int(np.count_nonzero(found.C))}
+    return row | measures.of_modulus(curve, found.complex_modulus(curve.angular_frequency))
+
+
+def round_trip(modes: int = 60) -> dict[str, Any]:
+    """Convert a spectrum of many modes to a Prony series and back."""
+    random = np.random.default_rng(0)
+    tau = np.exp(np.arange(float(modes)) - modes / 2.0)
+    C = random.uniform(0.1, 1.0, modes)
+    C *= (1.0 / 1e6 - 1.0 / 2e9) / C.sum()
+    planted = vf.RetardationSpectrum(1e6, 2e9, C, tau)
+    back, seconds = timed(lambda: planted.to_relaxation().to_retardation())
+    error = max(float(np.max(np.abs(back.C / C - 1.0))), float(np.max(np.abs(back.tau / tau - 1.0))))
+    omega = np.geomspace(0.1 / tau[-1], 10.0 / tau[0], 400)
+    series = planted.to_relaxation().complex_modulus(omega)
+    in_modulus = float(np.max(np.abs(series / planted.complex_modulus(omega) - 1.0)))
+    return {"tool": "viscofric", "modes": modes, "error": max(error, in_modulus), "seconds": seconds}
+
+
+def coverage(material: str, seeds: int, samples: int = 200) -> dict[str, Any]:
+    """Count how often planted α(T) and E(ω) lie within the stated 95 % bands."""
+    from cases import planted_case
+
+    from viscofric.rheology.uncertainty import sample_materials
+
+    start = time.process_time()
+    alpha, storage, loss = [], [], []
+    for seed in range(seeds):
+        case = planted_case(seed, material)
+        fit = vf.superpose(case.sweeps, case.reference)
+        factors = fit.shift_factors
+        true = case.truth.log10_alpha(factors.temperatures, case.reference)
+        known = factors.standard_errors > 0.0
+        away = np.abs(factors.log10_values - true)[known] / factors.standard_errors[known]
+        alpha.append(np.mean(away <= LEVEL_95))
+        omega = np.geomspace(fit.master_curve.angular_frequency[0], fit.master_curve.angular_frequency[-1], 60)
+        band = sample_materials(fit, samples=samples, seed=seed).modulus_band(omega, level=0.95)
+        modulus = case.truth.complex_modulus(omega, case.reference)
+        storage.append(_inside(modulus.real, band.lower.real, band.upper.real))
+        loss.append(_inside(modulus.imag, band.lower.imag, band.upper.imag))
+    row = {"tool": f"viscofric, {material}", "seeds": seeds, "seconds": (time.process_time() - start) / max(seeds, 1)}
+    return row | {"alpha": _mean(alpha), "storage": _mean(storage), "loss": _mean(loss)}
+
+
+def _inside(true: Any, lower: Any, upper: Any) -> float:
+    return float(np.mean((true >= lower) & (true <= upper)))
+
+
+def _mean(shares: list[float]) -> float:
+    return float(np.mean(shares)) if shares else float("nan")
