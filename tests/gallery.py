@@ -16,7 +16,7 @@ from viscofric.contact.indenters import Ball
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

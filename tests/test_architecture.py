@@ -40,7 +40,7 @@ ROOMS = {
 ORDER = list(ROOMS)
 #: What may not be imported at run time although it lies to the left: (importer, imported, all but these).
 FORBIDDEN = [
-    ("viscofric.rheology", "viscofric.readers", ("viscofric.rheology.shift_files",)),
+    ("viscofric.rheology", "viscofric.readers", ("viscofric.rheology.shifts.shift_files",)),
     ("viscofric.contact", "viscofric.rheology", ("viscofric.contact.steady",)),
 ]
 FOLDERS_OF_FILES = {"example"}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from viscofric.rheology.overlap import LogSweep, overlap_quality
+from viscofric.rheology.superposition.overlap import LogSweep, overlap_quality
 
 if TYPE_CHECKING:
     from cases import Case

@@ -69,7 +69,7 @@ def coverage(material: str, seeds: int, samples: int = 200) -> dict[str, Any]:
     """Count how often planted α(T) and E(ω) lie within the stated 95 % bands."""
     from cases import planted_case
 
-    from viscofric.rheology.uncertainty import sample_materials
+    from viscofric.rheology.uncertainty.sampling import sample_materials
 
     start = time.process_time()
     alpha, storage, loss = [], [], []

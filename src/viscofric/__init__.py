@@ -41,31 +41,31 @@ if TYPE_CHECKING:
     from viscofric.rheology.catalogue import catalogue as catalogue
     from viscofric.rheology.catalogue import catalogue_material as catalogue_material
     from viscofric.rheology.catalogue import synthetic_fluoroelastomer as synthetic_fluoroelastomer
-    from viscofric.rheology.consistency import SuperpositionCheck as SuperpositionCheck
-    from viscofric.rheology.consistency import check_superposition as check_superposition
-    from viscofric.rheology.law_comparison import LawComparison as LawComparison
     from viscofric.rheology.material import Material as Material
-    from viscofric.rheology.material_samples import MaterialSamples as MaterialSamples
-    from viscofric.rheology.modulus_table import ModulusTable as ModulusTable
-    from viscofric.rheology.overlap import OverlapQuality as OverlapQuality
-    from viscofric.rheology.relaxation import RelaxationSpectrum as RelaxationSpectrum
-    from viscofric.rheology.shift_factors import ShiftFactors as ShiftFactors
-    from viscofric.rheology.shift_files import read_shift_factors as read_shift_factors
-    from viscofric.rheology.shift_files import read_vendor_law as read_vendor_law
-    from viscofric.rheology.shift_laws import VFT as VFT
-    from viscofric.rheology.shift_laws import WLF as WLF
-    from viscofric.rheology.shift_laws import Arrhenius as Arrhenius
-    from viscofric.rheology.shift_laws import InversePolynomial as InversePolynomial
-    from viscofric.rheology.shift_laws import WLFArrhenius as WLFArrhenius
-    from viscofric.rheology.spectrum import RetardationSpectrum as RetardationSpectrum
-    from viscofric.rheology.spectrum import SpectrumFit as SpectrumFit
-    from viscofric.rheology.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
-    from viscofric.rheology.superposition import Superposition as Superposition
-    from viscofric.rheology.superposition import superpose as superpose
-    from viscofric.rheology.uncertainty import sample_materials as sample_materials
-    from viscofric.rheology.vertical_shift import DensityShift as DensityShift
-    from viscofric.rheology.vertical_shift import VerticalShift as VerticalShift
-    from viscofric.rheology.vertical_shift import VerticalShiftFactors as VerticalShiftFactors
+    from viscofric.rheology.shifts.law_comparison import LawComparison as LawComparison
+    from viscofric.rheology.shifts.laws import VFT as VFT
+    from viscofric.rheology.shifts.laws import WLF as WLF
+    from viscofric.rheology.shifts.laws import Arrhenius as Arrhenius
+    from viscofric.rheology.shifts.laws import InversePolynomial as InversePolynomial
+    from viscofric.rheology.shifts.laws import WLFArrhenius as WLFArrhenius
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors as ShiftFactors
+    from viscofric.rheology.shifts.shift_files import read_shift_factors as read_shift_factors
+    from viscofric.rheology.shifts.shift_files import read_vendor_law as read_vendor_law
+    from viscofric.rheology.shifts.vertical_shift import DensityShift as DensityShift
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift as VerticalShift
+    from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors as VerticalShiftFactors
+    from viscofric.rheology.spectra.modulus_table import ModulusTable as ModulusTable
+    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum as RelaxationSpectrum
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum as RetardationSpectrum
+    from viscofric.rheology.spectra.retardation import SpectrumFit as SpectrumFit
+    from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
+    from viscofric.rheology.superposition.consistency import SuperpositionCheck as SuperpositionCheck
+    from viscofric.rheology.superposition.consistency import check_superposition as check_superposition
+    from viscofric.rheology.superposition.overlap import OverlapQuality as OverlapQuality
+    from viscofric.rheology.superposition.superpose import Superposition as Superposition
+    from viscofric.rheology.superposition.superpose import superpose as superpose
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
+    from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
     from viscofric.study import load_study as load_study
@@ -108,31 +108,31 @@ _HOME = {
     "catalogue_material": "viscofric.rheology.catalogue",
     "CatalogueEntry": "viscofric.rheology.catalogue",
     "synthetic_fluoroelastomer": "viscofric.rheology.catalogue",
-    "check_superposition": "viscofric.rheology.consistency",
-    "SuperpositionCheck": "viscofric.rheology.consistency",
-    "LawComparison": "viscofric.rheology.law_comparison",
+    "check_superposition": "viscofric.rheology.superposition.consistency",
+    "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
+    "LawComparison": "viscofric.rheology.shifts.law_comparison",
     "Material": "viscofric.rheology.material",
-    "MaterialSamples": "viscofric.rheology.material_samples",
-    "ModulusTable": "viscofric.rheology.modulus_table",
-    "OverlapQuality": "viscofric.rheology.overlap",
-    "RelaxationSpectrum": "viscofric.rheology.relaxation",
-    "ShiftFactors": "viscofric.rheology.shift_factors",
-    "read_shift_factors": "viscofric.rheology.shift_files",
-    "read_vendor_law": "viscofric.rheology.shift_files",
-    "Arrhenius": "viscofric.rheology.shift_laws",
-    "InversePolynomial": "viscofric.rheology.shift_laws",
-    "VFT": "viscofric.rheology.shift_laws",
-    "WLF": "viscofric.rheology.shift_laws",
-    "WLFArrhenius": "viscofric.rheology.shift_laws",
-    "RetardationSpectrum": "viscofric.rheology.spectrum",
-    "SpectrumFit": "viscofric.rheology.spectrum",
-    "fit_retardation_spectrum": "viscofric.rheology.spectrum_fit",
-    "superpose": "viscofric.rheology.superposition",
-    "Superposition": "viscofric.rheology.superposition",
-    "sample_materials": "viscofric.rheology.uncertainty",
-    "DensityShift": "viscofric.rheology.vertical_shift",
-    "VerticalShift": "viscofric.rheology.vertical_shift",
-    "VerticalShiftFactors": "viscofric.rheology.vertical_shift",
+    "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
+    "ModulusTable": "viscofric.rheology.spectra.modulus_table",
+    "OverlapQuality": "viscofric.rheology.superposition.overlap",
+    "RelaxationSpectrum": "viscofric.rheology.spectra.relaxation",
+    "ShiftFactors": "viscofric.rheology.shifts.shift_factors",
+    "read_shift_factors": "viscofric.rheology.shifts.shift_files",
+    "read_vendor_law": "viscofric.rheology.shifts.shift_files",
+    "Arrhenius": "viscofric.rheology.shifts.laws",
+    "InversePolynomial": "viscofric.rheology.shifts.laws",
+    "VFT": "viscofric.rheology.shifts.laws",
+    "WLF": "viscofric.rheology.shifts.laws",
+    "WLFArrhenius": "viscofric.rheology.shifts.laws",
+    "RetardationSpectrum": "viscofric.rheology.spectra.retardation",
+    "SpectrumFit": "viscofric.rheology.spectra.retardation",
+    "fit_retardation_spectrum": "viscofric.rheology.spectra.spectrum_fit",
+    "superpose": "viscofric.rheology.superposition.superpose",
+    "Superposition": "viscofric.rheology.superposition.superpose",
+    "sample_materials": "viscofric.rheology.uncertainty.sampling",
+    "DensityShift": "viscofric.rheology.shifts.vertical_shift",
+    "VerticalShift": "viscofric.rheology.shifts.vertical_shift",
+    "VerticalShiftFactors": "viscofric.rheology.shifts.vertical_shift",
     "load_study": "viscofric.study",
     "open_results": "viscofric.study",
     "run_study": "viscofric.study",

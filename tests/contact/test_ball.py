@@ -39,8 +39,8 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
-from viscofric.rheology.shift_laws import WLF
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.shifts.laws import WLF
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution

@@ -10,7 +10,7 @@ import pytest
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
 from viscofric.friction.master_curve import shift_friction
-from viscofric.rheology.shift_laws import WLF, Arrhenius
+from viscofric.rheology.shifts.laws import WLF, Arrhenius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from viscofric.rheology.cards.native import plain
-from viscofric.rheology.shift_laws import WLF
+from viscofric.rheology.shifts.laws import WLF
 
 if TYPE_CHECKING:
     from collections.abc import Callable

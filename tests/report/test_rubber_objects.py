@@ -17,8 +17,8 @@ from viscofric.data import IsothermalSweeps
 from viscofric.errors import InputError
 from viscofric.report import consistency_figures, house_style, rubber_figures, shift_figures, spectrum_figures
 from viscofric.report.figure_data import ModulusBand, moduli_of_sweeps, modulus_band
-from viscofric.rheology.consistency import check_superposition
-from viscofric.rheology.vertical_shift import DensityShift, VerticalShiftFactors
+from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
+from viscofric.rheology.superposition.consistency import check_superposition
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -200,7 +200,7 @@ def test_band_of_moduli_is_filled_between_its_bounds(axes: Axes, fit: vf.Superpo
 
 
 def test_samples_give_the_band_that_they_state(axes: Axes, fit: vf.Superposition, spectrum: Any) -> None:
-    from viscofric.rheology.uncertainty import sample_materials
+    from viscofric.rheology.uncertainty.sampling import sample_materials
 
     samples = sample_materials(fit, spectrum, samples=20)
     rubber_figures.plot_master_curve(axes, fit, spectrum, band=samples)

@@ -13,12 +13,12 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
-from viscofric.rheology.modulus_table import ModulusTable
-from viscofric.rheology.relaxation import RelaxationSpectrum
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
-from viscofric.rheology.spectrum import RetardationSpectrum, SpectrumFit
-from viscofric.rheology.vertical_shift import DensityShift, VerticalShiftFactors
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
+from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
 
 FINITE_ELEMENTS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches")
 FORMATS = (*FINITE_ELEMENTS, "csv", "json")

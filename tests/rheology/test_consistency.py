@@ -9,8 +9,8 @@ import pytest
 
 import viscofric as vf
 from viscofric.data import Isotherm, IsothermalSweeps
-from viscofric.rheology.consistency import check_superposition
-from viscofric.rheology.van_gurp_palmen import neighbour_distances
+from viscofric.rheology.superposition.consistency import check_superposition
+from viscofric.rheology.superposition.van_gurp_palmen import neighbour_distances
 
 RUBBER = vf.synthetic_fluoroelastomer()
 OMEGA = 2 * np.pi * np.logspace(-1, 1, 17)

@@ -9,7 +9,7 @@ import pytest
 
 from viscofric.errors import InputError
 from viscofric.rheology import ShiftFactors
-from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 
 WARM = np.arange(0.0, 121.0, 10.0) + 273.15
 LOW, HIGH = WARM[0], WARM[-1]

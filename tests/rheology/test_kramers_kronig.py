@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import viscofric as vf
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
-from viscofric.rheology.kramers_kronig import kramers_kronig
+from viscofric.rheology.superposition.kramers_kronig import kramers_kronig
 
 RUBBER = vf.synthetic_fluoroelastomer().spectrum
 TRANSITION = np.logspace(-2, 9, 200)

@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from viscofric.errors import InputError
 from viscofric.rheology import ShiftFactors
-from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 
 WARM = np.arange(0.0, 121.0, 10.0) + 273.15
 WIDE = np.arange(-60.0, 121.0, 10.0) + 273.15

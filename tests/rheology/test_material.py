@@ -7,8 +7,8 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import InputError
-from viscofric.rheology.modulus_table import ModulusTable
-from viscofric.rheology.vertical_shift import DensityShift
+from viscofric.rheology.shifts.vertical_shift import DensityShift
+from viscofric.rheology.spectra.modulus_table import ModulusTable
 
 LAW = vf.WLF(C1=9.0, C2=100.0, reference="30 degC")
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
-from viscofric.rheology.modulus_table import ModulusTable
+from viscofric.rheology.spectra.modulus_table import ModulusTable
 
 RUBBER = synthetic_fluoroelastomer().spectrum
 

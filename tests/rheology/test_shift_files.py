@@ -7,8 +7,8 @@ import pytest
 
 from readers.samples import eplexor
 from viscofric.errors import DataFileError, InputError
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.shift_files import read_shift_factors, read_vendor_law, write_shift_factors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_files import read_shift_factors, read_vendor_law, write_shift_factors
 
 CELSIUS = np.array([-20.0, 0.0, 20.0, 40.0])
 LOG10 = np.array([4.0, 1.5, 0.0, -1.0])

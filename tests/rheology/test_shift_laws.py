@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from viscofric.errors import InputError
 from viscofric.rheology import WLF, Arrhenius, ShiftFactors, WLFArrhenius
-from viscofric.rheology.shift_laws import VFT, InversePolynomial
+from viscofric.rheology.shifts.laws import VFT, InversePolynomial
 
 LAWS = [
     WLF(C1=17.44, C2=51.6, reference="-18 degC"),
@@ -220,7 +220,7 @@ def test_a_factor_corrected_by_hand_is_what_it_was_told():
 
 
 def test_saved_factors_come_back_with_their_covariance(tmp_path):
-    from viscofric.rheology.shift_files import read_shift_factors
+    from viscofric.rheology.shifts.shift_files import read_shift_factors
 
     table = ShiftFactors(["0 degC", "30 degC", "60 degC"], [2.5, 0.0, -1.5], "30 degC", np.diag([0.04, 0.0, 0.09]))
     table.save(tmp_path / "shifts.csv")

@@ -7,7 +7,7 @@ import pytest
 
 import viscofric as vf
 from rheology.planted import EXAMPLE_PROGRAMME, planted_sweeps, synthetic_polymer
-from viscofric.rheology.vertical_shift import DensityShift
+from viscofric.rheology.shifts.vertical_shift import DensityShift
 
 SEEDS = 40
 POLYMER = {

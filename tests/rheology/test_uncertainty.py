@@ -14,11 +14,11 @@ from rheology.planted import planted_sweeps, synthetic_polymer
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology import RetardationSpectrum, ShiftFactors, fit_retardation_spectrum
-from viscofric.rheology.overlap import OverlapQuality
-from viscofric.rheology.residuals import Residuals
-from viscofric.rheology.superposition import Superposition
-from viscofric.rheology.uncertainty import sample_materials
-from viscofric.rheology.vertical_shift import VerticalShiftFactors
+from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
+from viscofric.rheology.superposition.overlap import OverlapQuality
+from viscofric.rheology.superposition.superpose import Superposition
+from viscofric.rheology.uncertainty.residuals import Residuals
+from viscofric.rheology.uncertainty.sampling import sample_materials
 
 REFERENCE = 303.15
 KELVIN = np.arange(263.15, 364.0, 20.0)

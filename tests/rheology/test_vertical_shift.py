@@ -11,7 +11,7 @@ import viscofric as vf
 from rheology.planted import PROGRAMME, planted_sweeps, synthetic_polymer
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import InputError
-from viscofric.rheology.vertical_shift import DensityShift, VerticalShiftFactors
+from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 
 COLD_TO_WARM = {
     "material": synthetic_polymer(),

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters import Ball
     from viscofric.contact.nested import Stage
     from viscofric.rheology.material import Material
-    from viscofric.rheology.spectrum import RetardationSpectrum
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ShiftLaw
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
 
     from viscofric.report.figure_data import Sweeps
-    from viscofric.rheology.consistency import SuperpositionCheck
-    from viscofric.rheology.kramers_kronig import KramersKronig
+    from viscofric.rheology.superposition.consistency import SuperpositionCheck
+    from viscofric.rheology.superposition.kramers_kronig import KramersKronig
 
 _PASCAL_PER_MEGAPASCAL = 1e6
 
@@ -135,7 +135,7 @@ def plot_kramers_kronig(axes: Axes, agreement: KramersKronig) -> None:
     agreement : KramersKronig
         As `check_superposition(fit).kramers_kronig`.  Points at the ends, which are not judged, are open.
     """
-    from viscofric.rheology.kramers_kronig import LARGEST_RMS
+    from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 
     judged = agreement.judged
     handles: list[Any] = []

@@ -10,8 +10,8 @@ import numpy as np
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
 from viscofric.report.results import number, values
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.superposition import Superposition
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.superposition.superpose import Superposition
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from viscofric.rheology.consistency import SuperpositionCheck
-    from viscofric.rheology.shift_laws import ShiftLaw
-    from viscofric.rheology.vertical_shift import VerticalShift
+    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.rheology.superposition.consistency import SuperpositionCheck
 
     Array = NDArray[np.float64]
     #: Sweeps as read, isotherms as joined, or either as a dataset along `reading`.

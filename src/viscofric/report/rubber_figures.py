@@ -19,7 +19,7 @@ from viscofric.report.house_style import (
     temperature_scale,
 )
 from viscofric.report.results import nearest, nominal_temperatures, values
-from viscofric.rheology.superposition import Superposition
+from viscofric.rheology.superposition.superpose import Superposition
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.report.figure_data import Master, Sweeps
-    from viscofric.rheology.modulus_table import ModulusTable
-    from viscofric.rheology.spectrum import RetardationSpectrum
+    from viscofric.rheology.spectra.modulus_table import ModulusTable
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array = NDArray[np.float64]
     Fitted = RetardationSpectrum | ModulusTable | xr.Dataset

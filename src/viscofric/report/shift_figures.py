@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.report.figure_data import Shifts
-    from viscofric.rheology.shift_laws import ShiftLaw
-    from viscofric.rheology.vertical_shift import VerticalShift
+    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
     Array = NDArray[np.float64]
 

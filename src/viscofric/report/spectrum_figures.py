@@ -8,15 +8,15 @@ import numpy as np
 
 from viscofric.report.house_style import BLUE, GREY, VERMILION, decade_ticks, legend_above
 from viscofric.report.results import values
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from viscofric.rheology.material_samples import MaterialSamples
-    from viscofric.rheology.relaxation import RelaxationSpectrum
+    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
     Array = NDArray[np.float64]
 

@@ -2,20 +2,20 @@
 
 from viscofric.rheology.cards import Card, open_card, read_card, write_card
 from viscofric.rheology.catalogue import CatalogueEntry, catalogue, catalogue_material, synthetic_fluoroelastomer
-from viscofric.rheology.consistency import SuperpositionCheck, check_superposition
-from viscofric.rheology.law_comparison import LawComparison
 from viscofric.rheology.material import Material
-from viscofric.rheology.material_samples import MaterialSamples
-from viscofric.rheology.modulus_table import ModulusTable
-from viscofric.rheology.relaxation import RelaxationSpectrum
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.shift_files import read_shift_factors, read_vendor_law
-from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, ShiftLaw, WLFArrhenius
-from viscofric.rheology.spectrum import RetardationSpectrum, SpectrumFit
-from viscofric.rheology.spectrum_fit import fit_retardation_spectrum
-from viscofric.rheology.superposition import Superposition, superpose
-from viscofric.rheology.uncertainty import sample_materials
-from viscofric.rheology.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
+from viscofric.rheology.shifts.law_comparison import LawComparison
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ShiftLaw, WLFArrhenius
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_files import read_shift_factors, read_vendor_law
+from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
+from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
+from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
+from viscofric.rheology.superposition.consistency import SuperpositionCheck, check_superposition
+from viscofric.rheology.superposition.superpose import Superposition, superpose
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.rheology.uncertainty.sampling import sample_materials
 
 __all__ = [
     "VFT",

@@ -11,9 +11,9 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
-from viscofric.rheology.relaxation import RelaxationSpectrum
-from viscofric.rheology.shift_laws import WLFArrhenius
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.shifts.laws import WLFArrhenius
+from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from viscofric.errors import InputError
-from viscofric.rheology.modulus_table import ModulusTable
-from viscofric.rheology.shift_laws import ShiftLaw
-from viscofric.rheology.spectrum import RetardationSpectrum
-from viscofric.rheology.vertical_shift import VerticalShift
+from viscofric.rheology.shifts.laws import ShiftLaw
+from viscofric.rheology.shifts.vertical_shift import VerticalShift
+from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:

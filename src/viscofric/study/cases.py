@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from viscofric.contact.indenters import Ball
     from viscofric.rheology.material import Material
-    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ShiftLaw
 
     Array: TypeAlias = NDArray[np.float64]
 

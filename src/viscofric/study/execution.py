@@ -15,7 +15,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.master_curve import shift_friction
 from viscofric.friction.tribometry import separate
 from viscofric.readers import read_mtm
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study import labels
 from viscofric.study.cases import CaseSolver, Progress, kept
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
-    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ShiftLaw
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -10,15 +10,15 @@ from viscofric.readers import deformation_is_told, read_dma
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_material
 from viscofric.rheology.material import Material
-from viscofric.rheology.shift_files import read_shift_factors
-from viscofric.rheology.spectrum_fit import fit_retardation_spectrum
-from viscofric.rheology.superposition import superpose
+from viscofric.rheology.shifts.shift_files import read_shift_factors
+from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
+from viscofric.rheology.superposition.superpose import superpose
 
 if TYPE_CHECKING:
     from viscofric.data import IsothermalSweeps
-    from viscofric.rheology.law_comparison import LawComparison
-    from viscofric.rheology.shift_laws import ParametricLaw, ShiftLaw
-    from viscofric.rheology.superposition import Superposition
+    from viscofric.rheology.shifts.law_comparison import LawComparison
+    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+    from viscofric.rheology.superposition.superpose import Superposition
     from viscofric.study.material_table import MaterialTable
 
 
@@ -52,7 +52,7 @@ class Rubber:
     @property
     def law(self) -> ParametricLaw | None:
         """The law that is used, else the one that describes the measured shift factors best, if any does."""
-        from viscofric.rheology.shift_laws import ParametricLaw
+        from viscofric.rheology.shifts.laws import ParametricLaw
 
         if isinstance(self.material.shift, ParametricLaw):
             return self.material.shift

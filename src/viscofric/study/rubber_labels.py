@@ -23,18 +23,18 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.cards.native import plain
-from viscofric.rheology.shift_laws import WLF
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.shifts.laws import WLF
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.labels import dataset
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.data import IsothermalSweeps
-    from viscofric.rheology.law_comparison import LawComparison
     from viscofric.rheology.material import Material
-    from viscofric.rheology.material_samples import MaterialSamples
-    from viscofric.rheology.superposition import Superposition
+    from viscofric.rheology.shifts.law_comparison import LawComparison
+    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.study.rubber import Rubber
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from viscofric.rheology.cards import CardFormat, write_card
-from viscofric.rheology.spectrum import RetardationSpectrum
-from viscofric.rheology.uncertainty import sample_materials
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.uncertainty.sampling import sample_materials
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
 from viscofric.study.rubber import make_rubber
 from viscofric.study.rubber_labels import rubber_data

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from viscofric.data import IsothermalSweeps, MasterCurve
-    from viscofric.rheology.spectrum import RetardationSpectrum
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 def write_sweeps(sweeps: IsothermalSweeps, path: str | Path) -> Path:

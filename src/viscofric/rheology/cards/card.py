@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from viscofric.errors import InputError
-from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import CELSIUS_ZERO, conversion
 
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material
-    from viscofric.rheology.relaxation import RelaxationSpectrum
+    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 
 #: A temperature without unit below this is in °C: no rubber is referred to −73 °C, nor to 200 °C.
 _KELVIN_FROM = 200.0

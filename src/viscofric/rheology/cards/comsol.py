@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 from viscofric.errors import InputError
 from viscofric.rheology.cards.card import Reading, Solid, Writing, card_law, relaxation_of, written_poisson_ratio
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
-from viscofric.rheology.relaxation import RelaxationSpectrum
-from viscofric.rheology.shift_laws import WLF, Arrhenius
+from viscofric.rheology.shifts.laws import WLF, Arrhenius
+from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 from viscofric.units import to_si
 
 if TYPE_CHECKING:

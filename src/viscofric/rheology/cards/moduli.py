@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.relaxation import RelaxationSpectrum
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 #: Shear and bulk modes of a card whose times and ratios agree so well are one relaxation.
 _ALIKE = 1e-9

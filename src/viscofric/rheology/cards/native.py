@@ -11,11 +11,11 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
-from viscofric.rheology.modulus_table import ModulusTable
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
-from viscofric.rheology.spectrum import RetardationSpectrum, SpectrumFit
-from viscofric.rheology.vertical_shift import DensityShift, VerticalShiftFactors
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
+from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
 
 #: Raised by one when files of this version could no longer be read by older programs.
 VERSION = 1

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.interconversion import reciprocal_modes
-from viscofric.rheology.response import FrequencyResponse, checked_shift, checked_times, mode_column
+from viscofric.rheology.spectra.interconversion import reciprocal_modes
+from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from viscofric.rheology.relaxation import RelaxationSpectrum
+    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
@@ -150,12 +150,12 @@ class RetardationSpectrum(FrequencyResponse):
         return self.to_relaxation().relaxation_modulus(time)
 
     def to_relaxation(self) -> RelaxationSpectrum:
-        """Return the same material as a Prony series, exactly; see `viscofric.rheology.interconversion`.
+        """Return the same material as a Prony series, exactly; see `viscofric.rheology.spectra.interconversion`.
 
         Modes without compliance are left out and those of one time joined.  E0 becomes 1/(1/E_inf + ΣC), so that
         E(ω) stays what it is where the given E0 and ΣC agree only roughly.
         """
-        from viscofric.rheology.relaxation import RelaxationSpectrum
+        from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 
         E, rates = reciprocal_modes(1.0 / self.E_inf, self.C, 1.0 / self.tau)
         rubber = 1.0 / (1.0 / self.E_inf + float(np.sum(self.C)))

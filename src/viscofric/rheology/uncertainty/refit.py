@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology import regularised, sparse
-from viscofric.rheology.modulus_misfit import Modes, ModulusMisfit
-from viscofric.rheology.nonnegative import lattice, nonnegative_modes
+from viscofric.rheology.spectra import regularised, sparse
+from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
+from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.spectrum import RetardationSpectrum
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array = NDArray[np.float64]
 

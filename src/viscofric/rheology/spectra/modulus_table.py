@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.response import FrequencyResponse, checked_shift
+from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.common_curve import Smoother
-from viscofric.rheology.overlap import failures
+from viscofric.rheology.superposition.common_curve import Smoother
+from viscofric.rheology.superposition.overlap import failures
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.gauge import Gauge
-    from viscofric.rheology.overlap import Join, LogSweep
+    from viscofric.rheology.superposition.gauge import Gauge
+    from viscofric.rheology.superposition.overlap import Join, LogSweep
 
     Array = NDArray[np.float64]
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.modulus_misfit import Modes, descend
-from viscofric.rheology.nonnegative import nonnegative_modes
+from viscofric.rheology.spectra.modulus_misfit import Modes, descend
+from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.modulus_misfit import ModulusMisfit
+    from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 
     Array = NDArray[np.float64]
 

@@ -17,9 +17,9 @@ from viscofric.files import read_bytes
 from viscofric.readers.eplexor_master import SHIFT_LIST, ShiftList, shift_list
 from viscofric.readers.source import Source
 from viscofric.readers.workbook import is_workbook, sheets
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.shift_laws import WLF
-from viscofric.rheology.shift_table import ShiftTable, read_shift_table
+from viscofric.rheology.shifts.laws import WLF
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_table import ShiftTable, read_shift_table
 from viscofric.units import CELSIUS_ZERO, celsius, positive
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.gauge import Gauge
+    from viscofric.rheology.superposition.gauge import Gauge
 
     Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.modulus_misfit import Modes, ModulusMisfit, descend
+from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit, descend
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

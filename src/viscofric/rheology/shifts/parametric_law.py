@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.shift_law import ShiftLaw, in_kelvin
+from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
 from viscofric.units import celsius, kelvin_hint, positive
 
 if TYPE_CHECKING:

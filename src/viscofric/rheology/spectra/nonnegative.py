@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.modulus_misfit import Modes
+from viscofric.rheology.spectra.modulus_misfit import Modes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.modulus_misfit import ModulusMisfit
+    from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 
     Array = NDArray[np.float64]
     Complex = NDArray[np.complex128]

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.interconversion import reciprocal_modes
-from viscofric.rheology.response import FrequencyResponse, checked_shift, checked_times, mode_column
+from viscofric.rheology.spectra.interconversion import reciprocal_modes
+from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from viscofric.rheology.spectrum import RetardationSpectrum
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
@@ -107,7 +107,7 @@ class RelaxationSpectrum(FrequencyResponse):
         return self.to_retardation().creep_compliance(time)
 
     def to_retardation(self) -> RetardationSpectrum:
-        """Return the same material as retardation modes, exactly; see `viscofric.rheology.interconversion`.
+        """Return the same material as retardation modes, exactly; see `viscofric.rheology.spectra.interconversion`.
 
         Modes without modulus are left out and those of one time joined.
 
@@ -116,7 +116,7 @@ class RelaxationSpectrum(FrequencyResponse):
         InputError
             If E0 is zero: the creep of a liquid has no end.
         """
-        from viscofric.rheology.spectrum import RetardationSpectrum
+        from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
         if self.E0 == 0.0:
             raise InputError(

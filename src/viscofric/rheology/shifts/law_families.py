@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.shift_laws import (
+from viscofric.rheology.shifts.laws import (
     GAS_CONSTANT,
     LN10,
     VFT,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.spectrum import RetardationSpectrum, SpectrumFit
+from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from viscofric.rheology.free_volume_laws import WLF
-from viscofric.rheology.parametric_law import ParametricLaw
-from viscofric.rheology.shift_law import GAS_CONSTANT, LN10
+from viscofric.rheology.shifts.free_volume_laws import WLF
+from viscofric.rheology.shifts.parametric_law import ParametricLaw
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.units import positive
 
 if TYPE_CHECKING:

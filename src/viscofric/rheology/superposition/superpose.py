@@ -10,11 +10,11 @@ import numpy as np
 
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
-from viscofric.rheology.held_shifts import fitted_shifts, given_shifts, held_places
-from viscofric.rheology.joined_isotherms import JoinedIsotherms, as_given, join_isotherms, shown, usable
-from viscofric.rheology.overlap import LogSweep, OverlapQuality, overlap_quality
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
+from viscofric.rheology.superposition.held_shifts import fitted_shifts, given_shifts, held_places
+from viscofric.rheology.superposition.joined_isotherms import JoinedIsotherms, as_given, join_isotherms, shown, usable
+from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, overlap_quality
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius, kelvin_hint, positive, to_si
 
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import Isotherm, IsothermalSweeps
-    from viscofric.rheology.consistency import SuperpositionCheck
-    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.superposition.consistency import SuperpositionCheck
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
@@ -65,7 +65,7 @@ class Superposition:
     @cached_property
     def check(self) -> SuperpositionCheck:
         """Whether superposition holds, found when first asked for; see `check_superposition`."""
-        from viscofric.rheology.consistency import check_superposition
+        from viscofric.rheology.superposition.consistency import check_superposition
 
         return check_superposition(self)
 

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.overlap import SMALLEST_NOISE
-from viscofric.rheology.plateau import continued, told
-from viscofric.rheology.shift_problem import ShiftProblem, State
+from viscofric.rheology.superposition.overlap import SMALLEST_NOISE
+from viscofric.rheology.superposition.plateau import continued, told
+from viscofric.rheology.superposition.shift_problem import ShiftProblem, State
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.common_curve import Smoother
-    from viscofric.rheology.gauge import Gauge
-    from viscofric.rheology.overlap import Join, LogSweep
+    from viscofric.rheology.superposition.common_curve import Smoother
+    from viscofric.rheology.superposition.gauge import Gauge
+    from viscofric.rheology.superposition.overlap import Join, LogSweep
 
     Array = NDArray[np.float64]
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, overload
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.law_families import LAWS, TITLES, Family, family_of
+from viscofric.rheology.shifts.law_families import LAWS, TITLES, Family, family_of
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.shift_laws import WLF, ParametricLaw
+    from viscofric.rheology.shifts.laws import WLF, ParametricLaw
 
     Array = NDArray[np.float64]
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.common_shifts import CommonShifts, common_shifts
-from viscofric.rheology.gauge import Gauge
-from viscofric.rheology.joined_isotherms import JoinedIsotherms, shown
-from viscofric.rheology.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.superposition.common_shifts import CommonShifts, common_shifts
+from viscofric.rheology.superposition.gauge import Gauge
+from viscofric.rheology.superposition.joined_isotherms import JoinedIsotherms, shown
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ShiftLaw
 
     Array = NDArray[np.float64]
 

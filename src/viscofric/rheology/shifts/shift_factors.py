@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology import law_fitting
-from viscofric.rheology.law_comparison import LawComparison, compare_laws, polynomial
-from viscofric.rheology.shift_law import ShiftLaw
+from viscofric.rheology.shifts import law_fitting
+from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.rheology.shift_laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
+    from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
     from viscofric.units import Quantities, Quantity
 
     Array = NDArray[np.float64]
@@ -185,7 +185,7 @@ class ShiftFactors(ShiftLaw):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged."""
-        from viscofric.rheology.shift_files import write_shift_factors
+        from viscofric.rheology.shifts.shift_files import write_shift_factors
 
         write_shift_factors(self, path)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.parametric_law import ParametricLaw
+from viscofric.rheology.shifts.parametric_law import ParametricLaw
 from viscofric.units import positive
 
 if TYPE_CHECKING:

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.kramers_kronig import KramersKronig, kramers_kronig
-from viscofric.rheology.van_gurp_palmen import NeighbourDistance, neighbour_distances
+from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
+from viscofric.rheology.superposition.van_gurp_palmen import NeighbourDistance, neighbour_distances
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.superposition import Superposition
+    from viscofric.rheology.superposition.superpose import Superposition
 
     Array = NDArray[np.float64]
 

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import SuperpositionError
-from viscofric.rheology.overlap import Join, LogSweep, failures, join, join_at
+from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, join, join_at
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import Isotherm
-    from viscofric.rheology.shift_laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ShiftLaw
 
     Array = NDArray[np.float64]
 

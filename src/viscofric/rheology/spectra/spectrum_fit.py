@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology import regularised, sparse
-from viscofric.rheology.fit_verdict import judged, refuse_liquid
-from viscofric.rheology.modulus_misfit import Modes, ModulusMisfit
-from viscofric.rheology.nonnegative import lattice, nonnegative_modes
-from viscofric.rheology.spectrum import RetardationSpectrum
+from viscofric.rheology.spectra import regularised, sparse
+from viscofric.rheology.spectra.fit_verdict import judged, refuse_liquid
+from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
+from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
 from viscofric.units import positive
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.parametric_law import ParametricLaw, Reach
+from viscofric.rheology.shifts.parametric_law import ParametricLaw, Reach
 from viscofric.units import celsius, positive, to_si
 
 if TYPE_CHECKING:

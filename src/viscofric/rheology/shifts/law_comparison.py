@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology import law_fitting
-from viscofric.rheology.law_families import LARGEST_DEGREE, TITLES
-from viscofric.rheology.shift_laws import WLF, InversePolynomial
+from viscofric.rheology.shifts import law_fitting
+from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
+from viscofric.rheology.shifts.laws import WLF, InversePolynomial
 
 if TYPE_CHECKING:
-    from viscofric.rheology.law_fitting import FactorTable
-    from viscofric.rheology.shift_laws import ParametricLaw
+    from viscofric.rheology.shifts.law_fitting import FactorTable
+    from viscofric.rheology.shifts.laws import ParametricLaw
 
 #: A law within this of the lowest AICc is still supported (K. P. Burnham, D. R. Anderson, Model Selection and
 #: Multimodel Inference, 2nd ed. 2002, p. 70: from 4 on "considerably less").  Among such, fewer constants win.

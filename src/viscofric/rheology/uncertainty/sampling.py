@@ -9,13 +9,13 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
-from viscofric.rheology.material_samples import MaterialSamples
-from viscofric.rheology.modulus_misfit import Modes, ModulusMisfit
-from viscofric.rheology.refit import Refit
-from viscofric.rheology.residuals import Residuals
-from viscofric.rheology.shift_factors import ShiftFactors
-from viscofric.rheology.spectrum_fit import as_spectrum, fit_retardation_spectrum
-from viscofric.rheology.vertical_shift import VerticalShift, VerticalShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
+from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
+from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.rheology.uncertainty.refit import Refit
+from viscofric.rheology.uncertainty.residuals import Residuals
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import MasterCurve
-    from viscofric.rheology.shift_laws import ParametricLaw, ShiftLaw
-    from viscofric.rheology.spectrum import RetardationSpectrum
-    from viscofric.rheology.superposition import Superposition
+    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.rheology.superposition.superpose import Superposition
 
     Array = NDArray[np.float64]
     Integers = NDArray[np.int64]
