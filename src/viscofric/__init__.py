@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from viscofric.friction.tribometry import separate as separate
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
-    from viscofric.readers.master_curves import read_master_curve as read_master_curve
+    from viscofric.readers.dma.master_curves import read_master_curve as read_master_curve
     from viscofric.rheology.cards import Card as Card
     from viscofric.rheology.cards import open_card as open_card
     from viscofric.rheology.cards import read_card as read_card
@@ -99,7 +99,7 @@ _HOME = {
     "separate": "viscofric.friction.tribometry",
     "read_dma": "viscofric.readers",
     "read_mtm": "viscofric.readers",
-    "read_master_curve": "viscofric.readers.master_curves",
+    "read_master_curve": "viscofric.readers.dma.master_curves",
     "Card": "viscofric.rheology.cards",
     "open_card": "viscofric.rheology.cards",
     "read_card": "viscofric.rheology.cards",

@@ -10,7 +10,7 @@ import pytest
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers import read_dma, read_mtm
-from viscofric.readers.isotherms import deformation_is_told
+from viscofric.readers.dma.isotherms import deformation_is_told
 
 HEADER = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
 ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]

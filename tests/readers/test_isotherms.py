@@ -9,8 +9,8 @@ import pytest
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers import read_dma
-from viscofric.readers.isotherms import isothermal_sweeps
-from viscofric.readers.readings import Readings
+from viscofric.readers.dma.isotherms import isothermal_sweeps
+from viscofric.readers.dma.readings import Readings
 
 FREQUENCIES = np.geomspace(0.1, 10.0, 9)  # Hz
 

@@ -9,7 +9,7 @@ import pytest
 
 from readers.samples.workbook import write as write_workbook
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers.master_curves import read_master_curve
+from viscofric.readers.dma.master_curves import read_master_curve
 
 ROWS = ["1e-3,5,0.5", "1e3,9,0.7", "1,6,0.9"]
 

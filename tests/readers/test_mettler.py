@@ -8,7 +8,7 @@ import pytest
 from readers.samples.mettler import SAMPLES, block, line, text
 from readers.samples.rubber import points
 from viscofric.errors import DataFileError
-from viscofric.readers import mettler
+from viscofric.readers.dma.instruments import mettler
 from viscofric.readers.source import Source
 
 

@@ -8,7 +8,7 @@ import pytest
 from readers.samples.rheocompass import ENGLISH, FRENCH, GERMAN, LANGUAGES, SAMPLES, lines
 from readers.samples.rubber import points
 from viscofric.errors import DataFileError
-from viscofric.readers import rheocompass
+from viscofric.readers.dma.instruments import rheocompass
 from viscofric.readers.source import Source
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from readers.samples import trios
 from readers.samples.rubber import points
 from viscofric.errors import DataFileError
-from viscofric.readers import trios_json, trios_text, universal_analysis
+from viscofric.readers.dma.instruments import trios_json, trios_text, universal_analysis
 from viscofric.readers.source import Source
 
 POINTS = np.array(points()).T

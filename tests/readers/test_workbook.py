@@ -10,7 +10,8 @@ import pytest
 
 from readers.samples.workbook import HEADER, one_sheet, rows, write
 from viscofric.errors import DataFileError
-from viscofric.readers import read_dma, workbook
+from viscofric.readers import read_dma
+from viscofric.readers.dma.tables import workbook
 from viscofric.readers.source import Source
 
 POINTS = [[20, 1, 5, 0.5], [20, 10, 6, 0.7]]

@@ -1,7 +1,7 @@
 """Readers of instrument files: what a file holds, in SI units, with notes on what was doubtful."""
 
-from viscofric.readers.dma import read_dma
-from viscofric.readers.isotherms import deformation_is_told
+from viscofric.readers.dma.isotherms import deformation_is_told
+from viscofric.readers.dma.read import read_dma
 from viscofric.readers.mtm_csv import read_mtm
 
 __all__ = ["deformation_is_told", "read_dma", "read_mtm"]

@@ -12,7 +12,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
-from viscofric.readers.names import quantity
+from viscofric.readers.dma.names import quantity
 from viscofric.units import conversion
 
 if TYPE_CHECKING:

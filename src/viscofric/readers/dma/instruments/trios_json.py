@@ -19,13 +19,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.ta_steps import Signal, Step, roles, tool_says
-from viscofric.readers.ta_sweeps import readings_of
+from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles, tool_says
+from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.readings import Readings
     from viscofric.readers.source import Source
 
 NAME = "TA Instruments TRIOS JSON"
@@ -60,7 +60,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all frequency sweeps of an export; see `viscofric.readers.formats.Format`.
+    """Read all frequency sweeps of an export; see `viscofric.readers.dma.formats.Format`.
 
     Raises
     ------

@@ -19,16 +19,16 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import decoded
-from viscofric.readers.ta_cells import Table, steps_of
-from viscofric.readers.ta_steps import Signal, Step, roles, tool_says
-from viscofric.readers.ta_sweeps import readings_of
+from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
+from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles, tool_says
+from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.readings import Readings
     from viscofric.readers.source import Source
 
 NAME = "TA Instruments Universal Analysis (Q800) text or binary"
@@ -52,7 +52,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all points of a file that oscillate; see `viscofric.readers.formats.Format`.
+    """Read all points of a file that oscillate; see `viscofric.readers.dma.formats.Format`.
 
     Raises
     ------

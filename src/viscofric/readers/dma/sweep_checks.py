@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.readers.points import at
+from viscofric.readers.dma.points import at
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import Isotherm
-    from viscofric.readers.points import Points
+    from viscofric.readers.dma.points import Points
 
     Array = NDArray[np.float64]
     Indices = NDArray[np.intp]

@@ -14,15 +14,15 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma_table import read_points
-from viscofric.readers.layout import header_row, quantities, table_under
-from viscofric.readers.readings import Readings
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.dma.tables.layout import header_row, quantities, table_under
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.readers.layout import NumberedRow
+    from viscofric.readers.dma.tables.layout import NumberedRow
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
 

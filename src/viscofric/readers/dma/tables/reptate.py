@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.names import deformation_of, quantity
-from viscofric.readers.readings import Readings
+from viscofric.readers.dma.names import deformation_of, quantity
+from viscofric.readers.dma.readings import Readings
 from viscofric.readers.table import heading
 from viscofric.units import conversion
 

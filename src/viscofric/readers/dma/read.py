@@ -9,9 +9,9 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
-from viscofric.readers.dma_columns import unit_as_asked
-from viscofric.readers.formats import format_of
-from viscofric.readers.isotherms import isothermal_sweeps
+from viscofric.readers.dma.formats import format_of
+from viscofric.readers.dma.isotherms import isothermal_sweeps
+from viscofric.readers.dma.tables.dma_columns import unit_as_asked
 from viscofric.readers.source import Source
 from viscofric.units import celsius, conversion, kelvin_hint, positive
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from viscofric.data import Deformation, IsothermalSweeps
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.readings import Readings
     from viscofric.units import Quantity
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.readings import Readings
 
     Array = NDArray[np.float64]
     Indices = NDArray[np.intp]

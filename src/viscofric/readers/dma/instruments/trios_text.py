@@ -13,14 +13,14 @@ import re
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
-from viscofric.readers.ta_cells import Table, steps_of
-from viscofric.readers.ta_steps import tool_says
-from viscofric.readers.ta_sweeps import readings_of
+from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
+from viscofric.readers.dma.instruments.ta_steps import tool_says
+from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.readings import Readings
     from viscofric.readers.source import Source
 
     #: Line of the file, counted from 1, and its cells.
@@ -43,7 +43,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all frequency sweeps of an export; see `viscofric.readers.formats.Format`.
+    """Read all frequency sweeps of an export; see `viscofric.readers.dma.formats.Format`.
 
     Raises
     ------

@@ -13,7 +13,7 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.readers.points import Points
+    from viscofric.readers.dma.points import Points
 
     Indices = NDArray[np.intp]
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.ta_steps import Signal, Step, roles
+from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -49,7 +49,7 @@ def steps_of(path: str, tables: Sequence[Table], also: Mapping[str, str] | None 
     tables : sequence of Table
         All of the file, so that one decimal mark holds for all.
     also : dict, optional
-        Roles of further names of columns, as `viscofric.readers.ta_steps.roles` does not know them.
+        Roles of further names of columns, as `viscofric.readers.dma.instruments.ta_steps.roles` does not know them.
 
     Raises
     ------

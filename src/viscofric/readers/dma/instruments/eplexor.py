@@ -12,9 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers.eplexor_master import AS_IT_IS, isotherm_of_each_row, programmed_frequencies, shift_list
-from viscofric.readers.readings import Readings
-from viscofric.readers.workbook import sheet_names, sheets
+from viscofric.readers.dma.instruments.eplexor_master import (
+    AS_IT_IS,
+    isotherm_of_each_row,
+    programmed_frequencies,
+    shift_list,
+)
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.tables.workbook import sheet_names, sheets
 from viscofric.units import CELSIUS_ZERO, celsius, conversion
 
 if TYPE_CHECKING:
@@ -23,7 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import Deformation
-    from viscofric.readers.eplexor_master import ShiftList
+    from viscofric.readers.dma.instruments.eplexor_master import ShiftList
     from viscofric.readers.source import Source
 
     Array = NDArray[np.float64]

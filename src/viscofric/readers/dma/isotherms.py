@@ -9,10 +9,10 @@ import numpy as np
 
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers.grouping import ISOTHERM_GAP, isotherm_groups
-from viscofric.readers.points import at, joined, listed
-from viscofric.readers.sweep_checks import Sorted, notes_on
-from viscofric.readers.usable import usable
+from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
+from viscofric.readers.dma.points import at, joined, listed
+from viscofric.readers.dma.sweep_checks import Sorted, notes_on
+from viscofric.readers.dma.usable import usable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import Deformation
-    from viscofric.readers.points import Points
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.points import Points
+    from viscofric.readers.dma.readings import Readings
 
     Array = NDArray[np.float64]
     Indices = NDArray[np.intp]

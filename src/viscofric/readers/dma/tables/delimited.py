@@ -7,13 +7,20 @@ import re
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma_table import read_points
-from viscofric.readers.layout import DEEPEST_HEADER, header_row, insist_on_moduli, is_number, quantities, table_under
+from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.dma.tables.layout import (
+    DEEPEST_HEADER,
+    header_row,
+    insist_on_moduli,
+    is_number,
+    quantities,
+    table_under,
+)
 from viscofric.readers.table import split_cells, text_lines
 
 if TYPE_CHECKING:
-    from viscofric.readers.layout import NumberedRow
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.readings import Readings
+    from viscofric.readers.dma.tables.layout import NumberedRow
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
 
@@ -24,12 +31,12 @@ _BLANKS = "blanks"
 
 
 def recognises(source: Source) -> bool:
-    """Return whether a line of the text names columns of a DMA table; see `viscofric.readers.layout`."""
+    """Return whether a line of the text names columns of a DMA table; see `viscofric.readers.dma.tables.layout`."""
     return source.text is not None and _delimiter(text_lines(source.text)) is not None
 
 
 def read(source: Source) -> Readings:
-    """Return the points; see `viscofric.readers.dma_table.read_points` for what is raised."""
+    """Return the points; see `viscofric.readers.dma.tables.dma_table.read_points` for what is raised."""
     return read_points(delimited_table(source), source, NAME, source.stem)
 
 

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers import names
-from viscofric.readers.readings import Readings
-from viscofric.readers.rheocompass_intervals import Decimals, Interval, has_intervals, intervals
+from viscofric.readers.dma import names
+from viscofric.readers.dma.instruments.rheocompass_intervals import Decimals, Interval, has_intervals, intervals
+from viscofric.readers.dma.readings import Readings
 from viscofric.units import conversion
 
 if TYPE_CHECKING:

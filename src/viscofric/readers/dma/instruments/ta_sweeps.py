@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers.readings import Readings
+from viscofric.readers.dma.readings import Readings
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from viscofric.readers.dma.instruments.ta_steps import Said, Signal, Step
     from viscofric.readers.source import Source
-    from viscofric.readers.ta_steps import Said, Signal, Step
 
     Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ def readings_of(source: Source, kind: str, steps: Sequence[Step], tool: Said, no
     steps : sequence of Step
         All of them, in the order of the file.
     tool : pair
-        What the header says of the deformation; see `viscofric.readers.ta_steps.tool_says`.
+        What the header says of the deformation; see `viscofric.readers.dma.instruments.ta_steps.tool_says`.
     notes : sequence of str
         What was doubtful before.
 

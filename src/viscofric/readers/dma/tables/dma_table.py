@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma_columns import (
+from viscofric.readers.dma.names import STEP, quantity, temperature_in_name
+from viscofric.readers.dma.plausibility import doubts
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.tables.dma_columns import (
     angular_frequency,
     deformation,
     find_columns,
     insist_on_one_frequency,
     moduli,
 )
-from viscofric.readers.names import STEP, quantity, temperature_in_name
-from viscofric.readers.plausibility import doubts
-from viscofric.readers.readings import Readings
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

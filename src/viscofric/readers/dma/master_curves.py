@@ -9,8 +9,8 @@ import numpy as np
 from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
-from viscofric.readers import delimited, dma_columns, reptate, workbook
-from viscofric.readers.formats import format_of
+from viscofric.readers.dma.formats import format_of
+from viscofric.readers.dma.tables import delimited, dma_columns, reptate, workbook
 from viscofric.readers.source import Source
 from viscofric.units import celsius, conversion, positive
 

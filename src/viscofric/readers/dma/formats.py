@@ -5,20 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from viscofric.errors import DataFileError
-from viscofric.readers import (
-    delimited,
+from viscofric.readers.dma.instruments import (
     eplexor,
     mettler,
-    reptate,
     rheocompass,
     trios_json,
     trios_text,
     universal_analysis,
-    workbook,
 )
+from viscofric.readers.dma.tables import delimited, reptate, workbook
 
 if TYPE_CHECKING:
-    from viscofric.readers.readings import Readings
+    from viscofric.readers.dma.readings import Readings
     from viscofric.readers.source import Source
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.names import (
+from viscofric.readers.dma.names import (
     ANGULAR_FREQUENCY,
     COMPLEX_MODULUS,
     FREQUENCY,

@@ -19,7 +19,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
-from viscofric.readers import names
+from viscofric.readers.dma import names
 
 if TYPE_CHECKING:
     from viscofric.readers.source import Source

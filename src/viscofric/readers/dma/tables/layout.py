@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
-from viscofric.readers.names import quantity
+from viscofric.readers.dma.names import quantity
 from viscofric.readers.table import Column, Table, heading, make_table
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def header_row(rows: Sequence[NumberedRow]) -> int | None:
     """Return which row names the columns of a DMA table, None if no row does.
 
     It is the first that names a frequency and a modulus; without such a row, the first that names two
-    quantities of `viscofric.readers.names`, or a traction: that a column is missing is said later.
+    quantities of `viscofric.readers.dma.names`, or a traction: that a column is missing is said later.
     """
     second_best = None
     for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
@@ -48,7 +48,7 @@ def insist_on_moduli(path: str, cells: Sequence[str]) -> None:
 
 
 def quantities(cells: Sequence[str]) -> set[str]:
-    """Return what the cells of one row name, in the words of `viscofric.readers.names.QUANTITIES`."""
+    """Return what the cells of one row name, in the words of `viscofric.readers.dma.names.QUANTITIES`."""
     found = (quantity(heading(cell).name) for cell in cells if 0 < len(cell) < 100)
     return {what for what in found if what is not None}
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers.readings import Readings
+from viscofric.readers.dma.readings import Readings
 from viscofric.units import conversion
 
 if TYPE_CHECKING:

@@ -1,0 +1,1 @@
+"""Exports of instruments, each in its own layout."""
