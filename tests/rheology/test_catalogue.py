@@ -42,6 +42,19 @@ def test_vhb_4910_has_the_moduli_of_its_source():
     assert rubber.complex_modulus(1.0).real == pytest.approx(3 * 59.138e3, rel=1e-4)
 
 
+def test_pvb_has_the_series_of_its_source():
+    rubber = catalogue_material("PVB interlayer")
+    prony = rubber.spectrum.to_relaxation()
+    # Eleven relative moduli that sum to 0.9998652, by hand; G0 = 471 MPa, E = 3G.
+    assert len(prony) == 11
+    assert pytest.approx(3 * 471e6 * (1 - 0.9998652), rel=1e-3) == prony.E0
+    assert prony.E_inf == pytest.approx(3 * 471e6, rel=1e-12)
+    assert prony.E[2] == pytest.approx(3 * 471e6 * 0.2912, rel=1e-12)
+    assert prony.tau[[0, -1]] == pytest.approx([3.2557e-11, 41347000.0], rel=1e-12)
+    # WLF by hand at 50 °C: −20.7 · 30 / (91.1 + 30)
+    assert rubber.shift.log10("50 degC") == pytest.approx(-5.1280, abs=1e-4)
+
+
 @pytest.mark.parametrize("name", ["vhb 4910", "VHB-4910", "Vhb_4910"])
 def test_capitals_and_hyphens_do_not_matter(name):
     assert catalogue_material(name).name == "VHB 4910 acrylic elastomer"
@@ -50,5 +63,5 @@ def test_capitals_and_hyphens_do_not_matter(name):
 def test_a_slip_of_the_keyboard_is_answered_with_the_nearest_name():
     with pytest.raises(InputError, match="did you mean 'VHB 4910'"):
         catalogue_material("VBH 4901")
-    with pytest.raises(InputError, match="the names are 'VHB 4910', 'synthetic fluoroelastomer'"):
+    with pytest.raises(InputError, match="the names are 'VHB 4910', 'PVB interlayer', 'synthetic fluoroelastomer'"):
         catalogue_material("xyz")

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
-from viscofric.rheology.shifts.laws import WLFArrhenius
+from viscofric.rheology.shifts.laws import WLF, WLFArrhenius
 from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
@@ -95,6 +95,30 @@ def _vhb_4910() -> Material:
     return Material(relaxation.to_retardation(), None, 0.5, "VHB 4910 acrylic elastomer")
 
 
+def _pvb() -> Material:
+    """Shear relaxation in 11 relative moduli about G0 = 471 MPa, taken as incompressible (E = 3G)."""
+    glass = 3.0 * 471e6  # Pa
+    share = np.array(
+        [0.1606, 0.07877, 0.2912, 0.071155, 0.2688, 0.089568, 0.030183, 0.0076056, 0.0009634, 0.0004059, 0.0006143]
+    )
+    tau = [
+        3.2557e-11,
+        4.9491e-9,
+        7.2427e-8,
+        9.8635e-6,
+        2.8059e-3,
+        0.16441,
+        2.2648,
+        35.364,
+        9367.5,
+        641410.0,
+        41347000.0,
+    ]
+    relaxation = RelaxationSpectrum(glass * (1.0 - share.sum()), glass * share, tau)
+    shift = WLF(C1=20.7, C2=91.1, reference="20 degC")
+    return Material(relaxation.to_retardation(), shift, 0.5, "PVB interlayer (plasticised polyvinyl butyral)")
+
+
 def synthetic_fluoroelastomer() -> Material:
     """Return a SYNTHETIC rubber that behaves like a fluoroelastomer; it was assumed, not measured.
 
@@ -143,6 +167,18 @@ _ENTRIES = (
         "incompressible, E = 3G. Times of 0.6 to 61 s: loss faster than about 5 rad/s or slower than 0.01 rad/s, and "
         "the glass transition, are not in it. The temperature is that of the tests; there is no shift.",
         _vhb_4910,
+    ),
+    CatalogueEntry(
+        "PVB interlayer",
+        "published",
+        "Prony series, 11 modes over 18 decades; WLF about 20 °C.",
+        "A. Van Duser, A. Jagota, S. J. Bennison, Analysis of glass/polyvinyl butyral laminates subjected to uniform "
+        "pressure, J. Eng. Mech. 125 (1999) 435; relative moduli, times and WLF constants as quoted in public "
+        "finite-element scripts for laminated glass.",
+        "Plasticised polyvinyl butyral of laminated glass, shear relaxation with G0 = 471 MPa. Taken as "
+        "incompressible, E = 3G, which makes the glass some 8 % stiffer than with the bulk modulus of 2 GPa given with "
+        "it. Its long-term modulus, 0.19 MPa, is reached after a year at 20 °C.",
+        _pvb,
     ),
     CatalogueEntry(
         "synthetic fluoroelastomer",
