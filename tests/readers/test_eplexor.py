@@ -9,7 +9,7 @@ from readers.samples.eplexor import SAMPLES, SHIFTS, master_tables, raw_tables, 
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, points
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.instruments import eplexor
-from viscofric.readers.dma.instruments.eplexor_master import isotherm_of_each_row, programmed_frequencies
+from viscofric.readers.dma.instruments.eplexor_rows import isotherm_of_each_row, programmed_frequencies
 from viscofric.readers.source import Source
 
 
@@ -211,3 +211,52 @@ def test_genuine_master_curve_has_the_programme_of_the_genuine_sweeps(real_data)
     raw, master = read(folder / "freq_Eplexor_raw.xls"), read(folder / "freq_Eplexor_master.xls")
     assert np.allclose(master.angular_frequency, raw.angular_frequency, rtol=1e-9)
     assert np.max(np.abs(master.temperature - raw.temperature)) < 0.5
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_shifts_of_whole_steps_lose_no_isotherm(tmp_path, monkeypatch, sign):
+    # every row of the middle isotherm fits another one too
+    for T, shift in zip(TEMPERATURES, (1.0, 0.0, -1.0), strict=True):
+        monkeypatch.setitem(SHIFTS, T, shift)
+    tables = master_tables()
+    for row in tables["Shiftlist"][3:]:
+        row[1] *= sign
+    with pytest.raises(DataFileError, match=r"whole steps of the frequency programme apart|rise with temperature"):
+        read(saved(tmp_path, tables))
+
+
+def test_shifts_of_the_other_sign_are_refused(tmp_path, monkeypatch):
+    for T, shift in zip(TEMPERATURES, (-1.26, 0.0, 1.26), strict=True):
+        monkeypatch.setitem(SHIFTS, T, shift)
+    with pytest.raises(
+        DataFileError, match="'Shiftlist' rise with temperature; above the reference they must be negative"
+    ):
+        read(saved(tmp_path, master_tables()))
+
+
+def test_rows_go_with_their_like_not_with_the_next_in_time():
+    # the third isotherm, half a step off, was measured next to the first
+    frequency = 10.0 ** np.array([0.0, 1.0, 2.0, 0.5, 1.5, 2.5, 1.0, 2.0, 3.0])
+    time = np.array([0.0, 10.0, 5.0, 11.0, 12.0, 13.0, 28.0, 29.0, 30.0])
+    found = isotherm_of_each_row(frequency, time, np.array([0.0, 1.0, 0.5]), np.array([1.0, 10.0, 100.0]), "x", [])
+    assert found.tolist() == [0, 0, 0, 2, 2, 2, 1, 1, 1]
+
+
+def test_list_in_kelvin_needs_its_unit(tmp_path):
+    tables = master_tables()
+    for row in tables["Shiftlist"][3:]:
+        row[0] += 273.15
+    with pytest.raises(
+        DataFileError, match=r"is of 283\.1 °C, but the rows are of 10\.0 °C; is the list in another unit"
+    ):
+        read(saved(tmp_path, tables))
+    tables["Shiftlist"][2][0] = "Temp. [K]"
+    assert np.allclose(table(read(saved(tmp_path, tables))), np.array(points()), rtol=1e-12, atol=1e-10)
+
+
+@pytest.mark.parametrize("shift", [301.0, -301.0])
+def test_shift_that_no_number_holds_is_refused(tmp_path, shift):
+    tables = master_tables()
+    tables["Shiftlist"].append([-40.0, shift, ""])
+    with pytest.raises(DataFileError, match="row 7 must hold a temperature and a shift"):
+        read(saved(tmp_path, tables))

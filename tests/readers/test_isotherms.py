@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 import numpy as np
 import pytest
@@ -239,3 +240,18 @@ def test_a_soft_noisy_sample_keeps_what_can_be_used(real_data):
     assert notes_with(sweeps, "11 points left out: their storage moduli are not above zero") != []
     assert notes_with(sweeps, "23 points left out: their loss moduli are not above zero") != []
     assert len(sweeps.notes) < 12
+
+
+def test_strain_amplitudes_that_differ_by_a_third_are_told():
+    celsius, hertz = programme([20.0, 30.0])
+    differing = np.repeat([1e-3, 1.3e-3], 9)
+    assert notes_with(isothermal_sweeps([readings(celsius, hertz, strain_amplitude=differing)]), "Payne") != []
+
+
+def test_a_step_for_every_point_takes_no_time():
+    count = 30_000
+    hertz = np.geomspace(0.1, 10.0, count)
+    begin = time.perf_counter()
+    sweeps = isothermal_sweeps([readings(np.full(count, 20.0), hertz, step=np.arange(count))])
+    assert [len(one) for one in sweeps.isotherms] == [count]
+    assert time.perf_counter() - begin < 10.0  # some 2 s; work that grows as the square takes more than 10 s

@@ -118,7 +118,7 @@ def test_loss_modulus_may_be_given_by_tan_delta(tmp_path):
 
 
 def test_units_are_those_of_the_header(tmp_path):
-    lines = [line.replace("Storage Modulus (MPa)", "Storage Modulus (GPa)") for line in q800.text_lines()]
+    lines = [line.replace("Modulus (MPa)", "Modulus (GPa)") for line in q800.text_lines()]
     path = tmp_path / "gpa.txt"
     path.write_text("\n".join(lines), encoding="utf-8")
     assert read(path).storage_modulus == pytest.approx(1e3 * POINTS[2], rel=PRINTED)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import json
+import sys
 import time
 import zipfile
 
@@ -11,7 +13,7 @@ import pytest
 from readers.samples.workbook import HEADER, one_sheet, rows, write
 from viscofric.errors import DataFileError
 from viscofric.readers import read_dma
-from viscofric.readers.dma.tables import workbook
+from viscofric.readers.dma.tables import parse_workbook, workbook
 from viscofric.readers.source import Source
 
 POINTS = [[20, 1, 5, 0.5], [20, 10, 6, 0.7]]
@@ -172,3 +174,63 @@ def test_real_workbooks_of_the_old_kind_are_opened(real_data):
     assert list(sheets) == ["Exported Data", "Data header"]
     assert sheets["Exported Data"][0][:2] == ["Nr", "F stat."]
     assert sheets["Exported Data"][2][:2] == [1.0, -28.9258]
+
+
+def test_a_truth_value_is_no_number(tmp_path):
+    path = write(tmp_path / "a.xlsx", {"DMA": [HEADER, *POINTS, [20, 20, True, 0.5]]})
+    with pytest.raises(DataFileError, match=r"'TRUE' in column .* is not a finite number"):
+        read_dma(path)
+
+
+def test_a_hidden_sheet_with_moduli_is_told(tmp_path):
+    import xlsxwriter
+
+    path = tmp_path / "hidden.xlsx"
+    with xlsxwriter.Workbook(str(path)) as book:
+        for name, celsius in (("DMA", 20), ("old", 60), ("lists", None)):
+            sheet = book.add_worksheet(name)
+            cells = [["only", "words"]] if celsius is None else [HEADER, *([celsius, *rest] for _, *rest in POINTS)]
+            for number, row in enumerate(cells):
+                sheet.write_row(number, 0, row)
+            if name != "DMA":
+                sheet.hide()
+    notes = [note for note in read_dma(path).notes if "hidden" in note]
+    assert notes == ["The sheet 'old' is hidden in the workbook; it was read all the same."]
+
+
+def test_long_texts_are_cut_before_they_take_memory(tmp_path):
+    long = [["", "", "", "", "x" * 30_000] for _ in range(50)]
+    cells = workbook.sheets(opened(write(tmp_path / "a.xlsx", {"DMA": [HEADER, *POINTS, *long]})))["DMA"]
+    assert len(cells[3][4]) == parse_workbook.LONGEST_TEXT
+
+
+def test_more_cells_than_any_measurement_are_refused(monkeypatch, tmp_path):
+    class Stream(io.BytesIO):
+        buffer = property(lambda self: self)
+
+    answer = Stream()
+    monkeypatch.setattr(parse_workbook, "LARGEST_ANSWER", 100)
+    monkeypatch.setattr(parse_workbook, "_limit_memory", lambda: None)  # it would hold for all tests
+    monkeypatch.setattr(sys, "stdin", Stream(one_sheet(tmp_path).read_bytes()))
+    monkeypatch.setattr(sys, "stdout", answer)
+    parse_workbook.main()
+    assert "far more than a workbook of measurements" in json.loads(answer.getvalue())["problem"]
+
+
+@pytest.mark.parametrize("python", ["", "/no/such/python"])
+def test_a_python_that_does_not_start_is_told(tmp_path, monkeypatch, python):
+    path = one_sheet(tmp_path)
+    monkeypatch.setattr(sys, "executable", python)
+    with pytest.raises(DataFileError, match=r"which does not start .* save the sheet as CSV"):
+        read_dma(path)
+
+
+def test_a_missing_package_is_not_blamed_on_the_file(tmp_path, monkeypatch):
+    path = one_sheet(tmp_path)
+    monkeypatch.setattr(workbook, "_PARSER", tmp_path / "parser.py")
+    (tmp_path / "parser.py").write_text('print(\'{"missing": "python-calamine"}\')', encoding="utf-8")
+    with pytest.raises(DataFileError, match="workbooks need python-calamine, which this Python does not find"):
+        read_dma(path)
+    monkeypatch.setitem(sys.modules, "python_calamine", None)
+    with pytest.raises(ImportError):
+        parse_workbook._sheets(path.read_bytes())

@@ -35,7 +35,7 @@ class Source:
     def text(self) -> str | None:
         """The file as text, or None if it is a binary file."""
         try:
-            return decoded(self.data, self.path)
+            return decoded(_marked(self.data), self.path)
         except DataFileError:
             return None
 
@@ -43,3 +43,14 @@ class Source:
     def stem(self) -> str:
         """The file's name without folder and ending."""
         return Path(self.path).stem
+
+
+def _marked(data: bytes) -> bytes:
+    """Return bytes that are UTF-16 without its mark with it: every second byte of the first ones is zero."""
+    first, second = data[:200:2], data[1:200:2]
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return data
+    for mark, zeros, letters in ((b"\xff\xfe", second, first), (b"\xfe\xff", first, second)):
+        if len(data) > 20 and 0 not in letters and zeros.count(0) > 0.8 * len(zeros):
+            return mark + data[: len(data) - len(data) % 2]
+    return data

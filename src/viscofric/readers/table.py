@@ -13,7 +13,7 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
 from viscofric.readers.dma.names import quantity
-from viscofric.units import conversion
+from viscofric.readers.printed import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,7 +33,8 @@ MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n
 # How instruments write the units of temperature that pint would take for coulomb, farad or nothing at all.
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
 
-_COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
+#: A longer heading is no heading; its unit is not looked for.
+_LONGEST_HEADING = 200
 
 
 @dataclass(frozen=True)
@@ -167,7 +168,7 @@ class Table:
         if unit == "K":
             text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]|℃", "", text.replace("℃", "C")).lower(), text)
         try:
-            return conversion(text, unit, column.heading)
+            return unit_conversion(text, unit, column.heading)
         except InputError:
             raise DataFileError(
                 self.path,
@@ -245,7 +246,7 @@ def make_table(
     Raises
     ------
     DataFileError
-        If there is no row, or one is not as long as the header.
+        If there is no row, one is not as long as the header, or commas may part decimals or thousands.
     """
     rows = []
     for number, row in numbered:
@@ -260,8 +261,10 @@ def make_table(
         raise DataFileError(path, "there is a header, but no row of numbers under it.")
     # a remark may hold any comma
     measured = [place for place, column in enumerate(columns) if column.unit or quantity(column.name)]
-    comma = comma_is_free and any(_COMMA_NUMBER.fullmatch(row[place]) for row in rows for place in measured)
-    return Table(path, columns, tuple(rows), np.array([number for number, _ in numbered], dtype=np.int64), comma)
+    lines = [number for number, _ in numbered]
+    printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
+    comma = comma_is_free and decimal_comma(path, printed)
+    return Table(path, columns, tuple(rows), np.array(lines, dtype=np.int64), comma)
 
 
 def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
@@ -275,6 +278,8 @@ def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
 def heading(text: str) -> Column:
     """Part a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``."""
     text = text.strip()
+    if len(text) > _LONGEST_HEADING:
+        return Column(text, text, "")
     plain = re.sub(r"[’′‘`´]", "'", text).replace("″", "''").replace("”", "''").replace('"', "''")
     name, unit = plain, ""
     for pattern in (_BRACKETED, _SLASHED, _UNDERSCORED):

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.
 ISOTHERM_GAP = 1.0  # K
+#: Temperatures of sweeps that differ by no more are one; programmes step by 1 K at the least.
+SAME_TEMPERATURE = 0.7  # K
 #: A step of the programme whose temperature ranges no further than this is one isotherm, settling included.
 ONE_STEP = 2.0  # K
 #: A group without gaps wider than this is not one temperature but a ramp.
@@ -58,12 +60,12 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
     Raises
     ------
     DataFileError
-        If the temperatures form a ramp, or a temperature sweep at one frequency.
+        If the temperatures form a ramp, a temperature sweep at one frequency, or isotherms that cannot be parted.
     """
     groups: list[Indices] = []
     moving: list[int] = []
     for block in _blocks(points, keep):
-        for group in _by_gaps(points, block):
+        for group in [part for wide in _by_gaps(points, block) for part in _by_repeats(points, wide)]:
             if np.ptp(points.temperature[group]) <= WIDEST_ISOTHERM:
                 groups.append(group)
                 continue
@@ -76,6 +78,7 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
         notes.append(f"{what} temperature was moving between two isotherms ({points.named(sorted(moving))}).")
     merged = _merged(points, groups)
     kept = _insist_on_several(points, merged, source)
+    _insist_on_one_temperature(points, kept, source)
     notes += _on_small_groups(points, merged, kept)
     return kept, notes
 
@@ -85,7 +88,8 @@ def _blocks(points: Points, keep: Indices) -> list[Indices]:
     keys = np.stack([points.file[keep], np.where(points.has_step[keep], points.step[keep], 0)], axis=1)
     _, which = np.unique(keys, axis=0, return_inverse=True)
     which = np.ravel(which)
-    return [keep[which == number] for number in range(int(which.max()) + 1)]
+    order = np.argsort(which, kind="stable")
+    return np.split(keep[order], np.flatnonzero(np.diff(which[order])) + 1)
 
 
 def _by_gaps(points: Points, block: Indices) -> list[Indices]:
@@ -96,6 +100,36 @@ def _by_gaps(points: Points, block: Indices) -> list[Indices]:
     order = np.argsort(kelvin, kind="stable")
     cuts = np.flatnonzero(np.diff(kelvin[order]) > ISOTHERM_GAP) + 1
     return [np.sort(block[part]) for part in np.split(order, cuts)]
+
+
+def _by_repeats(points: Points, group: Indices) -> list[Indices]:
+    """Part points at the widest gaps in temperature where each part then has all frequencies: programmes step by 1 K.
+
+    Sweeps repeated at one temperature leave no such gaps and stay together.
+    """
+    order = group[np.argsort(points.temperature[group], kind="stable")]
+    kelvin = points.temperature[order]
+    gaps = np.diff(kelvin)
+    cuts = np.flatnonzero(gaps > SAME_TEMPERATURE) + 1
+    if not cuts.size:
+        return [group]
+    parts = [np.sort(part) for part in np.split(order, cuts)]
+    wander = max(float(np.ptp(points.temperature[part])) for part in parts)
+    if gaps[cuts - 1].min() > APART * wander and _are_sweeps(points, parts):
+        return parts
+    return [group]
+
+
+def _insist_on_one_temperature(points: Points, groups: list[Indices], source: str) -> None:
+    """Refuse isotherms most of whose frequencies were measured at temperatures too far apart to be averaged."""
+    for group in groups:
+        order = group[np.argsort(points.angular_frequency[group], kind="stable")]
+        cuts = np.flatnonzero(np.diff(np.round(np.log(points.angular_frequency[order]), 2))) + 1
+        spans = np.array([np.ptp(points.temperature[same]) for same in np.split(order, cuts)])
+        if 2 * np.count_nonzero(spans > ISOTHERM_GAP) > spans.size:
+            low, high = (f"{celsius(float(f(points.temperature[group]))):z.1f}" for f in (np.min, np.max))
+            problem = f"each frequency was measured several times between {low} and {high} °C, and the temperatures "
+            raise DataFileError(source, problem + "cannot be parted into isotherms; give them as a column of steps.")
 
 
 def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
@@ -161,15 +195,15 @@ def _mean(points: Points, rows: Indices) -> float:
 def _merged(points: Points, groups: list[Indices]) -> list[Indices]:
     """Join groups of equal mean temperature, ascending."""
     means = [_mean(points, group) for group in groups]
-    merged: list[Indices] = []
+    alike: list[list[Indices]] = []
     first = -np.inf
     for number in np.argsort(means, kind="stable"):
-        if means[number] - first <= ISOTHERM_GAP:
-            merged[-1] = np.sort(np.concatenate([merged[-1], groups[number]]))
+        if means[number] - first <= SAME_TEMPERATURE:
+            alike[-1].append(groups[number])
         else:
             first = means[number]
-            merged.append(groups[number])
-    return merged
+            alike.append([groups[number]])
+    return [np.sort(np.concatenate(some)) for some in alike]
 
 
 def _printed_frequencies(points: Points, group: Indices) -> NDArray[np.float64]:

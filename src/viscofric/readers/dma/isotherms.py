@@ -9,9 +9,10 @@ import numpy as np
 
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError
+from viscofric.readers.dma.amplitudes import insist_on_one_amplitude
 from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
-from viscofric.readers.dma.points import at, joined, listed
-from viscofric.readers.dma.sweep_checks import Sorted, notes_on
+from viscofric.readers.dma.points import Sorted, at, joined, listed
+from viscofric.readers.dma.sweep_checks import notes_on
 from viscofric.readers.dma.usable import usable
 
 if TYPE_CHECKING:
@@ -29,10 +30,7 @@ if TYPE_CHECKING:
 #: Frequencies closer than this (relative) are the same one, printed or measured twice.
 SAME_FREQUENCY = 1e-4
 #: Repeated readings that differ by more than this are told.
-REPEATS_DIFFER = 0.05
-
-#: The note where neither the file nor the caller says what the moduli are; see `deformation_is_told`.
-UNTOLD_DEFORMATION = "The file does not say whether its moduli are tensile or shear; taken as tensile."
+REPEATS_DIFFER = 0.02
 
 
 def deformation_is_told(sweeps: IsothermalSweeps) -> bool:
@@ -43,7 +41,7 @@ def deformation_is_told(sweeps: IsothermalSweeps) -> bool:
     sweeps : IsothermalSweeps
         As `read_dma` returned them.
     """
-    return UNTOLD_DEFORMATION not in sweeps.notes
+    return sweeps.deformation_told
 
 
 def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> IsothermalSweeps:
@@ -65,8 +63,8 @@ def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | N
     Raises
     ------
     DataFileError
-        If the files contradict each other or `deformation`, too few points can be used, or the temperatures form a
-        ramp.
+        If the files contradict each other or `deformation`, too few points can be used, the temperatures form a
+        ramp, or the points are those of an amplitude sweep.
     InputError
         If there is no file, or `deformation` is neither "tension" nor "shear".
     """
@@ -77,6 +75,8 @@ def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | N
     points = joined(readings)
     keep, on_left_out = usable(points, source)
     groups, on_groups = isotherm_groups(points, keep, source)
+    for rows in groups:
+        insist_on_one_amplitude(points, rows, source)
     sweeps = [_isotherm(points, rows) for rows in groups]
     notes = [
         *_on_formats(readings),
@@ -89,7 +89,8 @@ def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | N
     ]
     formats = list(dict.fromkeys(one.format for one in readings))
     isotherms = tuple(one.isotherm for one in sweeps)
-    return IsothermalSweeps(isotherms, kind, source, tuple(notes), format=", ".join(formats))
+    told = deformation is not None or any(one.deformation is not None for one in readings)
+    return IsothermalSweeps(isotherms, kind, source, tuple(notes), ", ".join(formats), told)
 
 
 def _source(readings: Sequence[Readings]) -> str:
@@ -130,7 +131,7 @@ def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tup
     if not said:
         if asked is not None:
             return asked, [f"The moduli are taken as measured in {asked}, as asked; the file does not say it."]
-        return "tension", [UNTOLD_DEFORMATION]
+        return "tension", ["The file does not say whether its moduli are tensile or shear; taken as tensile."]
     kind = said[0].deformation or "tension"
     by = f" ({said[0].said_by})" if said[0].said_by else ""
     other = next((one for one in said if one.deformation != kind), None)
@@ -180,9 +181,12 @@ def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: in
         what = "1 repeated frequency" if repeated == 1 else f"{repeated} repeated frequencies"
         were = "was" if repeated == 1 else "were"
         notes.append(f"{what} {at([one.isotherm.temperature for one in averaged])} {were} averaged.")
-        worst, where = max(_disagreement(points, one) for one in averaged)
+        again = [one.isotherm.temperature for one in averaged if all(len(rows) > 1 for rows in one.origins)]
+        if again:
+            notes.append(f"All frequencies {at(again)} were measured more than once, as in sweeps run again.")
+        worst, kelvin = max(_disagreement(points, one) for one in averaged)
         if worst > REPEATS_DIFFER:
-            notes.append(f"Repeated readings differ by up to {100 * worst:.0f} % of their modulus {at([where])}.")
+            notes.append(f"Repeated readings differ by up to {100 * worst:.0f} % of their modulus {at([kelvin])}.")
     if files == 1 and np.any(np.diff(points.temperature[keep]) < -ISOTHERM_GAP):
         notes.append("The isotherms were sorted by temperature.")
     return notes

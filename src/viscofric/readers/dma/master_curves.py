@@ -11,8 +11,9 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.readers.dma.formats import format_of
 from viscofric.readers.dma.tables import delimited, dma_columns, reptate, workbook
+from viscofric.readers.printed import unit_conversion
 from viscofric.readers.source import Source
-from viscofric.units import celsius, conversion, positive
+from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -59,8 +60,8 @@ def read_master_curve(
     Raises
     ------
     DataFileError
-        If the file cannot be read, a value is missing or not above zero, nobody says whether the moduli are tensile
-        or shear, or the file tells another reference temperature.
+        If the file cannot be read, columns contradict each other, a value is missing or not above zero, nobody says
+        whether the moduli are tensile or shear, or the file tells another reference temperature.
     InputError
         If an argument is wrong.
     """
@@ -70,7 +71,7 @@ def read_master_curve(
     if not -1.0 < poisson_ratio <= 0.5:
         raise InputError(f"poisson_ratio = {poisson_ratio!r}: must be above -1 and at most 0.5.")
     if modulus_unit is not None:
-        conversion(modulus_unit, "Pa", "modulus_unit")
+        unit_conversion(modulus_unit, "Pa", "modulus_unit")
     source = Source(str(path), read_bytes(path), modulus_unit=modulus_unit or "")
     if reptate.recognises(source):
         said: Deformation | None = "shear"  # RepTate knows G' and G'' only
@@ -102,7 +103,12 @@ def _table(source: Source) -> Table:
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
     places = dma_columns.find_columns(table)
-    frequency = dma_columns.angular_frequency(table, places, [])
+    doubts: list[str] = []
+    frequency = dma_columns.angular_frequency(table, places, doubts)
+    if doubts:  # a master curve carries no notes
+        heading = table.columns[places["frequency"]].heading
+        raise DataFileError(table.path, f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.")
+    dma_columns.insist_on_one_frequency(table, places, frequency)
     storage, loss = dma_columns.moduli(table, places, source, [])
     temperature = np.full(len(frequency), reference)
     if "temperature" in places:

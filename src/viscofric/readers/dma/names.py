@@ -6,6 +6,8 @@ import re
 import unicodedata
 from typing import TYPE_CHECKING
 
+from viscofric.units import CELSIUS_ZERO
+
 if TYPE_CHECKING:
     from viscofric.data import Deformation
 
@@ -127,5 +129,5 @@ def temperature_in_name(name: str) -> float | None:
         return None
     one = found[0]
     number = float(one["number"].replace(",", ".")) * (-1.0 if one["sign"] in ("-", "−") else 1.0)
-    kelvin = number if one["unit"] == "K" else number + 273.15
+    kelvin = number if one["unit"] == "K" else number + CELSIUS_ZERO
     return kelvin if kelvin > 0.0 else None

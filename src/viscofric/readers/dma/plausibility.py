@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.units import CELSIUS_ZERO
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -56,7 +58,7 @@ def _of_temperature(table: Table, place: int, temperature: Array) -> list[str]:
     printed, heading = table.numbers_or_missing(place)[known], table.columns[place].heading
     low, high = float(printed.min()), float(printed.max())
     span = f"The temperatures in column {heading!r} run from {low:g} to {high:g}"
-    in_celsius = np.allclose(temperature[known] - printed, 273.15, rtol=0.0, atol=1e-6)
+    in_celsius = np.allclose(temperature[known] - printed, CELSIUS_ZERO, rtol=0.0, atol=1e-6)
     in_kelvin = np.allclose(temperature[known], printed, rtol=1e-9, atol=0.0)
     if in_celsius and low >= LIKE_KELVIN[0] and high <= LIKE_KELVIN[1]:
         return [f"{span} and look like kelvin; they were read as °C, as the heading says."]

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from viscofric.data import Isotherm
     from viscofric.readers.dma.readings import Readings
 
     Array = NDArray[np.float64]
@@ -69,6 +70,25 @@ class Points:
             shown = [one["number"] for one in parted if one]
             return f"{before}{what}s {listed(shown, more)}"
         return listed(shown, more)
+
+
+@dataclass(frozen=True, eq=False)
+class Sorted:
+    """One isotherm and where its points come from.
+
+    Parameters
+    ----------
+    isotherm : Isotherm
+        Sorted and averaged.
+    rows : (m,) array of int
+        All its points in the order of reading.
+    origins : tuple of (k,) array of int
+        The points that each frequency was averaged from.
+    """
+
+    isotherm: Isotherm
+    rows: Indices
+    origins: tuple[Indices, ...]
 
 
 def joined(readings: Sequence[Readings]) -> Points:

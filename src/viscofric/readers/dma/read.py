@@ -11,9 +11,9 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.readers.dma.formats import format_of
 from viscofric.readers.dma.isotherms import isothermal_sweeps
-from viscofric.readers.dma.tables.dma_columns import unit_as_asked
+from viscofric.readers.printed import unit_conversion
 from viscofric.readers.source import Source
-from viscofric.units import celsius, conversion, kelvin_hint, positive
+from viscofric.units import celsius, kelvin_hint, positive
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,13 +69,13 @@ def read_dma(
     files = _files(paths)
     given = _temperatures(temperature, len(files))
     if modulus_unit is not None:
-        conversion(modulus_unit, "Pa", "modulus_unit")
+        unit_conversion(modulus_unit, "Pa", "modulus_unit")
     sources = [
         Source(path, _bytes(path), kelvin, modulus_unit or "") for path, kelvin in zip(files, given, strict=True)
     ]
     _insist_on_different(sources)
     readings = [_read(source) for source in sources]
-    if modulus_unit is not None and not any(unit_as_asked(modulus_unit) in one.notes for one in readings):
+    if modulus_unit is not None and not any(one.unit_is_asked for one in readings):
         raise InputError(f"modulus_unit = {modulus_unit!r}: the files name the units of their moduli; leave it out.")
     return isothermal_sweeps(readings, deformation)
 

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Readings:
-    """Points of frequency sweeps as one file holds them; nothing is left out, sorted or judged yet.
+    """Points of frequency sweeps as one file holds them, neither sorted nor judged yet.
+
+    Rows that are no points of a frequency sweep may be left out already; `notes` tells of them.
 
     Parameters
     ----------
@@ -42,6 +44,8 @@ class Readings:
         Number of the step of the instrument's programme that each point belongs to.
     notes : tuple of str
         What was doubtful or passed over while reading: one sentence each.
+    unit_is_asked : bool
+        Whether the moduli have no unit but the one that the user gave.
     """
 
     source: str
@@ -56,6 +60,7 @@ class Readings:
     strain_amplitude: Array | None = None
     step: NDArray[np.int64] | None = None
     notes: tuple[str, ...] = ()
+    unit_is_asked: bool = False
 
     def __len__(self) -> int:
         return len(self.temperature)

@@ -1,13 +1,13 @@
-"""Notes on sweeps that are usable but doubtful: drifting temperature, outliers, strain amplitudes that differ."""
+"""Notes on sweeps that are usable but doubtful: drifting temperature, outliers, what no rubber does."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.readers.dma.amplitudes import on_amplitudes
 from viscofric.readers.dma.points import at
 from viscofric.units import celsius
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import Isotherm
-    from viscofric.readers.dma.points import Points
+    from viscofric.readers.dma.points import Points, Sorted
 
     Array = NDArray[np.float64]
     Indices = NDArray[np.intp]
@@ -30,32 +30,20 @@ DRIFT, STEADY = 0.5, 0.8  # K, 1
 SIGMAS = 8.0
 #: and by at least this, which smooth curves do not show between neighbours of a sweep.
 LEAST_OUTLIER = 0.04  # decades
-#: Strain amplitudes of isotherms that differ by more than this factor are told.
-AMPLITUDES_DIFFER = 1.2
-
-
-@dataclass(frozen=True, eq=False)
-class Sorted:
-    """One isotherm and where its points come from.
-
-    Parameters
-    ----------
-    isotherm : Isotherm
-        Sorted and averaged.
-    rows : (m,) array of int
-        All its points in the order of reading.
-    origins : tuple of (k,) array of int
-        The points that each frequency was averaged from.
-    """
-
-    isotherm: Isotherm
-    rows: Indices
-    origins: tuple[Indices, ...]
+#: Logarithms (to base 10) of moduli of rubbers in Pa lie within this; no solid is as soft.
+LIKE_LOGARITHMS = (3.0, 12.0)  # Pa
+#: Even in the glass transition no rubber has a tan δ as large.
+LARGEST_LOSS = 10.0
 
 
 def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
     """Return a sentence on each sort of doubt; nothing is left out or changed."""
-    return [*_on_temperature(points, sweeps), *_on_outliers(points, sweeps), *_on_amplitudes(sweeps)]
+    return [
+        *_on_temperature(points, sweeps),
+        *_on_outliers(points, sweeps),
+        *on_amplitudes(sweeps),
+        *_on_sense(sweeps),
+    ]
 
 
 def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
@@ -173,21 +161,18 @@ def _residuals(x: Array, y: Array) -> Array:
     return r
 
 
-def _on_amplitudes(sweeps: Sequence[Sorted]) -> list[str]:
-    """Tell strain amplitudes that differ between isotherms: the modulus of a filled rubber falls with amplitude.
-
-    A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57, doi:10.1002/app.1962.070061906.
-    """
-    known = []
-    for one in sweeps:
-        amplitude = one.isotherm.strain_amplitude
-        if amplitude is not None and np.any(amplitude > 0.0):
-            known.append((float(np.nanmedian(amplitude[amplitude > 0.0])), one.isotherm.temperature))
-    if len(known) < 2:
-        return []
-    (least, at_least), (most, at_most) = min(known), max(known)
-    if most <= AMPLITUDES_DIFFER * least:
-        return []
-    told = f"The strain amplitudes of the isotherms differ, from {100 * least:.3g} % {at([at_least])} to "
-    told += f"{100 * most:.3g} % {at([at_most])}; the modulus of a filled rubber falls with amplitude (Payne effect), "
-    return [told + "which superposition would take for temperature."]
+def _on_sense(sweeps: Sequence[Sorted]) -> list[str]:
+    """Tell what no rubber does: it grows softer when it cools, or dissipates far more than it stores."""
+    notes = []
+    storage = np.concatenate([one.isotherm.storage_modulus for one in sweeps])
+    loss = np.concatenate([one.isotherm.loss_modulus for one in sweeps])
+    if storage.min() > LIKE_LOGARITHMS[0] and storage.max() < LIKE_LOGARITHMS[1]:
+        span = f"{storage.min():.3g} to {storage.max():.3g}"
+        notes.append(f"All storage moduli lie between {span} Pa and look like logarithms; they were read as moduli.")
+    lossy = float(np.median(loss / storage))
+    if lossy > LARGEST_LOSS:
+        notes.append(f"Half of all tan δ are above {lossy:.3g}, as of a liquid; are the columns of the moduli swapped?")
+    level = [float(np.median(np.log(one.isotherm.storage_modulus))) for one in sweeps]
+    if len(sweeps) > 2 and np.all(np.diff(level) > 0.0):
+        notes.append("Every isotherm is stiffer than the next colder one; are the temperatures right?")
+    return notes

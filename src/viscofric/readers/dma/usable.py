@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     Indices = NDArray[np.intp]
 
 
+#: A thousand times diamond.
+LARGEST_MODULUS = 1e15  # Pa
+
+
 def usable(points: Points, source: str) -> tuple[Indices, list[str]]:
     """Return which points can be used, and a note on each sort of those left out.
 
@@ -32,7 +36,7 @@ def usable(points: Points, source: str) -> tuple[Indices, list[str]]:
     ------
     DataFileError
         If most points lack a value, or most frequencies or storage moduli, or all loss moduli, are not above zero;
-        if a temperature is not above absolute zero.
+        if a temperature is not above absolute zero, or a modulus far above that of any solid.
     """
     if not len(points):
         raise DataFileError(source, "holds no point of a frequency sweep.")
@@ -44,6 +48,11 @@ def usable(points: Points, source: str) -> tuple[Indices, list[str]]:
     if cold.size:
         problem = f"{points.places[cold[0]]} has a temperature of {points.temperature[cold[0]]:.4g} K; "
         raise DataFileError(source, problem + "it must be above absolute zero.")
+    moduli = np.fmax(points.storage_modulus, points.loss_modulus)
+    stiff = np.flatnonzero(keep & (moduli > LARGEST_MODULUS))
+    if stiff.size:
+        problem = f"{points.places[stiff[0]]} has a modulus of {moduli[stiff[0]]:.4g} Pa; nothing is as stiff, "
+        raise DataFileError(source, problem + "so the number or its unit is wrong.")
     for name, plural, values, unit in (
         ("frequency", "frequencies", points.angular_frequency / (2 * math.pi), "Hz"),
         ("storage modulus", "storage moduli", points.storage_modulus, "Pa"),

@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.instruments.eplexor_master import (
     AS_IT_IS,
-    isotherm_of_each_row,
-    programmed_frequencies,
+    insist_on_sense,
     shift_list,
 )
+from viscofric.readers.dma.instruments.eplexor_rows import isotherm_of_each_row, programmed_frequencies
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.workbook import sheet_names, sheets
-from viscofric.units import CELSIUS_ZERO, celsius, conversion
+from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma, unit_conversion
+from viscofric.units import CELSIUS_ZERO, celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,8 +42,6 @@ DATA = "Exported Data"
 _MISSING = ("", "---")
 #: All rows of a master curve carry one temperature, digit by digit; measured ones scatter.
 _SAME_TEMPERATURE = 1e-9  # K
-#: What a unit multiplies by at most, so that a damaged number shows before that.
-_LARGEST_FACTOR = 1e12
 #: No instrument sweeps further than this; a master curve does.
 _WIDEST_SWEEP = 1e6
 
@@ -98,11 +98,16 @@ def read(source: Source) -> Readings:
         places = [sheet.places[row] for row in kept]
         step = _isotherms(source.path, places, frequency, time, shifts, programmed, temperature)
         assert shifts is not None  # else `_isotherms` refused
+        insist_on_sense(shifts, float(temperature[0]), source.path)
         order = np.argsort(shifts.temperatures[step], kind="stable")
         kept, step = kept[order], step[order]
         frequency = frequency[order] / 10.0 ** shifts.log10_shifts[step]
         temperature = shifts.temperatures[step]
         notes += _taken_apart(shifts, step)
+    storage, loss = (sheet.in_unit(f"{letter}{prime}", "Pa")[kept] for prime in ("'", "''"))
+    tangent = sheet.column("tan delta")[kept] if "tan delta" in sheet.names else None
+    absolute = sheet.in_unit(f"|{letter}*|", "Pa")[kept] if f"|{letter}*|" in sheet.names else None
+    insist_on_agreement(source.path, storage, loss, tangent, absolute)
     amplitude = None
     if "Strain dyn" in sheet.names and sheet.unit("Strain dyn") == "%":
         amplitude = 0.01 * sheet.column("Strain dyn")[kept]
@@ -113,8 +118,8 @@ def read(source: Source) -> Readings:
         tuple(sheet.places[row] for row in kept),
         temperature,
         2.0 * math.pi * frequency,
-        sheet.in_unit(f"{letter}'", "Pa")[kept],
-        sheet.in_unit(f"{letter}''", "Pa")[kept],
+        storage,
+        loss,
         deformation,
         f"the heading {letter}' ({sheet.unit(letter + chr(39))})",
         amplitude,
@@ -137,6 +142,8 @@ class _Sheet:
         body = [(place, row) for place, row in enumerate(rows[2:], start=3) if any(cell != "" for cell in row)]
         self.places = [f"sheet {DATA!r}, row {place}" for place, _ in body]
         self.rows = [row for _, row in body]
+        texts = ((cell, place) for place, row in body for cell in row if isinstance(cell, str))
+        decimal_comma(f"{path}, sheet {DATA!r}", texts)
 
     def _index(self, name: str) -> int:
         if name not in self.names:
@@ -160,13 +167,13 @@ class _Sheet:
             value = float(text.replace(",", "."))
         except ValueError:
             value = math.nan
-        if isinstance(cell, bool) or "_" in text or not math.isfinite(value * _LARGEST_FACTOR):
+        if isinstance(cell, bool) or "_" in text or not math.isfinite(value * LARGEST_FACTOR):
             raise DataFileError(self.path, f"{place}: {text!r} in column {self.names[index]!r} is not a finite number.")
         return value
 
     def in_unit(self, name: str, unit: str) -> Array:
         try:
-            factor, offset = conversion(self.unit(name), unit, name)
+            factor, offset = unit_conversion(self.unit(name), unit, name)
         except InputError:
             example = {"K": "°C", "Pa": "MPa"}.get(unit, unit)
             problem = (

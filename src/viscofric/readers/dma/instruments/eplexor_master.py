@@ -1,4 +1,4 @@
-"""The shift list of a Netzsch Eplexor workbook, and how it takes a master curve apart into its isotherms again.
+"""The shift list of a Netzsch Eplexor workbook, by which `eplexor_rows` takes a master curve apart again.
 
 The software joins isotherms by hand or by fit, writes the shifts into the sheet 'Shiftlist', multiplies every
 frequency by ``10**shift``, puts the temperature of the isotherm without shift into all rows and sorts them by
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.units import CELSIUS_ZERO, conversion
+from viscofric.units import CELSIUS_ZERO, celsius, conversion
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -26,13 +26,9 @@ if TYPE_CHECKING:
     Rows = Sequence[Sequence[Any]]
 
 SHIFT_LIST = "Shiftlist"
-HEADER = "Data header"
 
-#: Programmed frequencies are printed to six digits; false ones lie some thousandths of a decade off.
-SAME_FREQUENCY = 1e-3  # decades
-#: A sweep has tens of frequencies, a list tens of temperatures; a damaged file may claim any number.
-MOST_FREQUENCIES = 1000
-MOST_CANDIDATES = 5_000_000
+#: The rows of a master curve carry the measured temperature of the isotherm without shift, digit by digit.
+SAME_TEMPERATURE = 0.5  # K
 #: Beyond this α is no number that a computer holds.
 LARGEST_SHIFT = 300.0  # decades
 
@@ -92,6 +88,7 @@ def shift_list(tables: Mapping[str, Rows], path: str) -> ShiftList | None:
     if rows is None:
         return None
     reference, wlf, numbers = None, None, []
+    factor, offset = 1.0, CELSIUS_ZERO
     in_table = False
     for place, row in enumerate(rows, start=1):
         label = str(row[0]).strip() if row else ""
@@ -102,20 +99,65 @@ def shift_list(tables: Mapping[str, Rows], path: str) -> ShiftList | None:
             wlf = _constants(words)
         elif label.startswith("Temp"):
             in_table = True
+            factor, offset = _unit_beside(label)
         elif in_table and label:
-            numbers.append(_pair(row, place, path))
+            temperature, shift = _pair(row, place, path)
+            numbers.append((_above_zero(factor * temperature + offset, place, path), shift))
     if len(numbers) < 2:
         problem = f"sheet {SHIFT_LIST!r} must list a temperature and a shift for each of two isotherms or more."
         raise DataFileError(path, problem)
     temperatures, shifts = np.array(numbers).T
-    return ShiftList(temperatures + CELSIUS_ZERO, shifts, reference, wlf)
+    return ShiftList(temperatures, shifts, reference, wlf)
 
 
 def _pair(row: Sequence[Any], place: int, path: str) -> tuple[float, float]:
     cells = [cell for cell in row[:2] if isinstance(cell, (int, float)) and math.isfinite(cell)]
-    if len(cells) != 2 or abs(cells[1]) > LARGEST_SHIFT or cells[0] <= -CELSIUS_ZERO:
-        raise DataFileError(path, f"sheet {SHIFT_LIST!r}, row {place} must hold a temperature (°C) and a shift.")
+    if len(cells) != 2 or abs(cells[1]) > LARGEST_SHIFT:
+        raise DataFileError(path, f"sheet {SHIFT_LIST!r}, row {place} must hold a temperature and a shift.")
     return float(cells[0]), float(cells[1])
+
+
+def _unit_beside(label: str) -> tuple[float, float]:
+    """Return factor and offset to kelvin by the unit in "Temp. [K]"; °C where there is none."""
+    match = re.search(r"[\[(]\s*°?\s*([CKF])\s*[\])]", label, re.IGNORECASE)
+    return conversion({"C": "degC", "K": "K", "F": "degF"}[match[1].upper()] if match else "degC", "K")
+
+
+def _above_zero(kelvin: float, place: int, path: str) -> float:
+    if not kelvin > 0.0:
+        raise DataFileError(path, f"sheet {SHIFT_LIST!r}, row {place}: the temperature is not above absolute zero.")
+    return kelvin
+
+
+def insist_on_sense(shifts: ShiftList, reference: float, path: str) -> None:
+    """Refuse a shift list that contradicts the rows' own temperature, or whose shifts rise with temperature.
+
+    Parameters
+    ----------
+    shifts : ShiftList
+        Of the workbook.
+    reference : float
+        Temperature that the rows of its master curve carry, K.
+    path : str
+        The file, for error messages.
+
+    Raises
+    ------
+    DataFileError
+        If the isotherm without shift has another temperature, as a list in another unit would show; or if shifts
+        rise with temperature, so that hot and cold isotherms would change places.
+    """
+    still = shifts.measured_reference
+    if still is not None and abs(still - reference) > SAME_TEMPERATURE:
+        told = f"{celsius(still):z.1f} °C, but the rows are of {celsius(reference):z.1f} °C"
+        problem = f"the isotherm without shift in sheet {SHIFT_LIST!r} is of {told}; is the list in another unit?"
+        raise DataFileError(path, problem)
+    about = shifts.temperatures - shifts.temperatures.mean()
+    if about @ shifts.log10_shifts > 0.0:
+        problem = (
+            f"the shifts in sheet {SHIFT_LIST!r} rise with temperature; above the reference they must be negative."
+        )
+        raise DataFileError(path, problem)
 
 
 def _kelvin(words: str) -> float | None:
@@ -132,103 +174,3 @@ def _constants(words: str) -> tuple[float, float] | None:
     if first is None or second is None:
         return None
     return float(first[1].replace(",", ".")), float(second[1].replace(",", "."))
-
-
-def programmed_frequencies(tables: Mapping[str, Rows]) -> Array | None:
-    """Return the frequencies of the sweep, Hz, as the sheet 'Data header' gives them, or None if it does not.
-
-    Parameters
-    ----------
-    tables : mapping of str to rows
-        Sheets of the workbook.
-    """
-    rows = tables.get(HEADER, ())
-    for place, row in enumerate(rows):
-        titles = [str(cell).strip() for cell in row]
-        if "Frequency range:" not in titles or "Frequency increment:" not in titles:
-            continue
-        values = next((below for below in rows[place + 1 :] if below and str(below[0]).startswith("Values")), ())
-        low, per_decade = titles.index("Frequency range:"), titles.index("Frequency increment:")
-        try:
-            first, last, density = (float(values[place]) for place in (low, low + 1, per_decade))
-            steps = density * math.log10(last / first)
-        except (IndexError, TypeError, ValueError, ZeroDivisionError):
-            return None
-        if not (0.0 < steps < MOST_FREQUENCIES and first > 0.0 and density > 0.0):
-            return None
-        # Ten to a whole number of steps; the printed bounds carry the rounding of single precision.
-        inside = first * 10.0 ** (np.arange(np.floor(steps + SAME_FREQUENCY) + 1) / density)
-        ends_short = steps - np.floor(steps + SAME_FREQUENCY) > SAME_FREQUENCY
-        return np.append(inside, last) if ends_short else inside
-    return None
-
-
-def isotherm_of_each_row(
-    frequency: Array, time: Array | None, shifts: Array, programmed: Array, path: str, places: Sequence[str]
-) -> NDArray[np.intp]:
-    """Find the isotherm that each row of a master curve was measured in.
-
-    A row belongs to the isotherm whose shift takes its frequency back to one of the programme.  Where two shifts
-    do so (they differ by a whole number of steps), the row belongs with those measured next to it in time.
-
-    Parameters
-    ----------
-    frequency : (n,) array
-        Shifted, Hz.
-    time : (n,) array or None
-        Of measurement, s.
-    shifts : (m,) array
-        log10 α of the isotherms.
-    programmed : (k,) array
-        Frequencies of the sweep, Hz, ascending.
-    path, places
-        The file, and where each row stands, for error messages.
-
-    Returns
-    -------
-    (n,) array of int
-        Places in `shifts`.
-
-    Raises
-    ------
-    DataFileError
-        If a row fits no isotherm, or several and cannot be told apart.
-    """
-    if frequency.size * shifts.size > MOST_CANDIDATES:
-        raise DataFileError(path, f"{frequency.size} rows and {shifts.size} shifts are more than any sweep has.")
-    measured = np.log10(frequency)[:, None] - shifts[None, :]
-    grid = np.log10(programmed)
-    after = np.clip(np.searchsorted(grid, measured), 1, max(grid.size - 1, 1))
-    nearest = np.minimum(np.abs(measured - grid[after - 1]), np.abs(measured - grid[np.minimum(after, grid.size - 1)]))
-    fits = nearest < SAME_FREQUENCY
-    count = fits.sum(axis=1)
-    if np.any(count == 0):
-        first = int(np.argmin(count))
-        raise DataFileError(
-            path,
-            f"{places[first]}: no shift of the list takes {frequency[first]:.6g} Hz back to a frequency of the "
-            f"programme, so that the master curve cannot be taken apart; {AS_IT_IS}.",
-        )
-    chosen: NDArray[np.intp] = np.argmax(fits, axis=1)
-    for row in np.flatnonzero(count > 1):
-        chosen[row] = _next_in_time(int(row), time, fits[row], chosen, count == 1, path, places)
-    return chosen
-
-
-def _next_in_time(
-    row: int,
-    time: Array | None,
-    candidates: NDArray[np.bool_],
-    chosen: NDArray[np.intp],
-    settled: NDArray[np.bool_],
-    path: str,
-    places: Sequence[str],
-) -> int:
-    near = settled & candidates[chosen]
-    if time is None or not np.any(near):
-        raise DataFileError(
-            path,
-            f"{places[row]} could belong to several isotherms, and no column 'Time' tells which; {AS_IT_IS}.",
-        )
-    distance = np.where(near, np.abs(time - time[row]), np.inf)
-    return int(chosen[np.argmin(distance)])

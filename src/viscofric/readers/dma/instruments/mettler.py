@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.readings import Readings
-from viscofric.units import conversion
+from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -29,8 +30,6 @@ NAME = "Mettler-Toledo DMA text"
 
 _UNIT = re.compile(r"\[[^\[\]]*\]")
 _WORD = re.compile(r"\S+")
-#: What a unit multiplies by at most, so that a damaged number shows before that.
-_LARGEST_FACTOR = 1e12
 #: Names and units stand within the first lines; what comes before is empty.
 _FIRST_LINES = 10
 
@@ -94,6 +93,12 @@ def read(source: Source) -> Readings:
         for name, unit in (("Ts", "K"), ("f", "Hz"), (f"{letter}'", "Pa"), (f"{letter}''", "Pa"))
     ]
     temperature, frequency, storage, loss = columns
+    printed = {
+        name: np.concatenate([_column(source.path, block, name, unit) for block in blocks])
+        for name, unit in (("tan_delta", ""), (f"{letter}*", "Pa"))
+        if all(name in block.names for block in blocks)
+    }
+    insist_on_agreement(source.path, storage, loss, printed.get("tan_delta"), printed.get(f"{letter}*"))
     lines = [line for block in blocks for line in block.lines]
     for values, name in ((temperature, "Ts"), (frequency, "f")):
         if np.any(values <= 0.0):
@@ -147,6 +152,8 @@ def _blocks(source: Source) -> list[_Block]:
     blocks = [block for block in blocks if block.rows]
     if not blocks:
         raise DataFileError(source.path, "there is a header, but no row of numbers under it.")
+    numbered = [one for block in blocks for one in zip(block.rows, block.lines, strict=True)]
+    decimal_comma(source.path, ((cell, line) for row, line in numbered for cell in row))
     return blocks
 
 
@@ -171,12 +178,14 @@ def _column(path: str, block: _Block, name: str, unit: str) -> Array:
             value = float(row[place].replace(",", "."))
         except ValueError:
             value = math.nan
-        if not math.isfinite(value * _LARGEST_FACTOR) or "_" in row[place]:
+        if not math.isfinite(value * LARGEST_FACTOR) or "_" in row[place]:
             raise DataFileError(path, f"{row[place]!r} in column {name!r} is not a finite number.", line)
         values.append(value)
     text = block.units[place].strip("[] ")
+    if not unit:
+        return np.array(values)
     try:
-        factor, offset = conversion(text, unit, name)
+        factor, offset = unit_conversion(text, unit, name)
     except InputError:
         example = {"K": "°C", "Pa": "MPa"}.get(unit, unit)
         raise DataFileError(path, f"column {name!r} has the unit {text!r}; it must be like {example!r}.") from None

@@ -7,7 +7,6 @@ other languages are the usual words of the field.
 
 from __future__ import annotations
 
-import math
 import re
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma import names
 from viscofric.readers.dma.instruments.rheocompass_intervals import Decimals, Interval, has_intervals, intervals
 from viscofric.readers.dma.readings import Readings
-from viscofric.units import conversion
+from viscofric.readers.printed import STRAIN_FACTORS, to_rad_per_second, unit_conversion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,9 +30,8 @@ if TYPE_CHECKING:
 
 NAME = "Anton Paar RheoCompass text"
 
-#: Frequencies of one interval that differ by less (relative) are one frequency held: no sweep.
-_SAME_FREQUENCY = 1e-3
-_SHARE = {"%": 0.01, "1": 1.0, "-": 1.0, "": 1.0}
+#: Frequencies of one interval that differ by less (relative) are one frequency held, as measured: no sweep.
+_SAME_FREQUENCY = 0.05
 _SHEAR = re.compile(r"shear|scher|schub|cisaillement|cizall|cortante|taglio|cisalh", re.IGNORECASE)
 
 
@@ -103,7 +101,7 @@ def read(source: Source) -> Readings:
         said_by,
         amplitude if np.any(np.isfinite(amplitude)) else None,
         np.array(steps, dtype=np.int64),
-        tuple(notes),
+        tuple(dict.fromkeys(notes)),
     )
 
 
@@ -145,10 +143,10 @@ def _table(source: Source, interval: Interval, rows: Rows, frequency: Array, dec
             raise DataFileError(path, f"the {what} must be above {bound}.", rows[int(np.argmax(values <= 0.0))][0])
     amplitude = np.full(frequency.shape, np.nan)
     place = interval.places.get("strain amplitude")
-    if place is not None and interval.units[place] in _SHARE:
+    if place is not None and interval.units[place] in STRAIN_FACTORS:
         told = [index for index, (_, row) in enumerate(rows) if row[place]]
         numbers = _column(path, interval, "strain amplitude", [rows[index] for index in told], decimals)
-        amplitude[told] = np.abs(numbers) * _SHARE[interval.units[place]]
+        amplitude[told] = np.abs(numbers) * STRAIN_FACTORS[interval.units[place]]
     return np.array([temperature, frequency, storage, loss, amplitude])
 
 
@@ -162,6 +160,11 @@ def _doubts(interval: Interval) -> list[str]:
             shown = ", ".join(str(line) for line in lines[:3]) + (" and more" if len(lines) > 3 else "")
             what = "1 point was" if len(lines) == 1 else f"{len(lines)} points were"
             notes.append(f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown}).")
+    strain = interval.places.get("strain amplitude")
+    if strain is not None and interval.units[strain] not in STRAIN_FACTORS:
+        notes.append(
+            f"The strain amplitudes were not read: column {interval.columns[strain]!r} has no unit such as '%'."
+        )
     if interval.missing:
         notes.append(
             f"The interval in line {interval.line} announces {interval.announced} points, {interval.missing} of which "
@@ -172,12 +175,11 @@ def _doubts(interval: Interval) -> list[str]:
 
 def _to_angular(path: str, interval: Interval) -> float:
     place = interval.places["angular frequency"]
-    heading, unit = interval.columns[place], interval.units[place].replace(" ", "")
+    heading, unit = interval.columns[place], interval.units[place]
     angular = names.quantity(heading) == "angular frequency"
-    if unit == "rad/s" or (angular and unit in ("1/s", "s^-1", "s⁻¹")):
-        return 1.0
-    if not angular and unit in ("Hz", "1/s", "s^-1", "s⁻¹"):
-        return 2.0 * math.pi
+    factor = to_rad_per_second(unit, angular=angular)
+    if factor is not None:
+        return factor
     raise DataFileError(path, f"column {heading!r} has the unit {unit!r}; it must be 'rad/s' or 'Hz'.", interval.line)
 
 
@@ -185,7 +187,7 @@ def _conversion(path: str, interval: Interval, what: str, unit: str) -> tuple[fl
     place = interval.places[what]
     heading, text = interval.columns[place], interval.units[place]
     try:
-        return conversion(text, unit, heading)
+        return unit_conversion(text, unit, heading)
     except InputError:
         example = {"K": "°C"}.get(unit, unit)
         problem = f"column {heading!r} has the unit {text!r}; it must be one like {example!r}."

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.readers.dma import names
+from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma
 
 if TYPE_CHECKING:
     from viscofric.readers.source import Source
@@ -35,8 +36,6 @@ _STRAIN = frozenset(
     | {"déformation en cisaillement", "deformación de cizalla", "deformación de corte", "deformazione di taglio"}
 )
 _SWEEP = ("storage modulus", "loss modulus")
-#: What a unit multiplies by at most, so that a damaged number shows before that.
-_LARGEST_FACTOR = 1e12
 #: Between the names of the columns and the first point stand qualifiers and units.
 _ROWS_BEFORE_POINTS = 3
 #: Of the number of an interval, and of its points.
@@ -202,7 +201,7 @@ class Decimals:
         if not commas:
             return cls()
         if not points:
-            return cls("", ",")
+            return cls("", "," if decimal_comma(path, commas) else ".")
         if all(_THOUSANDS_COMMA.fullmatch(number) for number, _ in commas):
             return cls(",", ".")
         if all(_THOUSANDS_POINT.fullmatch(number) for number, _ in points):
@@ -222,6 +221,6 @@ class Decimals:
             value = float(plain)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value * _LARGEST_FACTOR) or "_" in plain:
+        if not math.isfinite(value * LARGEST_FACTOR) or "_" in plain:
             raise DataFileError(path, f"{cell!r} in column {heading!r} is not a finite number.", line)
         return value

@@ -11,11 +11,11 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
+from viscofric.readers.printed import COMMA_NUMBER, decimal_comma
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-_COMMA = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
 _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\s*")
 
 
@@ -76,17 +76,19 @@ def _insist_on_columns(path: str, table: Table) -> None:
 
 
 def _decimal_comma(path: str, found: Sequence[tuple[Table, dict[str, int]]]) -> bool:
-    point = comma = None
-    for table, places in found:
-        for line, cells in table.rows:
-            for place in places.values():
-                cell = cells[place] if place < len(cells) else ""
-                comma = comma or (line if _COMMA.fullmatch(cell) else None)
-                point = point or (line if "." in cell else None)
+    numbers = [
+        (cells[place], line)
+        for table, places in found
+        for line, cells in table.rows
+        for place in places.values()
+        if place < len(cells)
+    ]
+    comma = next((line for cell, line in numbers if COMMA_NUMBER.fullmatch(cell)), None)
+    point = next((line for cell, line in numbers if "." in cell), None)
     if comma and point:
         problem = f"decimals have a comma here and a point in line {point}; write all of them in one way."
         raise DataFileError(path, problem, comma)
-    return comma is not None
+    return decimal_comma(path, numbers)
 
 
 def _step(table: Table, places: Mapping[str, int], comma: bool) -> Step:

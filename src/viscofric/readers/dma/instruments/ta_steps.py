@@ -37,8 +37,8 @@ _TENSION = re.compile(r"\b(tension|tensile|films?\b|fib(er|re)|compress)|cantile
 
 #: Steps that change the amplitude are no frequency sweeps even where they do so at several frequencies.
 _AMPLITUDE = re.compile(r"amplitude|(strain|stress|force|displacement) sweep", re.IGNORECASE)
-#: Measured frequencies of one set frequency differ by less than this (relative).
-_SAME_FREQUENCY = 1e-3
+#: Measured frequencies of one set frequency differ by less than this (relative); no sweep is as narrow.
+_SAME_FREQUENCY = 0.05
 
 
 @dataclass(frozen=True, eq=False)

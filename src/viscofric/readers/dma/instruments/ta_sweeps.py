@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.readings import Readings
-from viscofric.units import conversion
+from viscofric.readers.printed import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
+from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,12 +25,6 @@ if TYPE_CHECKING:
     from viscofric.readers.source import Source
 
     Array = NDArray[np.float64]
-
-#: ω and f of one row, printed with two digits or so, agree within this (relative).
-_PRINTED_FREQUENCY = 0.05
-
-_HERTZ = {"Hz": 1.0, "mHz": 1e-3, "kHz": 1e3}
-_STRAIN = {"%": 0.01, "m/m": 1.0, "mm/mm": 1.0, "µm/µm": 1.0}
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +91,7 @@ def readings_of(source: Source, kind: str, steps: Sequence[Step], tool: Said, no
         strain_amplitude=strain if np.any(np.isfinite(strain)) else None,
         step=np.repeat([number for number, _ in sweeps], [len(part.places) for part in parts]).astype(np.int64),
         notes=tuple(dict.fromkeys(notes)),
+        unit_is_asked=bool(source.modulus_unit),  # else `_modulus` refused
     )
 
 
@@ -130,6 +127,8 @@ def _points(source: Source, step: Step, notes: list[str]) -> _Points:
     storage = _modulus(source, step, "storage modulus", notes)
     if "loss modulus" in step.signals:
         loss = _modulus(source, step, "loss modulus", notes)
+        tangent = step.signals.get("tan delta")
+        insist_on_agreement(source.path, storage, loss, None if tangent is None else tangent.values)
     else:
         loss = storage * step.signals["tan delta"].values
         notes.append("The file holds no loss modulus; it was taken as the storage modulus times tan δ.")
@@ -156,7 +155,7 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
     if source.temperature is None:
         problem = f"step {step.name!r} has no column 'Temperature'; say it, such as temperature='25 degC'."
         raise DataFileError(source.path, problem)
-    notes.append(f"No column holds a temperature; {source.temperature - 273.15:z.1f} °C was given by the user.")
+    notes.append(f"No column holds a temperature; {celsius(source.temperature):z.1f} °C was given by the user.")
     return np.full(len(step.places), source.temperature)
 
 
@@ -167,7 +166,7 @@ def _modulus(source: Source, step: Step, role: str, notes: list[str]) -> Array:
         raise DataFileError(source.path, problem)
     if source.modulus_unit:
         notes.append(f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked.")
-        return conversion(source.modulus_unit, "Pa", "modulus_unit")[0] * signal.values
+        return unit_conversion(source.modulus_unit, "Pa", "modulus_unit")[0] * signal.values
     return _conversion(source, step, signal, "Pa", "MPa")[0] * signal.values
 
 
@@ -180,7 +179,7 @@ def _conversion(source: Source, step: Step, signal: Signal, unit: str, example: 
 
 @lru_cache(maxsize=64)  # a file may have hundreds of steps, all in the same units
 def _factor_and_offset(text: str, unit: str) -> tuple[float, float]:
-    return conversion(re.sub(r"(?<=[cm]m)\^?2$", "²", text), unit)  # dyne/cm2
+    return unit_conversion(text, unit)
 
 
 def _wrong_unit(source: Source, step: Step, signal: Signal, right: str) -> DataFileError:
@@ -190,19 +189,17 @@ def _wrong_unit(source: Source, step: Step, signal: Signal, right: str) -> DataF
 
 
 def _angular_frequency(source: Source, step: Step) -> Array:
-    """Return rad/s.  pint holds the radian for a pure number, so hertz and rad/s are told apart here."""
+    """Return rad/s, or raise `DataFileError` where a unit is wrong or two columns contradict each other."""
     found = []
     for role in ("angular frequency", "frequency"):
         signal = step.signals.get(role)
         if signal is None:
             continue
-        if signal.unit == "rad/s" or (signal.unit == "1/s" and role == "angular frequency"):
-            found.append(signal.values)
-        elif signal.unit in _HERTZ and role == "frequency":
-            found.append(2.0 * math.pi * _HERTZ[signal.unit] * signal.values)
-        else:
+        factor = to_rad_per_second(signal.unit, angular=role == "angular frequency")
+        if factor is None:
             raise _wrong_unit(source, step, signal, "'rad/s'" if role == "angular frequency" else "'Hz' or 'rad/s'")
-    apart = np.abs(found[-1] - found[0]) > _PRINTED_FREQUENCY * np.abs(found[0])
+        found.append(factor * signal.values)
+    apart = np.abs(found[-1] - found[0]) > PRINTED_FREQUENCY * np.abs(found[0])
     if np.any(apart):
         place = step.places[int(np.argmax(apart))]
         raise DataFileError(source.path, f"angular frequency and frequency contradict each other in {place} (ω = 2πf).")
@@ -215,7 +212,7 @@ def _strain(step: Step, notes: list[str]) -> Array:
     nothing = np.full(len(step.places), math.nan)
     if signal is None:
         return nothing
-    factor = _STRAIN.get(signal.unit)
+    factor = STRAIN_FACTORS.get(signal.unit)
     if factor is None:
         shown = f"the unit {signal.unit!r}" if signal.unit else "no unit"
         notes.append(f"The strain amplitudes were not read: column {signal.heading!r} has {shown}, not '%'.")

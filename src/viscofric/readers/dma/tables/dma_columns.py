@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-import re
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.names import (
     ANGULAR_FREQUENCY,
     COMPLEX_MODULUS,
@@ -21,7 +20,7 @@ from viscofric.readers.dma.names import (
     deformation_of,
     quantity,
 )
-from viscofric.units import conversion
+from viscofric.readers.printed import PRINTED_FREQUENCY, to_rad_per_second, unit_conversion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,9 +30,6 @@ if TYPE_CHECKING:
     from viscofric.readers.table import Table
 
     Array = NDArray[np.float64]
-
-#: Hz and rad/s of one row, both printed with two digits or so, agree within this (relative).
-PRINTED_FREQUENCY = 0.05
 
 _HINT = ", or say it by modulus_unit='MPa'"
 _MODULI = ("storage modulus", "loss modulus", "complex modulus")
@@ -87,17 +83,12 @@ def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) ->
 
 
 def _in_rad_per_second(table: Table, place: int) -> Array:
-    """Return rad/s.  pint holds the radian for a pure number, so hertz and rad/s are told apart here."""
+    """Return rad/s, or raise `DataFileError` where the unit tells neither hertz nor rad/s."""
     column = table.columns[place]
     named_angular = quantity(column.name) == "angular frequency"
-    unit = column.unit.replace(" ", "")
-    hertz = re.fullmatch(r"[mkM]?Hz", unit, re.IGNORECASE)
-    bare = re.fullmatch(r"1/s|s\^?-1|s⁻¹", unit)
-    if re.fullmatch(r"rad(/s|/sec|s\^?-1|·s⁻¹|s⁻¹|\*s\^-1)", unit) or (bare and named_angular):
-        return table.numbers_or_missing(place)
-    if (hertz and not named_angular) or bare:
-        prefix = {"m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6}[unit[0]] if hertz and len(unit) == 3 else 1.0
-        return 2.0 * math.pi * prefix * table.numbers_or_missing(place)
+    factor = to_rad_per_second(column.unit, angular=named_angular)
+    if factor is not None:
+        return factor * table.numbers_or_missing(place)
     right = "'rad/s'" if named_angular else "'Hz' or 'rad/s'"
     shown = f"the unit {column.unit!r}" if column.unit else "no unit"
     raise DataFileError(table.path, f"column {column.heading!r} has {shown}; it must be {right}.")
@@ -121,11 +112,14 @@ def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array
 def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str]) -> tuple[Array, Array]:
     """Return storage and loss modulus, Pa, as printed or from tan δ; adds notes on what was computed.
 
-    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ give the others exactly.
+    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ give the others exactly; where more is printed
+    than is needed, `DataFileError` is raised if it contradicts.
     """
     values = {what: _modulus(table, places[what], source, notes) for what in _MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
-        return values["storage modulus"], values["loss modulus"]
+        storage, loss = values["storage modulus"], values["loss modulus"]
+        insist_on_agreement(table.path, storage, loss, _tangent_beside(table, places), values.get("complex modulus"))
+        return storage, loss
     tangent = table.numbers_or_missing(places["tan delta"])
     if "storage modulus" in values:
         notes.append("The loss moduli were computed as storage modulus times tan δ.")
@@ -139,17 +133,25 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     return storage, storage * tangent
 
 
-def unit_as_asked(unit: str) -> str:
-    """Return the note on moduli whose unit only the user told."""
-    return f"The moduli have no unit in the file; they were read in {unit}, as asked."
+def _tangent_beside(table: Table, places: dict[str, int]) -> Array | None:
+    """Return tan δ where both moduli are printed too, None if its column holds no numbers: it is not needed."""
+    try:
+        return table.numbers_or_missing(places["tan delta"]) if "tan delta" in places else None
+    except DataFileError:
+        return None
+
+
+def unit_is_asked(table: Table, places: dict[str, int], source: Source) -> bool:
+    """Return whether a modulus has no unit but the one that the user gave."""
+    return bool(source.modulus_unit) and any(not table.columns[places[m]].unit for m in _MODULI if m in places)
 
 
 def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Array:
     """Return a column in Pa, by its own unit or by the one that the user gave."""
     column = table.columns[place]
     if source.modulus_unit and not column.unit:
-        factor, offset = conversion(source.modulus_unit, "Pa", "modulus_unit")
-        note = unit_as_asked(source.modulus_unit)
+        factor, offset = unit_conversion(source.modulus_unit, "Pa", "modulus_unit")
+        note = f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked."
         if note not in notes:
             notes.append(note)
     else:

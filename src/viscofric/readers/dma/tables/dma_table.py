@@ -17,7 +17,9 @@ from viscofric.readers.dma.tables.dma_columns import (
     find_columns,
     insist_on_one_frequency,
     moduli,
+    unit_is_asked,
 )
+from viscofric.readers.printed import STRAIN_FACTORS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -63,6 +65,7 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
     _insist_on_most(table, places, "frequency", frequency)
     _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation(table, places)
+    amplitude = _strain_amplitude(table, notes)
     return Readings(
         source=source.path,
         format=format,
@@ -73,8 +76,9 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
         loss_modulus=loss,
         deformation=kind,
         said_by=said_by,
-        strain_amplitude=_strain_amplitude(table),
+        strain_amplitude=amplitude,
         step=_step(table),
+        unit_is_asked=unit_is_asked(table, places, source),
         notes=(*notes, *doubts(table, places, temperature, storage)),
     )
 
@@ -138,19 +142,22 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
     raise DataFileError(table.path, problem, int(table.lines[row]))
 
 
-def _strain_amplitude(table: Table) -> Array | None:
+def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     """Return fractions, None where no one column tells them with a unit that is understood."""
     found = [p for p, column in enumerate(table.columns) if quantity(column.name) == "strain amplitude"]
     if len(found) != 1:
         return None
-    unit = table.columns[found[0]].unit.strip()
-    factor = {"%": 1e-2, "": 1.0, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0}.get(unit)
+    column = table.columns[found[0]]
+    factor = STRAIN_FACTORS.get(column.unit.strip() or "1")
     if factor is None:
+        notes.append(f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'.")
         return None
     try:
         values = factor * table.numbers_or_missing(found[0])
     except DataFileError:  # words in a column that is not needed
         return None
+    if not column.unit.strip():
+        notes.append(f"Column {column.heading!r} has no unit; it was read as a fraction (0.01 is 1 %).")
     return np.where(values >= 0.0, values, np.nan)
 
 

@@ -18,6 +18,9 @@ LARGEST_RATIO = 400
 #: A workbook of measurements has far fewer cells; a sheet is held whole, empty cells included.
 MOST_CELLS = 5_000_000
 LARGEST_MEMORY = 3_000_000_000  # bytes
+#: Text beyond this is no heading and no number; a workbook may share one long text among thousands of cells.
+LONGEST_TEXT = 1000  # characters
+LARGEST_ANSWER = 50_000_000  # bytes
 
 _CELL = re.compile(rb"""\sr\s*=\s*["']([A-Z]{1,3})([0-9]{1,7})["']""")
 
@@ -27,15 +30,22 @@ class RefusalError(Exception):
 
 
 def main() -> None:
-    """Write the sheets as JSON: ``{"sheets": {name: rows}}``, or ``{"problem": sentence}``."""
+    """Write ``{"sheets": {name: rows}, "hidden": names}``, or a sentence as "problem", or a package as "missing"."""
     _limit_memory()
     try:
-        answer: dict[str, object] = {"sheets": _sheets(sys.stdin.buffer.read())}
+        sheets, hidden = _sheets(sys.stdin.buffer.read())
+        answer: dict[str, object] = {"sheets": sheets, "hidden": hidden}
     except RefusalError as error:
         answer = {"problem": str(error)}
     except MemoryError:
         answer = {"problem": "needs more memory than a workbook of measurements would."}
-    sys.stdout.buffer.write(json.dumps(answer).encode())
+    except ImportError:
+        answer = {"missing": "python-calamine"}
+    written = json.dumps(answer).encode()
+    if len(written) > LARGEST_ANSWER:
+        problem = f"holds {len(written) / 1e6:.0f} MB of cells, far more than a workbook of measurements does."
+        written = json.dumps({"problem": problem}).encode()
+    sys.stdout.buffer.write(written)
 
 
 def _limit_memory() -> None:
@@ -50,7 +60,7 @@ def _limit_memory() -> None:
         return
 
 
-def _sheets(data: bytes) -> dict[str, list[list[object]]]:
+def _sheets(data: bytes) -> tuple[dict[str, list[list[object]]], list[str]]:
     import python_calamine
 
     if data.startswith(b"PK"):
@@ -58,7 +68,9 @@ def _sheets(data: bytes) -> dict[str, list[list[object]]]:
     try:
         workbook = python_calamine.CalamineWorkbook.from_filelike(io.BytesIO(data))
         kinds = python_calamine.SheetTypeEnum
-        names = [one.name for one in workbook.sheets_metadata if one.typ == kinds.WorkSheet]
+        listed = [one for one in workbook.sheets_metadata if one.typ == kinds.WorkSheet]
+        names = [one.name for one in listed]
+        hidden = [one.name for one in listed if one.visible != python_calamine.SheetVisibleEnum.Visible]
         sheets, cells = {}, 0
         for name in names:
             sheet = workbook.get_sheet_by_name(name)
@@ -72,7 +84,7 @@ def _sheets(data: bytes) -> dict[str, list[list[object]]]:
         raise
     except BaseException as error:  # noqa: BLE001 - a panic of the parser is no Exception
         raise RefusalError(f"is a damaged or protected workbook ({_first_line(error)}).") from None
-    return sheets
+    return sheets, hidden
 
 
 def _first_line(error: BaseException) -> str:
@@ -84,8 +96,10 @@ def _too_many_cells(cells: int) -> str:
 
 
 def _plain(cell: object) -> object:
-    """Keep numbers and text; dates and times become text."""
-    return cell if isinstance(cell, (float, int, str)) else str(cell)
+    """Keep numbers and text; truth values, dates and times become text."""
+    if isinstance(cell, (float, int)) and not isinstance(cell, bool):
+        return cell
+    return str(cell).upper() if isinstance(cell, bool) else str(cell)[:LONGEST_TEXT]
 
 
 def _insist_on_sense(data: bytes) -> None:

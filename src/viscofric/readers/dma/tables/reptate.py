@@ -14,8 +14,9 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.names import deformation_of, quantity
 from viscofric.readers.dma.readings import Readings
+from viscofric.readers.printed import to_rad_per_second, unit_conversion
 from viscofric.readers.table import heading
-from viscofric.units import conversion
+from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
 NAME = "RepTate text (.osc, .tts)"
 _PARAMETERS = re.compile(r"\s*(?:[\w ]+=[^;=]*;)+(?:[\w ]+=[^;=]*)?\s*")
-_FACTORS = {"rad/s": 1.0, "Hz": 2.0 * np.pi, "1/s": 1.0}
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +153,7 @@ def columns(source: Source) -> RepTateColumns:
 def _reference(parameters: dict[str, str]) -> float:
     """Return T of the first line, K (the file's is in °C), NaN if it tells none."""
     try:
-        return float(parameters.get("T", "nan")) + 273.15
+        return float(parameters.get("T", "nan")) + CELSIUS_ZERO
     except ValueError:
         return float("nan")
 
@@ -186,15 +186,16 @@ def _places(source: Source, names: list[str]) -> dict[str, int]:
 def _conversion(source: Source, what: str, unit: str) -> tuple[float, float]:
     """Return factor and offset to SI; without units RepTate means rad/s, Pa, °C and per cent."""
     if what == "frequency":
-        if (unit or "rad/s") not in _FACTORS:
+        factor = to_rad_per_second(unit or "rad/s", angular=False)
+        if factor is None:
             raise DataFileError(source.path, f"the unit {unit!r} of the frequency must be 'rad/s' or 'Hz'.")
-        return _FACTORS[unit or "rad/s"], 0.0
+        return factor, 0.0
     if what == "strain amplitude":
         return (1.0 if unit in ("-", "1") else 0.01), 0.0
     if what == "temperature":
-        return 1.0, 0.0 if unit == "K" else 273.15
+        return 1.0, 0.0 if unit == "K" else CELSIUS_ZERO
     try:
-        return conversion(unit or "Pa", "Pa")
+        return unit_conversion(unit or "Pa", "Pa")
     except ValueError:
         raise DataFileError(source.path, f"the unit {unit!r} of the {what} must be one like 'Pa'.") from None
 

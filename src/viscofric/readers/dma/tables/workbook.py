@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-import re
 import subprocess
 import sys
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,6 +17,7 @@ from viscofric.errors import DataFileError
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.dma.tables.layout import header_row, quantities, table_under
+from viscofric.readers.printed import decimal_comma
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -37,9 +38,18 @@ MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")
 LONGEST_PARSE = 30.0  # s
 
 _MODULI = {"storage modulus", "loss modulus", "complex modulus"}
-_COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
 _PARSER = Path(__file__).with_name("parse_workbook.py")
-_parsed: WeakKeyDictionary[Source, dict[str, Rows] | DataFileError] = WeakKeyDictionary()
+
+
+@dataclass(frozen=True, eq=False)
+class _Workbook:
+    """Rows of each sheet, and the names of those that Excel does not show."""
+
+    sheets: dict[str, Rows]
+    hidden: tuple[str, ...]
+
+
+_parsed: WeakKeyDictionary[Source, _Workbook | DataFileError] = WeakKeyDictionary()
 
 
 def is_workbook(source: Source) -> bool:
@@ -79,6 +89,10 @@ def sheets(source: Source) -> dict[str, Rows]:
     DataFileError
         If it is damaged, protected or far larger than a workbook of measurements.
     """
+    return _workbook(source).sheets
+
+
+def _workbook(source: Source) -> _Workbook:
     if source not in _parsed:
         try:
             _parsed[source] = _parse(source)
@@ -90,20 +104,29 @@ def sheets(source: Source) -> dict[str, Rows]:
     return found
 
 
-def _parse(source: Source) -> dict[str, Rows]:
+def _parse(source: Source) -> _Workbook:
     # -P: modules beside the script must not stand in for those of Python
     command = [sys.executable, "-P", str(_PARSER)]
+    window = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # none flashes up under Windows
     try:
-        done = subprocess.run(command, input=source.data, capture_output=True, timeout=LONGEST_PARSE, check=False)
+        done = subprocess.run(
+            command, input=source.data, capture_output=True, timeout=LONGEST_PARSE, check=False, creationflags=window
+        )
         answer = json.loads(done.stdout)
     except subprocess.TimeoutExpired:
         problem = f"takes longer than {LONGEST_PARSE:.0f} s to parse; save the sheet of measurements alone, or as CSV."
         raise DataFileError(source.path, problem) from None
     except ValueError:  # the parser was ended, for want of memory as a rule
         raise DataFileError(source.path, "is a workbook that cannot be parsed; save it anew, or as CSV.") from None
+    except OSError as error:
+        problem = f"was not read: workbooks are parsed by {sys.executable!r}, which does not start ({error.strerror}); "
+        raise DataFileError(source.path, problem + "save the sheet as CSV.") from None
+    if "missing" in answer:
+        problem = f"was not read: workbooks need {answer['missing']}, which this Python does not find; install it, or "
+        raise DataFileError(source.path, problem + "save the sheet as CSV.")
     if "problem" in answer:
         raise DataFileError(source.path, answer["problem"])
-    return dict(answer["sheets"])
+    return _Workbook(dict(answer["sheets"]), tuple(answer["hidden"]))
 
 
 def recognises(source: Source) -> bool:
@@ -127,7 +150,10 @@ def read(source: Source) -> Readings:
         for name, table in tables(source).items()
     }
     _insist_on_own_temperatures(source, readings)
-    return _joined(source, readings)
+    hidden = [name for name in _workbook(source).hidden if name in readings]
+    notes = [f"The sheet {name!r} is hidden in the workbook; it was read all the same." for name in hidden]
+    whole = _joined(source, readings)
+    return replace(whole, notes=(*notes, *whole.notes))
 
 
 def tables(source: Source) -> dict[str, Table]:
@@ -140,7 +166,7 @@ def tables(source: Source) -> dict[str, Table]:
     """
     found = {}
     for name, cells in sheets(source).items():
-        rows = _numbered(cells)
+        rows = _numbered(f"{source.path}, sheet {name!r}", cells)
         header = header_row(rows)
         if header is not None:
             found[name] = (rows, header)
@@ -159,9 +185,10 @@ def tables(source: Source) -> dict[str, Table]:
     }
 
 
-def _numbered(cells: Rows) -> list[NumberedRow]:
+def _numbered(path: str, cells: Rows) -> list[NumberedRow]:
     """Return the rows that are not blank as text, with their numbers."""
-    comma = any(isinstance(cell, str) and _COMMA_NUMBER.fullmatch(cell) for row in cells for cell in row)
+    texts = ((cell, n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
+    comma = decimal_comma(path, texts)
     rows: list[NumberedRow] = []
     for number, row in enumerate(cells, start=1):
         shown = [_text(cell, comma=comma) for cell in row]
@@ -221,5 +248,6 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
         deformation=parts[0].deformation,
         said_by=parts[0].said_by,
         strain_amplitude=np.concatenate(amplitudes) if any(p.strain_amplitude is not None for p in parts) else None,
+        unit_is_asked=any(part.unit_is_asked for part in parts),
         notes=(told, *dict.fromkeys(note for part in parts for note in part.notes)),
     )
