@@ -129,11 +129,12 @@ def test_uncertainty_is_that_of_the_constants_carried_on(kind):
 
 def test_a_polynomial_is_silent_outside_its_temperatures():
     law = fitted("polynomial")
-    assert law.extrapolation_limits == (LOW, HIGH)
-    assert np.isfinite(law.log10(HIGH))
+    # Half a kelvin is the difference of a nominal temperature from a measured one.
+    assert law.extrapolation_limits == (LOW - 0.5, HIGH + 0.5)
+    assert np.isfinite(law.log10(HIGH + 0.4))
     with pytest.raises(InputError, match="says nothing beyond its data"):
-        law.log10(HIGH + 0.1)
-    with pytest.raises(InputError, match="law\\('wlf'\\)"):
+        law.log10(HIGH + 0.6)
+    with pytest.raises(InputError, match="take a WLF or an Arrhenius law"):
         law.unbounded()
     with pytest.raises(InputError, match="fitted_range"):
         InversePolynomial([5e3], 303.15, None)
@@ -162,7 +163,7 @@ def test_wlf_and_vft_turn_into_each_other_exactly():
     assert vft.at_reference("60 degC").log10("90 degC") == pytest.approx(
         wlf.at_reference("60 degC").log10("90 degC"), abs=1e-12
     )
-    with pytest.raises(InputError, match="above absolute zero"):
+    with pytest.raises(InputError, match=r"too straight for a VFT law.*use a WLF or an Arrhenius law"):
         WLF(50.0, 400.0, 300.0).to_vft()
 
 

@@ -121,3 +121,15 @@ def test_synthetic_fluoroelastomer_is_as_designed():
     assert np.all(np.diff(friction_window) < 0)
     law = rubber.shift.above.at_reference("20 degC")
     assert pytest.approx((10.04, 89.6), abs=0.005) == (law.C1, law.C2)
+
+
+def test_the_measured_frequencies_move_with_the_temperature():
+    fit = vf.SpectrumFit(0.01, 0.01, True, True, (1e-3, 1e6), measured_storage=(1e6, 1e9))
+    spectrum = vf.RetardationSpectrum(1e6, 1e9, [1e-6 - 1e-9], [1e-3], fit)
+    material = vf.Material(spectrum, shift=vf.WLF(10.0, 100.0, 293.15))
+    moved = material.at_reference(333.15)
+    assert moved.spectrum.fit is not None
+    # What was measured at ω and the old reference is seen at ω/α and the new one.
+    alpha = material.shift(333.15)
+    assert moved.spectrum.fit.frequency_range == pytest.approx((1e-3 / alpha, 1e6 / alpha), rel=1e-12)
+    assert moved.at_reference(293.15).spectrum.fit.frequency_range == pytest.approx((1e-3, 1e6), rel=1e-9)

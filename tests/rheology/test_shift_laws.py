@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from viscofric.errors import InputError
 from viscofric.rheology import WLF, Arrhenius, ShiftFactors, WLFArrhenius
 from viscofric.rheology.shifts.laws import VFT, InversePolynomial
+from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 
 LAWS = [
     WLF(C1=17.44, C2=51.6, reference="-18 degC"),
@@ -102,7 +103,7 @@ def test_meaningless_constants_are_refused(make):
 def test_measured_shift_factors_are_exact_at_their_nodes_and_silent_outside():
     table = LAWS[3]
     assert table.log10(table.temperatures) == pytest.approx([2.5, 0.0, -1.5, -2.5], abs=ROUNDING)
-    with pytest.raises(InputError, match="use a law"):
+    with pytest.raises(InputError, match="fit a law"):
         table("120 degC")
 
 
@@ -179,7 +180,7 @@ def test_celsius_given_as_a_plain_number_is_met_with_help():
     with pytest.raises(InputError) as caught:
         LAWS[3]("120 degC")
     assert "plain numbers" not in str(caught.value)
-    assert '[material] shift = "wlf" in a run file' in str(caught.value)
+    assert "fit a law (such as WLF or Arrhenius)" in str(caught.value)
 
 
 def test_standard_error_between_temperatures_is_carried_through_the_interpolation():
@@ -240,3 +241,26 @@ def test_laws_are_equal_if_their_constants_are():
     assert WLF(9.0, 100.0, 300.0).standard_errors is None
     for kind, count in (("arrhenius", 1), ("vft", 2), ("polynomial", 2)):
         assert len(ShiftFactors(temperatures, exact.log10(temperatures), 303.15).law(kind).standard_errors) >= count
+
+
+def test_half_a_kelvin_beyond_its_ends_a_table_goes_straight_on():
+    table = ShiftFactors([293.15, 313.15, 333.13], [1.0, 0.0, -0.8], "40 degC")
+    # What was measured at 59.98 °C answers at 60 °C; the slope there is some −0.04 decades per kelvin.
+    assert -0.04 < (table.log10("60 degC") - table.log10_values[-1]) / 0.02 < -0.03
+    assert table.log10(292.75) > table.log10_values[0]
+    assert table.at_reference("60 degC").log10("60 degC") == pytest.approx(0.0, abs=1e-12)
+    with pytest.raises(InputError, match=r"60\.6 °C lies outside the measured 20\.0 to 60\.0 °C"):
+        table.log10("60.6 degC")
+    vertical = VerticalShiftFactors([293.15, 333.13], [0.0, 0.02], 293.15)
+    assert vertical.log10("60 degC") == pytest.approx(0.02, abs=1e-12)
+
+
+def test_laws_are_written_with_constants_units_and_errors():
+    law = WLF(8.956, 126.6, "20 degC", covariance=[[0.094**2, 0.0], [0.0, 1.2**2]])
+    assert str(law) == "WLF: C1 = 8.956 ± 0.094, C2 = 126.6 ± 1.2 K about 20.0 °C"
+    assert str(Arrhenius("120 kJ/mol", "20 degC")) == "Arrhenius: Ea = 120 kJ/mol about 20.0 °C"
+    assert str(law.to_vft()) == "VFT: B = 1134 ± 16 K, T0 = -106.6 ± 1.2 °C about 20.0 °C"
+    joined = WLFArrhenius(14.0, 78.0, "-18 degC", "20 degC")
+    assert str(joined) == "WLF–Arrhenius: C1 = 14, C2 = 78 K, Tg = -18 °C; α = 1 at 20.0 °C"
+    curve = InversePolynomial([5994.0, 2.568e6], "20 degC", (280.0, 330.0), np.diag([27.0**2, 4.9e4**2]))
+    assert str(curve) == "polynomial: c1 = 5994 ± 27 K, c2 = (2.568 ± 0.049)e6 K^2 about 20.0 °C"

@@ -168,11 +168,11 @@ def test_factors_fixed_about_a_reference_between_isotherms_are_met_exactly():
 @pytest.mark.parametrize(
     ("fixed", "reference", "message"),
     [
-        ({"33 degC": 0.5}, "30 degC", r"at 33.0 °C; the nearest is at 30.0 °C"),
+        ({"33 degC": 0.5}, "30 degC", r"at 33.0 °C, .*; the nearest is at 30.0 °C"),
         ({"30 degC": 0.5}, "30 degC", "is the reference"),
-        ({"50 degC": -1.0, "51 degC": -1.1}, "30 degC", "fixed twice"),
+        ({"50 degC": -1.0, "51 degC": -1.1}, "30 degC", "two shift factors are fixed for the isotherm at 50.0 °C"),
         ({"30 degC": 0.1, "40 degC": -0.5}, "33 degC", "both fixed"),
-        ({"50 degC": "about one"}, "30 degC", "50 degC"),
+        ({"50 degC": "about one"}, "30 degC", "fixed at 50.0 °C"),
         ({50.0: -1.0}, "30 degC", "none of the joined isotherms"),
     ],
 )

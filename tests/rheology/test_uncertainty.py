@@ -243,6 +243,18 @@ def test_what_cannot_be_sampled_is_refused():
         sample_materials(fit, samples=20).modulus_band(1.0, level=95.0)
 
 
+def test_a_spectrum_of_another_master_curve_is_refused():
+    fit = known_superposition()
+    spectrum = fit_retardation_spectrum(fit.master_curve)
+    assert len(sample_materials(fit, spectrum, samples=20)) == 20
+    alpha = 10.0 ** float(vf.synthetic_fluoroelastomer().shift.at_reference(REFERENCE).log10(333.15))
+    with pytest.raises(InputError, match=r"not fitted to this master curve.* rad/s.* 30.0 °C"):
+        sample_materials(fit, spectrum.shifted(alpha), samples=20)
+    # The same frequencies, another rubber.
+    with pytest.raises(InputError, match=r"not fitted to this master curve.* Pa"):
+        sample_materials(known_superposition(moduli=1.1), spectrum, samples=20)
+
+
 def test_drawn_errors_are_as_large_and_as_alike_as_the_residuals():
     random = np.random.default_rng(4)
     isotherms, points = 40, 25

@@ -59,8 +59,8 @@ def catalogue() -> tuple[CatalogueEntry, ...]:
     return _ENTRIES
 
 
-def catalogue_material(name: str) -> Material:
-    """Return a material of the catalogue.
+def catalogue_entry(name: str) -> CatalogueEntry:
+    """Return an entry of the catalogue.
 
     Parameters
     ----------
@@ -79,6 +79,23 @@ def catalogue_material(name: str) -> Material:
         hint = f"did you mean {known[near[0]].name!r}?" if near else "the names are"
         names = "" if near else f" {', '.join(repr(one.name) for one in _ENTRIES)}."
         raise InputError(f"name = {name!r}: the catalogue has no such material; {hint}{names}")
+    return entry
+
+
+def catalogue_material(name: str) -> Material:
+    """Return a material of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        One of the names in `catalogue()`; capitals, hyphens and underscores do not matter.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the sentence names the nearest.
+    """
+    entry = catalogue_entry(name)
     material = entry.make()
     return replace(material, citation=entry.citation) if entry.kind == "published" else material
 
@@ -88,8 +105,16 @@ def _plain(name: str) -> str:
 
 
 def _vhb_4910() -> Material:
-    """Small-strain limit: equilibrium shear modulus and three Maxwell branches, incompressible (E = 3G)."""
-    equilibrium = 15.36e3  # Pa
+    """Small-strain limit: equilibrium shear modulus and three Maxwell branches, incompressible (E = 3G).
+
+    The equilibrium is a chain law of Arruda and Boyce (1993, doi:10.1016/0022-5096(93)90013-6): the deviatoric stress
+    is G0 ζ dev(B), ζ = β(z)/(3z), z = λ/λL, with λ = 1 at small strain.  β is the inverse Langevin function, in
+    the source's code by the Padé approximation of Cohen (1991), β = z (3 − z²)/(1 − z²), which is kept here.  The
+    branches are G_i dev(F A Fᵀ) with dA/dt = (C⁻¹ − A)/τ_i: neo-Hookean, so that G_i and τ_i are those of a linear
+    Maxwell model.
+    """
+    z = 1.0 / 5.99  # locking stretch λL = 5.99
+    equilibrium = 15.36e3 * (3.0 - z**2) / (3.0 * (1.0 - z**2))  # Pa
     shear = np.array([26.06e3, 26.53e3, 10.83e3])  # Pa
     relaxation = RelaxationSpectrum(3.0 * equilibrium, 3.0 * shear, [0.6074, 6.56, 61.25])
     return Material(relaxation.to_retardation(), None, 0.5, "VHB 4910 acrylic elastomer")
@@ -159,13 +184,15 @@ _ENTRIES = (
     CatalogueEntry(
         "VHB 4910",
         "published",
-        "Prony series, 3 modes; no shift with temperature.",
+        "Prony series, 3 modes; no shift with temperature: it serves at one temperature only.",
         "S. Wang, M. Decker, D. L. Henann, S. A. Chester, Modeling of dielectric viscoelastomers with application to "
         "electromechanical instabilities, J. Mech. Phys. Solids (2016); numbers as quoted in the example codes of "
         "SolidMechanicsCoupledTheories (finite viscoelasticity, VE05).",
         "Acrylic elastomer. Shear moduli and relaxation times of a finite-strain model, here at small strain and "
-        "incompressible, E = 3G. Times of 0.6 to 61 s: loss faster than about 5 rad/s or slower than 0.01 rad/s, and "
-        "the glass transition, are not in it. The temperature is that of the tests; there is no shift.",
+        "incompressible, E = 3G. The equilibrium shear modulus is 15.36 kPa times 1.0191, the small-strain factor of "
+        "its chain law (locking stretch 5.99; inverse Langevin function as approximated in the code, 1.0172 without "
+        "approximation). Times of 0.6 to 61 s: loss faster than about 5 rad/s or slower than 0.01 rad/s, and the glass "
+        "transition, are not in it. The temperature is that of the tests; there is no shift.",
         _vhb_4910,
     ),
     CatalogueEntry(

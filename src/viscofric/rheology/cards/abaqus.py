@@ -2,7 +2,8 @@
 
 Keywords and data lines as in the Abaqus Keywords Guide (*ELASTIC, *HYPERELASTIC, *VISCOELASTIC, *TRS,
 *PHYSICAL CONSTANTS) and the Analysis Guide, Time domain viscoelasticity: g_R(t) = 1 − Σ g_i (1 − exp(−t/τ_i)),
-k_R alike; −log10 A = C1 (θ − θ0)/(C2 + θ − θ0), with A our α, or ln A = E0/R (1/(θ − θZ) − 1/(θ0 − θZ)).
+k_R alike, both of the instantaneous moduli, though *ELASTIC must hold the long-term ones in the frequency domain;
+−log10 A = C1 (θ − θ0)/(C2 + θ − θ0), with A our α, or ln A = E0/R (1/(θ − θZ) − 1/(θ0 − θZ)).
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from viscofric.rheology.cards.card import (
     Solid,
     Writing,
     card_law,
+    number_text,
     relaxation_of,
     written_poisson_ratio,
 )
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
 
 NAME = "Abaqus"
 _LONGEST_NAME = 80
+_LONGEST_NUMBER = 20  # characters
 _UNDERSTOOD = {"MATERIAL", "ELASTIC", "HYPERELASTIC", "VISCOELASTIC", "TRS", "DENSITY", "PHYSICALCONSTANTS"}
 #: Keywords that do not change what is read here.
 _IMMATERIAL = {
@@ -62,25 +65,34 @@ def write(material: Material, writing: Writing) -> str:
     ratio = written_poisson_ratio(material, writing, NAME, None)
     # *TRS belongs to *VISCOELASTIC, TIME=…; in the frequency domain there is none.
     law = card_law(material.shift) if writing.domain == "time" else None
-    content = stored(material, writing, ratio, relaxation.E0, law is not None)
+    content = stored(material, writing, ratio, relaxation, law is not None)
     lines = comment_lines("**", remarks(material, writing, ratio, law is not None), content)
     if isinstance(law, Arrhenius):
         zero = 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO
-        lines.append(f"*PHYSICAL CONSTANTS, ABSOLUTE ZERO={zero!r}, UNIVERSAL GAS CONSTANT={GAS_CONSTANT!r}")
+        gas = number_text(writing.energy(GAS_CONSTANT), _LONGEST_NUMBER)
+        lines.append(f"*PHYSICAL CONSTANTS, ABSOLUTE ZERO={zero!r}, UNIVERSAL GAS CONSTANT={gas}")
     lines.append(f"*MATERIAL, NAME={card_name(material.name)}")
-    if writing.density is not None:
-        lines += ["*DENSITY", f"{writing.density!r},"]
-    lines += ["*ELASTIC, MODULI=INSTANTANEOUS", f"{relaxation.E_inf!r}, {ratio!r}"]
+    if writing.written_density is not None:
+        lines += ["*DENSITY", f"{_row(writing.written_density)},"]
+    # Abaqus/Standard takes no instantaneous moduli in the frequency domain.
+    kind, modulus = ("INSTANTANEOUS", relaxation.E_inf) if writing.domain == "time" else ("LONG TERM", relaxation.E0)
+    lines += [f"*ELASTIC, MODULI={kind}", _row(writing.modulus(modulus), ratio)]
     lines.append(f"*VISCOELASTIC, {writing.domain.upper()}=PRONY")
     bulk = 1.0 if ratio < 0.5 else 0.0
     for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True):
         share = modulus / relaxation.E_inf
-        lines.append(f"{share!r}, {bulk * share!r}, {time!r}")
+        lines.append(_row(share, bulk * share, time))
     if isinstance(law, WLF):
-        lines += ["*TRS, DEFINITION=WLF", f"{writing.temperature(law.reference)!r}, {law.C1!r}, {law.C2!r}"]
+        lines += ["*TRS, DEFINITION=WLF", _row(writing.temperature(law.reference), law.C1, law.C2)]
     elif law is not None:
-        lines += ["*TRS, DEFINITION=ARRHENIUS", f"{writing.temperature(law.reference)!r}, {law.activation_energy!r}"]
+        values = _row(writing.temperature(law.reference), writing.energy(law.activation_energy))
+        lines += ["*TRS, DEFINITION=ARRHENIUS", values]
     return "\n".join([*lines, ""])
+
+
+def _row(*values: float) -> str:
+    """Return a data line."""
+    return ", ".join(number_text(value, _LONGEST_NUMBER) for value in values)
 
 
 @dataclass
@@ -116,6 +128,8 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
         shear = shear / _left(shares[0], viscoelastic.row)
         bulk = None if bulk is None else bulk / _left(shares[1], viscoelastic.row)
     poisson = 0.5 if bulk is None else (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
+    if not instantaneous:
+        shear, bulk = _told(shear, bulk, poisson, content)
     told = number_of(content, "E0")
     long_term = None if told is None else told / (2.0 * (1.0 + poisson))
     series = relative_series(shear, shares[0], times, long_term)
@@ -183,6 +197,19 @@ def _left(shares: list[float], row: int) -> float:
             "below 1."
         )
     return left
+
+
+def _told(
+    shear: float, bulk: float | None, poisson: float, content: dict[str, Any] | None
+) -> tuple[float, float | None]:
+    """Return the instantaneous moduli of the comments where they are those of the card, to the last digit."""
+    told = number_of(content, "E_inf")
+    tensile_modulus = 2.0 * (1.0 + poisson) * shear
+    # Division by 1 − Σg loses as many digits as rubber and glass lie apart.
+    if told is None or abs(told - tensile_modulus) > 1e-9 * tensile_modulus:
+        return shear, bulk
+    scale = told / tensile_modulus
+    return scale * shear, None if bulk is None else scale * bulk
 
 
 def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tuple[float, float | None, bool]:

@@ -57,10 +57,10 @@ def write(material: Material, writing: Writing) -> str:
     sentences = remarks(material, writing, ratio, law is not None)
     if isinstance(law, Arrhenius):
         sentences.append("TN counts temperatures in K: set TOFFST if the model counts them otherwise.")
-    lines = comment_lines("!", sentences, stored(material, writing, ratio, relaxation.E0, law is not None))
-    lines += [f"MP,EX,{number},{relaxation.E_inf!r}", f"MP,PRXY,{number},{ratio!r}"]
-    if writing.density is not None:
-        lines.append(f"MP,DENS,{number},{writing.density!r}")
+    lines = comment_lines("!", sentences, stored(material, writing, ratio, relaxation, law is not None))
+    lines += [f"MP,EX,{number},{writing.modulus(relaxation.E_inf)!r}", f"MP,PRXY,{number},{ratio!r}"]
+    if writing.written_density is not None:
+        lines.append(f"MP,DENS,{number},{writing.written_density!r}")
     pairs = [
         f"{modulus / relaxation.E_inf!r},{time!r}"
         for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius
@@ -13,6 +14,12 @@ from viscofric.units import CELSIUS_ZERO, conversion
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+
+#: How a card may count: SI, or tonne, mm, s, N and so MPa, in which density is in t/mm³.
+UnitSystem: TypeAlias = Literal["Pa", "MPa"]
+_PASCAL = {"Pa": 1.0, "MPa": 1e6}
+_DENSITY = {"Pa": 1.0, "MPa": 1e12}  # kg/m³ in one kg/m³ or t/mm³
+_ENERGY = {"Pa": 1.0, "MPa": 1e-3}  # J in one J or N mm
 
 #: A temperature without unit below this is in °C: no rubber is referred to −73 °C, nor to 200 °C.
 _KELVIN_FROM = 200.0
@@ -34,6 +41,8 @@ class Writing:
         Of an Abaqus card.
     material_id : int
         Number of the material in ANSYS and LS-DYNA.
+    unit_system : {"Pa", "MPa"}
+        SI, or tonne, mm and s with moduli in MPa.
     """
 
     poisson_ratio: float | None = None
@@ -41,6 +50,20 @@ class Writing:
     temperature_unit: Literal["K", "degC"] = "K"
     domain: Literal["time", "frequency"] = "time"
     material_id: int = 1
+    unit_system: UnitSystem = "Pa"
+
+    def modulus(self, pascal: float) -> float:
+        """Return a modulus as the model counts it."""
+        return pascal / _PASCAL[self.unit_system]
+
+    def energy(self, joule: float) -> float:
+        """Return an energy as the model counts it."""
+        return joule / _ENERGY[self.unit_system]
+
+    @property
+    def written_density(self) -> float | None:
+        """Density as the model counts it."""
+        return None if self.density is None else self.density / _DENSITY[self.unit_system]
 
     def temperature(self, kelvin: float) -> float:
         """Return a temperature as the model counts it."""
@@ -149,6 +172,29 @@ class Solid:
     shift: Any = None
     name: str = ""
     notes: tuple[str, ...] = ()
+
+
+def number_text(value: float, longest: int) -> str:
+    """Return a number as text of no more than so many characters, a decimal point in it.
+
+    All digits stay where they fit; else as many as do, which of the 17 are 16 in 20 characters, 15 in 19 (two fewer
+    where the exponent has three digits).
+
+    Parameters
+    ----------
+    value : float
+        Finite.
+    longest : int
+        Not below 19, so that no number is left without its digits.
+    """
+    for text in (repr(float(value)), *(f"{value:.{digits}g}" for digits in (17, 16, 15, 14, 13, 12))):
+        mantissa, _, exponent = text.partition("e")
+        mantissa += "" if "." in mantissa else ".0"
+        short = mantissa + (f"e{int(exponent)}" if exponent else "")
+        for one in (short, re.sub(r"^(-?)0\.", r"\1.", short)):
+            if len(one) <= longest:
+                return one
+    raise InputError(f"{value!r} does not fit into {longest} characters.")
 
 
 def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:

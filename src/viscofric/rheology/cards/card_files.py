@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, plain
-from viscofric.rheology.cards.card import Card, Reading, Writing
-from viscofric.rheology.cards.comments import material_of, stored_content
+from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing
+from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 #: What `write_card` can write.
 CardFormat: TypeAlias = Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"]
+
+
+#: Programs whose cards have no units: the model's own count.
+_WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
 
 
 class _Program(NamedTuple):
@@ -52,8 +56,9 @@ def write_card(
     temperature_unit: Literal["K", "degC"] = "K",
     domain: Literal["time", "frequency"] = "time",
     material_id: int = 1,
+    unit_system: UnitSystem = "Pa",
 ) -> Path:
-    """Write a material for another program, in Pa, s, m and kg.
+    """Write a material for another program, in Pa, s, m and kg or in MPa, s, mm and tonnes.
 
     The modulus E becomes G = E/(2(1+ν)) and K = E/(3(1−2ν)).  The Poisson ratio of a `Material` is constant, so that
     bulk relaxes as shear does (k_i = g_i): only then has the card the material's E(ω).  Close to ν = 0.5 this makes the
@@ -61,6 +66,10 @@ def write_card(
     that gives the bulk modulus meant.  What a format cannot hold
     (a shift other than WLF, VFT or Arrhenius, covariances, the vertical shift, the citation) goes into comments,
     which `read_card` reads back: nothing is lost on the way there and back.
+
+    COMSOL has this bulk relaxation only with "Volumetric and deviatoric" branches (6.2); for others its parameters hold
+    the bulk modulus of the glass.  The sign of a WLF shift in LS-DYNA must be checked on one element.  The comments of
+    both cards say so.
 
     Parameters
     ----------
@@ -80,6 +89,9 @@ def write_card(
         Of Abaqus: ``*VISCOELASTIC, TIME=PRONY`` or ``FREQUENCY=PRONY`` (which takes no ``*TRS``).
     material_id : int
         Number of the material in ANSYS and LS-DYNA.
+    unit_system : {"Pa", "MPa"}
+        Of cards for Abaqus, ANSYS and LS-DYNA: SI, or mm, s, tonne and N, with moduli in MPa and density in t/mm³.
+        The card's comments say which; `read_card` knows it from them.
 
     Returns
     -------
@@ -98,9 +110,15 @@ def write_card(
     for name, value, allowed in (
         ("temperature_unit", temperature_unit, ("K", "degC")),
         ("domain", domain, ("time", "frequency")),
+        ("unit_system", unit_system, get_args(UnitSystem)),
     ):
         if value not in allowed:
             raise InputError(f"{name} = {value!r}: must be {' or '.join(map(repr, allowed))}.")
+    if unit_system != "Pa" and format not in _WITHOUT_UNITS:
+        raise InputError(
+            f"unit_system = {unit_system!r}: {format} holds SI units, and says so; leave unit_system out (it is for "
+            f"{', '.join(_WITHOUT_UNITS)})."
+        )
     if material_id != int(material_id) or material_id < 1:
         raise InputError(f"material_id = {material_id!r}: must be a whole number from 1 on.")
     writing = Writing(
@@ -109,6 +127,7 @@ def write_card(
         temperature_unit,
         domain,
         material_id,
+        unit_system,
     )
     if format == "json":
         text = plain.write_json(material)
@@ -171,10 +190,10 @@ def open_card(
                 "is no material card that viscofric knows: wanted is an Abaqus, ANSYS or LS-DYNA card with a Prony "
                 "series, COMSOL parameters, or a material file of viscofric (JSON or CSV)."
             )
-        reading = Reading(modulus_unit, time_unit, temperature_unit)
         if format is not None and not _PROGRAMS[found].recognises(text):
             raise InputError(f"is not {_PROGRAMS[found].name}.")
         content = stored_content(text)
+        reading = Reading(modulus_unit or modulus_unit_of(content), time_unit, temperature_unit)
         solid = _PROGRAMS[found].read(text, reading, content)
         material, notes = material_of(solid, content)
         return Card(material, _PROGRAMS[found].name, (*solid.notes, *notes))

@@ -15,19 +15,22 @@ from viscofric.units import CELSIUS_ZERO, celsius
 if TYPE_CHECKING:
     from viscofric.rheology.cards.card import Writing
     from viscofric.rheology.material import Material
+    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 
 #: Begins each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
 _MARK = "viscofric>"
 _PIECE = 66  # characters: LS-DYNA reads 80 of a line
+_UNITS = {"Pa": "Pa, s, m, kg", "MPa": "MPa, s, mm, tonne (density in t/mm^3, forces in N)"}
 #: Two numbers of a card are the same if only their last digits differ.
 _SAME = 1e-9
 
 
 def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_written: bool) -> list[str]:
     """Return the sentences for people at the head of a card."""
+    temperatures = "K" if writing.temperature_unit == "K" else "degrees Celsius"
     sentences = [
         "Linear viscoelastic material, a Prony series; written by viscofric.",
-        f"Units: Pa, s, m, kg; temperatures in {'K' if writing.temperature_unit == 'K' else 'degrees Celsius'}.",
+        f"Units: {_UNITS[writing.unit_system]}; temperatures in {temperatures}.",
     ]
     if material.name:
         sentences.insert(0, material.name)
@@ -52,11 +55,18 @@ def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_wr
 
 
 def stored(
-    material: Material, writing: Writing, poisson_ratio: float, E0: float, shift_written: bool
+    material: Material, writing: Writing, poisson_ratio: float, relaxation: RelaxationSpectrum, shift_written: bool
 ) -> dict[str, Any]:
     """Return what the card itself cannot hold, for `comment_lines`."""
     zero = 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO
-    card = {"poisson_ratio": poisson_ratio, "E0": E0, "shift": shift_written, "absolute_zero": zero}
+    card = {
+        "poisson_ratio": poisson_ratio,
+        "E0": relaxation.E0,
+        "E_inf": relaxation.E_inf,
+        "shift": shift_written,
+        "absolute_zero": zero,
+        "unit_system": writing.unit_system,
+    }
     return {"version": VERSION, **about(material), "card": card}
 
 
@@ -66,6 +76,14 @@ def number_of(content: dict[str, Any] | None, name: str) -> float | None:
     if value is None or (isinstance(value, (int, float)) and np.isfinite(value)):
         return value
     raise InputError(f"the lines marked {_MARK!r} are damaged: {name} is no number.")
+
+
+def modulus_unit_of(content: dict[str, Any] | None) -> str | None:
+    """Return the unit of moduli that `stored` put aside, if there is one."""
+    unit = None if content is None else content["card"].get("unit_system")
+    if unit is None or unit in _UNITS:
+        return unit
+    raise InputError(f"the lines marked {_MARK!r} are damaged: unit_system is not {' or '.join(_UNITS)}.")
 
 
 def comment_lines(mark: str, sentences: list[str], content: dict[str, Any]) -> list[str]:

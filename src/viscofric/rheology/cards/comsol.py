@@ -3,7 +3,9 @@
 Parameters are lines of name, expression with unit, description (Parameters > Load from file); the table holds the
 number of the branch, its shear modulus and its relaxation time (Linear Viscoelasticity > Load from file, COMSOL
 Structural Mechanics Module User's Guide, Viscoelasticity).  Generalised Maxwell model: G(t) = G + Σ G_m exp(−t/τ_m);
-log10 aT = −C1 (T − Tref)/(C2 + T − Tref), or ln aT = (Q/R)(1/T − 1/Tref).
+log10 aT = −C1 (T − Tref)/(C2 + T − Tref), or ln aT = (Q/R)(1/T − 1/Tref).  In COMSOL 6.0 all branches are deviatoric
+and the bulk modulus is one constant; in 6.2 they may be "Volumetric and deviatoric", K(t) = K + Σ K_m exp(−t/τ_m).
+Only these make a constant Poisson ratio: with the long-term bulk modulus alone the glass would be far too soft.
 """
 
 from __future__ import annotations
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
 
 NAME = "COMSOL"
+#: Bulk moduli that belong to nu and the shear moduli agree so well with them.
+_SAME = 1e-9
 _LINE = re.compile(r"(?P<name>[A-Za-z]\w*)\s+(?P<value>[-+0-9.eE]+)(?:\s*\[(?P<unit>[^\]]*)\])?(?:\s+.*)?")
 
 
@@ -42,13 +46,44 @@ def recognises_branches(text: str) -> bool:
         return False
 
 
-def _head(material: Material, writing: Writing, holds_shift: bool) -> tuple[RelaxationSpectrum, float, Any, list[str]]:
-    """Return tensile series, ratio, shift law (where it can be held) and comment lines."""
+def _head(material: Material, writing: Writing, parameters: bool) -> tuple[RelaxationSpectrum, float, Any, list[str]]:
+    """Return tensile series, ratio, shift law (which only parameters can hold) and comment lines."""
     relaxation = relaxation_of(material, NAME)
     ratio = written_poisson_ratio(material, writing, NAME, None)
-    law = card_law(material.shift) if holds_shift else None
-    content = stored(material, writing, ratio, relaxation.E0, law is not None)
-    return relaxation, ratio, law, comment_lines("%", remarks(material, writing, ratio, law is not None), content)
+    law = card_law(material.shift) if parameters else None
+    content = stored(material, writing, ratio, relaxation, law is not None)
+    sentences = remarks(material, writing, ratio, law is not None)
+    if ratio < 0.5:
+        sentences += _bulk_remarks(relaxation, ratio, parameters)
+    return relaxation, ratio, law, comment_lines("%", sentences, content)
+
+
+def _bulk_remarks(relaxation: RelaxationSpectrum, ratio: float, parameters: bool) -> list[str]:
+    """Return what to choose in the program so that it has the material's E."""
+    bulk = 1.0 / (3.0 * (1.0 - 2.0 * ratio))
+    constant, long_term = bulk * relaxation.E_inf, bulk * relaxation.E0
+    # 1/E = 1/(3G) + 1/(9K) with G of the rubber and K of the glass; nowhere else is E further off.
+    excess = 1.0 / ((2.0 + 2.0 * ratio) / 3.0 + (1.0 - 2.0 * ratio) / 3.0 * relaxation.E0 / relaxation.E_inf) - 1.0
+    names = (
+        ("G_long_term and K_long_term", "its G_m, K_m and tau_m", "K_constant")
+        if parameters
+        else (
+            f"the long-term shear modulus below and bulk modulus {long_term!r} Pa",
+            f"a bulk modulus of {bulk * 2.0 * (1.0 + ratio)!r} times its shear modulus",
+            f"{constant!r} Pa",
+        )
+    )
+    exact = (
+        f"Linear Elastic Material: enter {names[0]}, not E and nu. Viscoelasticity: Generalized Maxwell, Viscoelastic "
+        f'strains "Volumetric and deviatoric" (in COMSOL 6.2), each branch with {names[1]}. Only so has the model '
+        "the E and the Poisson ratio of the material."
+    )
+    otherwise = (
+        f"Where branches are deviatoric only (COMSOL 6.0), the bulk modulus is one constant: enter {names[2]}, that of "
+        f"the glass, instead of the long-term one. E is then right in the glass and at most {100.0 * excess:.2g} "
+        "percent too stiff in the rubber. With the long-term bulk modulus the glass would be far too soft."
+    )
+    return [exact, otherwise]
 
 
 def write(material: Material, writing: Writing) -> str:
@@ -59,13 +94,18 @@ def write(material: Material, writing: Writing) -> str:
         f'nu {ratio!r} "Poisson ratio"',
         f'G_long_term {relaxation.E0 * shear!r}[Pa] "long-term shear modulus"',
     ]
-    if ratio < 0.5:
-        bulk = relaxation.E0 / (3.0 * (1.0 - 2.0 * ratio))
-        lines.append(f'K_long_term {bulk!r}[Pa] "long-term bulk modulus (bulk relaxes like shear)"')
+    bulk = 0.0 if ratio == 0.5 else 1.0 / (3.0 * (1.0 - 2.0 * ratio))
+    if bulk:
+        lines += [
+            f'K_long_term {relaxation.E0 * bulk!r}[Pa] "long-term bulk modulus, for branches with K_m"',
+            f'K_constant {relaxation.E_inf * bulk!r}[Pa] "bulk modulus of the glass, for branches without K_m"',
+        ]
     if writing.density is not None:
         lines.append(f'rho {writing.density!r}[kg/m^3] "density"')
     for number, (modulus, time) in enumerate(zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True), start=1):
         lines.append(f'G_{number} {modulus * shear!r}[Pa] "shear modulus of branch {number}"')
+        if bulk:
+            lines.append(f'K_{number} {modulus * bulk!r}[Pa] "bulk modulus of branch {number}"')
         lines.append(f'tau_{number} {time!r}[s] "relaxation time of branch {number}"')
     if law is not None:
         lines.append(f'T_reference {law.reference!r}[K] "reference temperature of the shift"')
@@ -102,13 +142,16 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
             raise InputError(
                 f"line {row}: {line.strip()[:40]!r} is not a name, a number with [unit] and a description."
             )
-        if not re.fullmatch(r"nu|rho|[GK]_long_term|G_\d+|tau_\d+|T_reference|C[12]_WLF|Q_arrhenius", match["name"]):
+        if not re.fullmatch(
+            r"nu|rho|[GK]_long_term|K_constant|[GK]_\d+|tau_\d+|T_reference|C[12]_WLF|Q_arrhenius", match["name"]
+        ):
             ignored.append(match["name"])
         values[match["name"]] = f"{match['value']} {match['unit']}" if match["unit"] else match["value"]
     notes = [f"Parameters that were not read: {', '.join(ignored)}."] if ignored else []
     branches = sorted(int(name[2:]) for name in values if re.fullmatch(r"G_\d+", name))
     ratio = _value(values, "nu", "dimensionless")
     factor = 2.0 * (1.0 + ratio)
+    notes += _bulk_note(values, ratio)
     E0 = _long_term(factor * _value(values, "G_long_term", "Pa"), content)
     spectrum = RelaxationSpectrum(
         E0,
@@ -138,6 +181,17 @@ def read_branches(text: str, reading: Reading, content: dict[str, Any] | None) -
     moduli, times = ([float(row[column]) for row in rows] for column in (1, 2))
     spectrum = RelaxationSpectrum(E0, [factor * modulus for modulus in moduli], times).to_retardation()
     return Solid(spectrum, ratio)
+
+
+def _bulk_note(values: dict[str, str], ratio: float) -> list[str]:
+    """Return a sentence where bulk moduli do not belong to nu and the shear moduli."""
+    odd = []
+    for name in (one for one in values if re.fullmatch(r"K_long_term|K_\d+", one)):
+        bulk, shear = _value(values, name, "Pa"), _value(values, f"G{name[1:]}", "Pa")
+        expected = 2.0 * (1.0 + ratio) * shear
+        if not abs(3.0 * (1.0 - 2.0 * ratio) * bulk - expected) <= _SAME * expected:
+            odd.append(name)
+    return [f"The bulk moduli {', '.join(odd)} do not belong to nu = {ratio:g}, which counts."] if odd else []
 
 
 def _value(values: dict[str, str], name: str, unit: str) -> float:

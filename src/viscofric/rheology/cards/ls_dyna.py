@@ -3,7 +3,10 @@
 As in the LS-DYNA Keyword User's Manual, volume II, *MAT_076: G(t) = Σ G_i exp(−β_i t) and K(t) = Σ K_i exp(−β_ki t)
 with decay constants β = 1/τ (0 for the long-term modulus), at most 18 terms; time is multiplied by
 Φ = exp(−A (1/T − 1/TREF)) if B = 0, else by Φ = exp(−A (T − TREF)/(B + T − TREF)), so that Φ = 1/α: an Arrhenius
-law has A = Ea/R, a WLF law A = −C1 ln 10 and B = C2.  Fields are 20 characters wide (long format, told by the '+'
+law has A = Ea/R, a WLF law A = −C1 ln 10 and B = C2.  With one and the same sign of A the two formulae shift in
+opposite directions, so that one of them may stand wrongly in the manual: a WLF card must be checked on one element,
+which has to relax faster when warm; else A changes its sign.  The second card, for fits of load curves, is left
+blank, since terms count only then.  Fields are 20 characters wide (long format, told by the '+'
 after the keyword): the 10 characters of the standard format would cut numbers to 5 or 6 digits.
 """
 
@@ -19,6 +22,7 @@ from viscofric.rheology.cards.card import (
     Solid,
     Writing,
     card_law,
+    number_text,
     relaxation_of,
     written_poisson_ratio,
 )
@@ -32,6 +36,7 @@ if TYPE_CHECKING:
 
 NAME = "LS-DYNA"
 _TERMS = 18
+_WIDTH = 20
 _KEYWORD = re.compile(r"\*MAT_(GENERAL_VISCOELASTIC|0?76)(_TITLE)?\s*([+-]?)\s*$", re.IGNORECASE)
 
 
@@ -41,14 +46,9 @@ def recognises(text: str) -> bool:
 
 
 def _fields(*values: float | str) -> str:
-    """Return fields of 20 characters; numbers of more than 16 digits are rounded to those that fit."""
-    texts = []
-    for value in values:
-        shorter = (
-            (value,) if isinstance(value, str) else (repr(value), *(f"{value:.{digits}g}" for digits in (16, 15, 14)))
-        )
-        texts.append(next(text for one in shorter if len(text := re.sub(r"e([+-])0*", r"e\1", one)) < 20).rjust(20))
-    return "".join(texts)
+    """Return fields of 20 characters; numbers are rounded to the digits that fit, 15 at least."""
+    texts = (value if isinstance(value, str) else number_text(value, _WIDTH - 1) for value in values)
+    return "".join(text.rjust(_WIDTH) for text in texts)
 
 
 def write(material: Material, writing: Writing) -> str:
@@ -60,7 +60,7 @@ def write(material: Material, writing: Writing) -> str:
             f"{len(relaxation)} modes; fit it with at most {_TERMS - 1}."
         )
     ratio = written_poisson_ratio(material, writing, NAME, "needs a finite bulk modulus")
-    if writing.density is None:
+    if writing.written_density is None:
         raise InputError(f"{NAME} needs a density; right would be write_card(…, density=1100) for 1100 kg/m³.")
     law = card_law(material.shift)
     if writing.temperature_unit != "K" and isinstance(law, Arrhenius):
@@ -71,23 +71,25 @@ def write(material: Material, writing: Writing) -> str:
     if isinstance(law, WLF):
         reference, A, B = writing.temperature(law.reference), -law.C1 * LN10, law.C2
         sentences.append(
-            "A is below zero: time is multiplied by exp(-A(T-TREF)/(B+T-TREF)), and passes faster when warm."
+            "A is below zero: time is multiplied by exp(-A(T-TREF)/(B+T-TREF)), and passes faster when warm. Check it "
+            "on one element: if that relaxes slower when warm, change the sign of A (the manual's formulae for WLF and "
+            "Arrhenius shift in opposite directions with the same sign of A)."
         )
     elif law is not None:
         reference, A = law.reference, law.activation_energy / GAS_CONSTANT
     if law is not None and reference <= 0.0:
         raise InputError(f"TREF = {reference:g}: {NAME} wants it above zero; leave temperature_unit out, for K.")
-    content = stored(material, writing, ratio, relaxation.E0, law is not None)
+    content = stored(material, writing, ratio, relaxation, law is not None)
     lines = ["*KEYWORD", *comment_lines("$", sentences, content), "*MAT_GENERAL_VISCOELASTIC_TITLE +"]
     title = material.name.encode("ascii", "replace").decode() or "rubber"
     lines.append(title[:80])
     lines += ["$ MID, RO, BULK, PCF, EF, TREF, A, B"]
-    shear, bulk = 1.0 / (2.0 * (1.0 + ratio)), 1.0 / (3.0 * (1.0 - 2.0 * ratio))
+    shear, bulk = (writing.modulus(1.0 / part) for part in (2.0 * (1.0 + ratio), 3.0 * (1.0 - 2.0 * ratio)))
     glass = relaxation.E_inf * bulk
     lines += [
-        _fields(str(writing.material_id), writing.density, glass, "0", "0", reference, A, B),
-        "$ LCID, NT, BSTART, TRAMP, LCIDK, NTK, BSTARTK, TRAMPK (none)",
-        _fields("0", "0", 0.0, 0.0, "0", "0", 0.0, 0.0),
+        _fields(str(writing.material_id), writing.written_density, glass, "0", "0", reference, A, B),
+        "$ LCID, NT, BSTART, TRAMP, LCIDK, NTK, BSTARTK, TRAMPK (blank: terms follow)",
+        "",
         "$ GI, BETAI, KI, BETAKI",
         _fields(relaxation.E0 * shear, 0.0, relaxation.E0 * bulk, 0.0),
     ]

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import ParametricLaw
-from viscofric.units import positive
+from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -106,8 +106,8 @@ class WLF(ParametricLaw):
         """
         if self.pole <= 0.0:
             raise InputError(
-                f"the WLF law with C2 = {self.C2:g} K at {self.reference:g} K has its pole at {self.pole:g} K; a VFT "
-                "law needs one above absolute zero."
+                "the shift factors are too straight for a VFT law, whose pole would lie below absolute zero; use a WLF "
+                "or an Arrhenius law instead."
             )
         covariance = self.covariance
         if covariance is not None:
@@ -168,7 +168,9 @@ class VFT(ParametricLaw):
         object.__setattr__(self, "T0", positive(T0, "K", "T0"))
         object.__setattr__(self, "reference", positive(reference, "K", "reference"))
         if self.reference <= self.T0:
-            raise InputError(f"T0 = {self.T0:g} K must lie below the reference, {self.reference:g} K.")
+            raise InputError(
+                f"T0 = {celsius(self.T0):z.1f} °C must lie below the reference, {celsius(self.reference):z.1f} °C."
+            )
         self._set_fit(covariance, fitted_range, bounded)
 
     @property

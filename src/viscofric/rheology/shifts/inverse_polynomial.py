@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.parametric_law import ParametricLaw, Reach
+from viscofric.rheology.shifts.parametric_law import ParametricLaw, Reach, shown_constant
+from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius, positive, to_si
 
 if TYPE_CHECKING:
@@ -26,8 +27,9 @@ if TYPE_CHECKING:
 class InversePolynomial(ParametricLaw):
     """Polynomial, log10 α = Σ c_k (1/T − 1/Tr)^k with k from 1 to the degree.
 
-    It describes measured shift factors without saying why, and has no meaning outside its temperatures: there it
-    is refused, without exception.  Within them it must fall as T rises.  Degree 1 is the Arrhenius law.
+    It describes measured shift factors without saying why, and has no meaning outside its temperatures: more than half
+    a kelvin beyond them (nominal against measured temperature) it is refused, without exception.  Within
+    them it must fall as T rises.  Degree 1 is the Arrhenius law.
 
     Parameters
     ----------
@@ -114,8 +116,14 @@ class InversePolynomial(ParametricLaw):
     def _refuse_to_extrapolate() -> NoReturn:
         raise InputError(
             "a polynomial law says nothing outside the temperatures that it was fitted on, so that it needs "
-            "fitted_range= and cannot be without bounds; take law('wlf') or law('arrhenius') to go beyond."
+            "their range (fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to go beyond."
         )
+
+    def _shown_constants(self) -> list[str]:
+        errors = self.standard_errors or (0.0,) * self.degree
+        units = ("K", *(f"K^{power}" for power in range(2, self.degree + 1)))
+        rows = enumerate(zip(self.coefficients, errors, units, strict=True), start=1)
+        return [shown_constant(f"c{power}", f" {unit}", 1.0, 0.0, c, error) for power, (c, error, unit) in rows]
 
     def _log10(self, kelvin: Array) -> Array:
         return self._gradient(kelvin) @ self.parameters
@@ -125,13 +133,13 @@ class InversePolynomial(ParametricLaw):
         return np.stack([inverse**power for power in range(1, self.degree + 1)], axis=-1)
 
     def _cold(self) -> Reach:
-        return Reach(self.fitted_range[0], "a polynomial says nothing beyond its data")
+        return Reach(self.fitted_range[0] - NOMINAL, "a polynomial says nothing beyond its data")
 
     def _hot(self) -> Reach:
-        return Reach(self.fitted_range[1], "a polynomial says nothing beyond its data")
+        return Reach(self.fitted_range[1] + NOMINAL, "a polynomial says nothing beyond its data")
 
     def _remedy(self) -> str:
-        return "measure isotherms there, or take law('wlf') or law('arrhenius') to go beyond"
+        return "measure isotherms there, or take a WLF or an Arrhenius law to go beyond"
 
 
 def _moved(degree: int, step: float) -> Array:

@@ -77,8 +77,7 @@ class Family:
         shape = "rise with temperature" if factor <= 0.0 else "bend too little, or the wrong way"
         raise InputError(
             f"the shift factors from {low:z.1f} to {high:z.1f} °C {shape}: they do not fix the constants of the "
-            f'{title} law; take the measured ones ([material] shift = "measured" in a run file), or in Python try '
-            "law('arrhenius'), or a narrower range with above=."
+            f"{title} law; take the measured ones, an Arrhenius law, or those of a narrower range of temperatures."
         )
 
 

@@ -166,8 +166,7 @@ def _not_described(table: FactorTable, kind: str) -> InputError:
     low, high = celsius(float(table.temperatures[0])), celsius(float(table.temperatures[-1]))
     return InputError(
         f"the shift factors from {low:z.1f} to {high:z.1f} °C do not fix the constants of the {TITLES[kind]} law; "
-        "take the measured ones ([material] shift = \"measured\" in a run file), or in Python try law('arrhenius'), "
-        "law('wlf'), or a narrower range with above=."
+        "take the measured ones, another law, or the factors of a narrower range of temperatures."
     )
 
 

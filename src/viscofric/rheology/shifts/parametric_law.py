@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
-from viscofric.units import celsius, kelvin_hint, positive
+from viscofric.units import CELSIUS_ZERO, celsius, kelvin_hint, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -35,6 +35,25 @@ LARGEST_UNCERTAINTY = 0.5  # decades
 LEVEL_95 = 1.959963984540054
 #: Two temperatures closer than this are the same one, to rounding of °C.
 SAME_TEMPERATURE = 1e-9  # relative
+
+
+class _Shown(NamedTuple):
+    """How a constant is shown: symbol, unit, and what turns SI into that unit."""
+
+    symbol: str
+    unit: str = ""
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+_SHOWN = {
+    "C1": _Shown("C1"),
+    "C2": _Shown("C2", " K"),
+    "B": _Shown("B", " K"),
+    "T0": _Shown("T0", " °C", 1.0, -CELSIUS_ZERO),
+    "glass_transition": _Shown("Tg", " °C", 1.0, -CELSIUS_ZERO),
+    "activation_energy": _Shown("Ea", " kJ/mol", 1e-3),
+}
 
 
 class Reach(NamedTuple):
@@ -83,6 +102,15 @@ class ParametricLaw(ShiftLaw):
             fitted_range = (low, high)
         object.__setattr__(self, "fitted_range", fitted_range)
         object.__setattr__(self, "bounded", bool(bounded))
+
+    def __str__(self) -> str:
+        """Return name, constants with standard errors, and reference, as for a report."""
+        return f"{self.title}: {', '.join(self._shown_constants())} about {celsius(self.reference):z.1f} °C"
+
+    def _shown_constants(self) -> list[str]:
+        errors = self.standard_errors or (0.0,) * len(self.parameters)
+        rows = zip(self._constants, self.parameters, errors, strict=True)
+        return [shown_constant(*_SHOWN[name], float(value), error) for name, value, error in rows]
 
     # --- constants -------------------------------------------------------------------------------------------
 
@@ -141,7 +169,7 @@ class ParametricLaw(ShiftLaw):
         if self.covariance is None:
             raise InputError(
                 f"the constants of this {self.title} law were given without a covariance, so that its uncertainty is "
-                "not known; fit the law with shift_factors.law(…), or give covariance=."
+                "not known; fit the law to measured shift factors, or give the covariance of its constants."
             )
         return _spread(self._gradient(kelvin), self.covariance)
 
@@ -233,7 +261,20 @@ class ParametricLaw(ShiftLaw):
         )
 
     def _remedy(self) -> str:
-        return "measure isotherms there, or lift the limit knowingly with law.unbounded() in Python"
+        return "measure isotherms there, or lift the limit knowingly (unbounded() of the law, in Python)"
+
+
+def shown_constant(symbol: str, unit: str, factor: float, offset: float, value: float, error: float) -> str:
+    """Write a constant with its standard error to two digits: ``C2 = 126.6 ± 1.2 K``; zero stands for unknown."""
+    value, error = value * factor + offset, error * factor
+    if not 0.0 < error < math.inf:
+        return f"{symbol} = {value:.4g}{unit}"
+    power = math.floor(math.log10(max(abs(value), error)))
+    power = power if power >= 6 else 0
+    value, error = value / 10.0**power, error / 10.0**power
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    both = f"{value:z.{digits}f} ± {error:.{digits}f}"
+    return f"{symbol} = ({both})e{power}{unit}" if power else f"{symbol} = {both}{unit}"
 
 
 def _spread(gradient: Array, covariance: Array) -> Array:

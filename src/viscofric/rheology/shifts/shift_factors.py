@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
-from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
 from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
@@ -36,6 +36,9 @@ _ROUNDING = 1e-13  # decades
 class ShiftFactors(ShiftLaw):
     """A table of shift factors, read between its temperatures by monotone interpolation in 1/T.
 
+    Up to half a kelvin beyond its ends, the difference of a nominal temperature from a measured one, it is continued
+    straight in 1/T.
+
     Parameters
     ----------
     temperatures : (n,) array or quantities
@@ -43,7 +46,7 @@ class ShiftFactors(ShiftLaw):
     log10_values : (n,) array
         log10 α.  They are moved as a whole so that the interpolated value at the reference is zero.
     reference : float or quantity
-        Temperature where α = 1, inside the measured range; K.
+        Temperature where α = 1, inside the measured range (or at most half a kelvin beyond); K.
     covariance : (n, n) array, optional
         Of the values, given that the one at the reference is exactly zero; zero if not given.
     notes : tuple of str
@@ -84,6 +87,12 @@ class ShiftFactors(ShiftLaw):
         for column in (kelvin, values, spread):
             column.flags.writeable = False
 
+    def __repr__(self) -> str:
+        low, high = (f"{celsius(float(end)):z.1f} °C" for end in self.temperatures[[0, -1]])
+        values = f"log10 α from {self.log10_values[0]:z.2f} to {self.log10_values[-1]:z.2f}"
+        about = f"reference {celsius(self.reference):z.1f} °C"
+        return f"ShiftFactors({len(self.temperatures)} temperatures, {low} to {high}, {values}, {about})"
+
     @property
     def standard_errors(self) -> Array:
         """Standard error of each log10 α, zero at a reference that was measured."""
@@ -91,22 +100,23 @@ class ShiftFactors(ShiftLaw):
 
     def _refuse(self, kelvin: Array) -> None:
         low, high = self.temperatures[0], self.temperatures[-1]
-        outside = (kelvin < low * (1 - _SAME_TEMPERATURE)) | (kelvin > high * (1 + _SAME_TEMPERATURE))
+        outside = (kelvin < low - NOMINAL) | (kelvin > high + NOMINAL)
         if np.any(outside):
             wanted = float(kelvin[outside][0])
             raise InputError(
                 f"temperature = {celsius(wanted):z.1f} °C lies outside the measured "
-                f"{celsius(low):z.1f} to {celsius(high):z.1f} °C; use a law to go beyond, "
-                f"[material] shift = \"wlf\" in a run file, shift_factors.law('wlf') in Python{kelvin_hint(wanted)}."
+                f"{celsius(low):z.1f} to {celsius(high):z.1f} °C; fit a law (such as WLF or Arrhenius) to go beyond"
+                f"{kelvin_hint(wanted)}."
             )
 
     def _log10(self, kelvin: Array) -> Array:
         from scipy.interpolate import PchipInterpolator
 
         # An Arrhenius law is straight in 1/T, so little curvature is left to interpolate.
-        inverse = np.clip(1.0 / kelvin, 1.0 / self.temperatures[-1], 1.0 / self.temperatures[0])
+        hottest, coldest = 1.0 / self.temperatures[-1], 1.0 / self.temperatures[0]
         curve = PchipInterpolator(1.0 / self.temperatures[::-1], self.log10_values[::-1])
-        return np.asarray(curve(inverse))
+        inverse = np.clip(1.0 / kelvin, hottest, coldest)
+        return np.asarray(curve(inverse) + curve(inverse, 1) * (1.0 / kelvin - inverse))
 
     def _standard_error(self, kelvin: Array) -> Array:
         """Carry the covariance through linear interpolation in 1/T; what interpolation itself misses is not in it."""

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 GAS_CONSTANT = 8.31446261815324  # J/(mol K)
 LN10 = math.log(10.0)
+#: A temperature is asked by its nominal value and measured to a few tenths of a kelvin: what was measured at 59.98 °C
+#: answers at 60 °C too.
+NOMINAL = 0.5  # K
 
 
 class ShiftLaw(ABC):

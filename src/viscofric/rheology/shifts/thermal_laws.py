@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.rheology.shifts.free_volume_laws import WLF
 from viscofric.rheology.shifts.parametric_law import ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
-from viscofric.units import positive
+from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -118,6 +118,10 @@ class WLFArrhenius(ParametricLaw):
     def activation_energy(self) -> float:
         """Of the Arrhenius law below the glass transition, J/mol."""
         return GAS_CONSTANT * LN10 * self.glass_transition**2 * self.C1 / self.C2
+
+    def __str__(self) -> str:
+        """Return name, constants about Tg with standard errors, and reference."""
+        return f"{self.title}: {', '.join(self._shown_constants())}; α = 1 at {celsius(self.reference):z.1f} °C"
 
     @property
     def above(self) -> WLF:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 #: Volume expansivity of a pure-gum vulcanizate of natural rubber at 25 °C, 1/K.
 NATURAL_RUBBER_EXPANSION = 6.6e-4
-#: Two temperatures closer than this are the same one, to rounding of °C.
-_SAME_TEMPERATURE = 1e-9  # relative
 
 
 class VerticalShift(ABC):
@@ -119,6 +118,8 @@ class DensityShift(VerticalShift):
 class VerticalShiftFactors(VerticalShift):
     """A table of vertical shifts, read between its temperatures by linear interpolation of log10 b in T.
 
+    Up to half a kelvin beyond its ends it keeps the value there.
+
     Parameters
     ----------
     temperatures : (n,) array or quantities
@@ -162,6 +163,11 @@ class VerticalShiftFactors(VerticalShift):
         for column in (kelvin, values, spread):
             column.flags.writeable = False
 
+    def __repr__(self) -> str:
+        low, high = (f"{celsius(float(end)):z.1f} °C" for end in self.temperatures[[0, -1]])
+        about = f"reference {celsius(self.reference):z.1f} °C"
+        return f"VerticalShiftFactors({len(self.temperatures)} temperatures, {low} to {high}, {about})"
+
     @property
     def standard_errors(self) -> Array:
         """Standard error of each log10 b, zero at a reference that was measured."""
@@ -169,12 +175,12 @@ class VerticalShiftFactors(VerticalShift):
 
     def _refuse(self, kelvin: Array) -> None:
         low, high = self.temperatures[0], self.temperatures[-1]
-        outside = (kelvin < low * (1 - _SAME_TEMPERATURE)) | (kelvin > high * (1 + _SAME_TEMPERATURE))
+        outside = (kelvin < low - NOMINAL) | (kelvin > high + NOMINAL)
         if np.any(outside):
             wanted = float(kelvin[outside][0])
             raise InputError(
                 f"temperature = {celsius(wanted):z.1f} °C lies outside {celsius(low):z.1f} to {celsius(high):z.1f} °C, "
-                f"where the vertical shift was measured; use DensityShift to go beyond{kelvin_hint(wanted)}."
+                f"where the vertical shift was measured; the density's, ρT/(ρ0 T0), goes beyond{kelvin_hint(wanted)}."
             )
 
     def _log10(self, kelvin: Array) -> Array:

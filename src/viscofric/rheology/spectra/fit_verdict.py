@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST
 from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 PLATEAU = 0.05
 #: … and the loss tangent measured there is below this.
 PLATEAU_LOSS_TANGENT = 0.1
+ROUNDING = 1e-6
 #: Organic glasses have a few times 10⁹ Pa.
 STIFFEST_GLASS = 2e10  # Pa
 #: A liquid's E' falls as ω², its E'' as ω; beyond these slopes no part of E' above a quarter is a plateau's.
@@ -75,36 +77,44 @@ def judged(
     low_loss, high_loss = _loss_tangent_at_ends(omega, master_curve.loss_tangent)
     fall = float(modulus.real[0]) / spectrum.E0 - 1.0
     rise = spectrum.E_inf / float(modulus.real[-1]) - 1.0
+    softest, stiffest = float(measured.real.min()), float(measured.real.max())
+    at_limit = spectrum.E_inf >= (1.0 - ROUNDING) * STIFFEST * stiffest
     fit = SpectrumFit(
         rms_storage,
         rms_loss,
         E0_extrapolated=fall > PLATEAU or low_loss > PLATEAU_LOSS_TANGENT,
-        E_inf_extrapolated=rise > PLATEAU or high_loss > PLATEAU_LOSS_TANGENT,
+        E_inf_extrapolated=at_limit or rise > PLATEAU or high_loss > PLATEAU_LOSS_TANGENT,
         frequency_range=(float(omega[0]), float(omega[-1])),
         method=method,
         modes=len(spectrum),
         tau_ratio=tau_ratio,
         regularisation=regularisation,
+        measured_storage=(softest, stiffest),
+        E_inf_at_limit=at_limit,
+        E0_missed=spectrum.E0 / softest > 1.0 + PLATEAU,
+        E_inf_missed=spectrum.E_inf < stiffest * (1.0 - PLATEAU),
     )
-    rubber = _about_rubber(spectrum, master_curve, fit, low_loss)
-    glass = _about_glass(spectrum, master_curve, fit, high_loss)
+    rubber = _about_rubber(spectrum, master_curve, fit, softest, low_loss)
+    glass = _about_glass(spectrum, fit, stiffest, high_loss)
     return RetardationSpectrum(
         spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, replace(fit, notes=(*rubber, *glass, *notes))
     )
 
 
 def _about_rubber(
-    spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, loss_tangent: float
+    spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, softest: float, loss_tangent: float
 ) -> list[str]:
-    softest = float(master_curve.storage_modulus.min())
     where = (
         f"E0 = {spectrum.E0:.4g} Pa lies {_beside(spectrum.E0, softest)} the smallest measured E' ({softest:.4g} Pa)"
     )
-    if not fit.E0_extrapolated:
-        follows = spectrum.E0 / softest <= 1.0 + PLATEAU
-        return [] if follows else [f"{where}: the fit does not follow the softest points."]
     end = f"at the lowest frequency, {fit.frequency_range[0]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
-    notes = [f"{where}, and {end}: the rubber plateau was not measured, so that E0 is extrapolated."]
+    if fit.E0_missed:
+        also = f" {end[0].upper()}{end[1:]}: the rubber plateau was not measured." if fit.E0_extrapolated else ""
+        notes = [f"{where}: the fit does not follow the softest points.{also}"]
+    elif fit.E0_extrapolated:
+        notes = [f"{where}, and {end}: the rubber plateau was not measured, so that E0 is extrapolated."]
+    else:
+        return []
     slopes = _slopes_at_low_end(master_curve)
     if slopes is not None and loss_tangent > 1.0:
         notes.append(
@@ -114,22 +124,23 @@ def _about_rubber(
     return notes
 
 
-def _about_glass(
-    spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, loss_tangent: float
-) -> list[str]:
-    stiffest = float(master_curve.storage_modulus.max())
+def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: float, loss_tangent: float) -> list[str]:
     where = (
         f"E_inf = {spectrum.E_inf:.4g} Pa lies {_beside(spectrum.E_inf, stiffest)} the largest measured E' "
         f"({stiffest:.4g} Pa)"
     )
+    end = f"at the highest frequency, {fit.frequency_range[1]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
     notes = []
-    if fit.E_inf_extrapolated:
+    if fit.E_inf_at_limit:
         notes.append(
-            f"{where}, and at the highest frequency, {fit.frequency_range[1]:.3g} rad/s, tan δ is "
-            f"{loss_tangent:.2f}: the glass was not measured, so that E_inf is extrapolated."
+            f"E_inf = {spectrum.E_inf:.4g} Pa is the largest that the fit allows, {STIFFEST:g} times the largest "
+            f"measured E' ({stiffest:.4g} Pa), and no result: {end}, and the sweeps do not tell how stiff the glass is."
         )
-    elif spectrum.E_inf < stiffest * (1.0 - PLATEAU):
-        notes.append(f"{where}: the fit does not follow the stiffest points.")
+    elif fit.E_inf_missed:
+        also = f" {end[0].upper()}{end[1:]}: the glass was not measured." if fit.E_inf_extrapolated else ""
+        notes.append(f"{where}: the fit does not follow the stiffest points.{also}")
+    elif fit.E_inf_extrapolated:
+        notes.append(f"{where}, and {end}: the glass was not measured, so that E_inf is extrapolated.")
     if spectrum.E_inf > STIFFEST_GLASS:
         notes.append(
             f"E_inf = {spectrum.E_inf:.4g} Pa is beyond any organic glass (a few 1e9 Pa); no rubber has such a glass, "

@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 #: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out is not told from
 #: a plateau, nor from the flow of a liquid: its compliance could grow without bound.
 EDGE = math.e
-#: A modulus that is too small a part of the compliance to be seen is at most this.
-STIFFEST = 1e3  # times the largest measured storage modulus
+#: The glass is at most so stiff.  Where the sweeps end in the middle of the transition nothing else bounds it: its
+#: compliance is too small a part of what was measured.
+STIFFEST = 30.0  # times the largest measured storage modulus
 
 
 @dataclass(frozen=True, eq=False)

@@ -85,6 +85,10 @@ class ModulusTable(FrequencyResponse):
         if extrapolate not in ("refuse", "plateau"):
             raise InputError(f"extrapolate = {extrapolate!r}: must be 'refuse' or 'plateau'.")
 
+    def __repr__(self) -> str:
+        low, high = self.angular_frequency[[0, -1]]
+        return f"ModulusTable({len(self.angular_frequency)} frequencies, {low:.3g} to {high:.3g} rad/s)"
+
     @classmethod
     def from_master_curve(
         cls, master_curve: MasterCurve, *, resolution: float = 0.05, extrapolate: Extrapolation = "refuse"

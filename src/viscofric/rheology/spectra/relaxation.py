@@ -9,7 +9,13 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
-from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
+from viscofric.rheology.spectra.response import (
+    FrequencyResponse,
+    checked_shift,
+    checked_times,
+    mode_column,
+    shown_modulus,
+)
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
@@ -67,6 +73,10 @@ class RelaxationSpectrum(FrequencyResponse):
 
     def __len__(self) -> int:
         return len(self.E)
+
+    def __repr__(self) -> str:
+        ends = f"E0 = {shown_modulus(self.E0)}, E_inf = {shown_modulus(self.E_inf)}"
+        return f"RelaxationSpectrum({ends}, {len(self)} modes)"
 
     @property
     def E_inf(self) -> float:

@@ -108,3 +108,11 @@ def mode_column(values: ArrayLike, name: str, unit: str) -> Array:
         raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.")
     column.flags.writeable = False
     return column
+
+
+def shown_modulus(modulus: float) -> str:
+    """Write a modulus in Pa as users read it."""
+    for unit, size in (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)):
+        if modulus >= size:
+            return f"{modulus / size:.4g} {unit}"
+    return f"{modulus:.4g} Pa"

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
-from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
+from viscofric.rheology.spectra.response import (
+    FrequencyResponse,
+    checked_shift,
+    checked_times,
+    mode_column,
+    shown_modulus,
+)
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
@@ -23,6 +29,9 @@ if TYPE_CHECKING:
 
 #: How exactly 1/E_inf + ΣC must meet 1/E0, relative to 1/E0.
 BALANCE = 1e-6
+
+_EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
+_REACHED = "reached by the sweeps"
 
 
 @dataclass(frozen=True)
@@ -51,6 +60,14 @@ class SpectrumFit:
         Ratio of neighbouring retardation times; None where they were free.
     regularisation : float or None
         Strength λ with which the spectrum was smoothed; None where it was not.
+    measured_storage : tuple of float or None
+        Smallest and largest E' measured, Pa; None where they are not known.
+    E_inf_at_limit : bool
+        Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the sweeps do not tell it,
+        and it is no result.
+    E0_missed, E_inf_missed : bool
+        Whether E0 lies above the softest measured E', or E_inf below the stiffest, by more than 5 %: the fit does not
+        follow these points.
     """
 
     rms_storage: float
@@ -63,6 +80,39 @@ class SpectrumFit:
     modes: int = 0
     tau_ratio: float | None = None
     regularisation: float | None = None
+    measured_storage: tuple[float, float] | None = None
+    E_inf_at_limit: bool = False
+    E0_missed: bool = False
+    E_inf_missed: bool = False
+
+    def shifted(self, alpha: float, b: float) -> SpectrumFit:
+        """Return the same for the spectrum at another temperature; the notes tell of the fit as it was made."""
+        low, high = self.frequency_range
+        measured = self.measured_storage
+        return replace(
+            self,
+            frequency_range=(low / alpha, high / alpha),
+            measured_storage=None if measured is None else (b * measured[0], b * measured[1]),
+        )
+
+    @property
+    def E0_remark(self) -> str:
+        """What is to be said beside E0, in a few words."""
+        if self.E0_missed:
+            return f"the fit lies above the softest measured E'{self._measured(0)}"
+        return _EXTRAPOLATED if self.E0_extrapolated else _REACHED
+
+    @property
+    def E_inf_remark(self) -> str:
+        """What is to be said beside E_inf, in a few words."""
+        if self.E_inf_at_limit:
+            return "not known: the sweeps do not tell it, and the fit stopped at 30 times the largest measured E'"
+        if self.E_inf_missed:
+            return f"the fit lies below the stiffest measured E'{self._measured(1)}"
+        return _EXTRAPOLATED if self.E_inf_extrapolated else _REACHED
+
+    def _measured(self, end: int) -> str:
+        return "" if self.measured_storage is None else f", {shown_modulus(self.measured_storage[end])}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +174,10 @@ class RetardationSpectrum(FrequencyResponse):
     def __len__(self) -> int:
         return len(self.C)
 
+    def __repr__(self) -> str:
+        ends = f"E0 = {shown_modulus(self.E0)}, E_inf = {shown_modulus(self.E_inf)}"
+        return f"RetardationSpectrum({ends}, {len(self)} modes)"
+
     def compliance(self, angular_frequency: ArrayLike) -> Complex:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
         omega = np.asarray(angular_frequency, dtype=float)
@@ -167,4 +221,10 @@ class RetardationSpectrum(FrequencyResponse):
         From E(ω, T) = b E(αω, T0) (paper, Eq. 4): every τ becomes ατ, every modulus b times what it was.
         """
         checked_shift(alpha, b)
-        return RetardationSpectrum(b * self.E0, b * self.E_inf, self.C / b, alpha * self.tau, self.fit)
+        return RetardationSpectrum(
+            b * self.E0,
+            b * self.E_inf,
+            self.C / b,
+            alpha * self.tau,
+            None if self.fit is None else self.fit.shifted(alpha, b),
+        )

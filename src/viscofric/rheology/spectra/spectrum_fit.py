@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.fit_verdict import judged, refuse_liquid
@@ -19,7 +20,7 @@ from viscofric.units import positive
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import MasterCurve
+    from viscofric.rheology.superposition.superpose import Superposition
 
     Array = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ POINTS_PER_MODE = 3
 
 @one_blas_thread
 def fit_retardation_spectrum(
-    master_curve: MasterCurve,
+    master_curve: MasterCurve | Superposition,
     *,
     tau_ratio: float = math.e,
     method: Method = "non-negative",
@@ -47,8 +48,8 @@ def fit_retardation_spectrum(
 
     Parameters
     ----------
-    master_curve : MasterCurve
-        At least four points.
+    master_curve : MasterCurve or Superposition
+        At least four points; of a `Superposition` its master curve is taken.
     tau_ratio : float
         Ratio of neighbouring retardation times, above 1; e in the paper.  Without effect on sparse modes.
     method : {"non-negative", "regularised", "sparse"}
@@ -72,14 +73,15 @@ def fit_retardation_spectrum(
     Raises
     ------
     InputError
-        If there are fewer than four points, the curve ends in the flow of a liquid, a setting is out of
-        range, or it does not belong to the method.
+        If it is no master curve, there are fewer than four points, the curve ends in the flow of a liquid, a
+        setting is out of range, or it does not belong to the method.
 
     Notes
     -----
     All methods minimise the sum of squares of the errors of ln E' and ln E'': relative errors, so that the
     rubber counts as much as the glass, and no unit matters.
     """
+    master_curve = _curve_of(master_curve)
     _check(master_curve, method, tau_ratio, modes, regularisation, largest_error)
     refuse_liquid(master_curve)
     misfit = ModulusMisfit(master_curve.angular_frequency, master_curve.complex_modulus)
@@ -93,6 +95,16 @@ def fit_retardation_spectrum(
     return judged(
         as_spectrum(fitted), master_curve, method=method, tau_ratio=tau_ratio, regularisation=strength, notes=notes
     )
+
+
+def _curve_of(given: object) -> MasterCurve:
+    curve = getattr(given, "master_curve", given)
+    if not isinstance(curve, MasterCurve):
+        raise InputError(
+            "a spectrum is fitted to a MasterCurve, or to the Superposition that superpose(…) returns, not to "
+            f"{type(given).__name__}."
+        )
+    return curve
 
 
 def as_spectrum(modes: Modes) -> RetardationSpectrum:

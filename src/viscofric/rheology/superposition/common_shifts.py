@@ -8,12 +8,12 @@ repeatedly.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.superposition.overlap import SMALLEST_NOISE
+from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, parted
 from viscofric.rheology.superposition.plateau import continued, told
 from viscofric.rheology.superposition.shift_problem import ShiftProblem, State
 
@@ -37,7 +37,8 @@ SMALLEST_PART = 0.2
 class CommonShifts:
     """Shifts log10 α (n,) and log10 b (n,), zero at the reference, and their covariances (n, n); in decades.
 
-    The cross covariance has log10 α in its rows and log10 b in its columns.
+    The cross covariance has log10 α in its rows and log10 b in its columns.  `parted` are the places of neighbours
+    that were joined pair by pair because a common curve moved them past each other.
     """
 
     values: Array
@@ -45,6 +46,7 @@ class CommonShifts:
     vertical: Array
     vertical_covariance: Array
     cross_covariance: Array
+    parted: tuple[int, ...] = ()
 
 
 def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
@@ -55,7 +57,10 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
 
     Where neighbours disagree by many times what is typical, superposition itself fails, and one flexible
     curve would hide that by pulling them apart.  There each side gets its own curve, and the two are joined
-    where the two neighbours overlap best, with that join's uncertainty.
+    where the two neighbours overlap best, with that join's uncertainty.  The same is done, with an uncertainty of
+    half a decade at least, where a common curve moves neighbours past each other although their storage moduli
+    overlap (`overlap.parted`): sweeps that disagree in E'' alone, as at a resonance of the instrument, cost a
+    flexible curve nothing once they lie apart.
 
     Parameters
     ----------
@@ -71,19 +76,38 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
     CommonShifts
         E' and E'' count equally; the covariance is found from the scatter that is left in each.
     """
-    found, signal = _fitted(sweeps, joins, gauge)
+    found, signal = _fitted_together(sweeps, joins, gauge)
     inside = told(signal, gauge)
     if inside is None:
         return found
     first, last = inside
-    part, _ = _fitted(sweeps[first:last], joins[first : last - 1], gauge.within(first, last))
+    part, _ = _fitted_together(sweeps[first:last], joins[first : last - 1], gauge.within(first, last))
     values, covariance = continued(part.values, part.covariance, gauge, first, last)
-    return CommonShifts(values, covariance, found.vertical, found.vertical_covariance, found.cross_covariance)
+    parted_pairs = tuple(place + first for place in part.parted)
+    return CommonShifts(
+        values, covariance, found.vertical, found.vertical_covariance, found.cross_covariance, parted_pairs
+    )
 
 
-def _fitted(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[CommonShifts, Array]:
+def _fitted_together(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[CommonShifts, Array]:
+    """Fit all isotherms; those that are moved past each other are joined pair by pair instead."""
+    apart: set[int] = set()
+    while True:
+        found, signal = _fitted(sweeps, joins, gauge, apart)
+        held = {place for place in gauge.held if place + 1 in gauge.held}
+        more = set(parted(sweeps, found.values)) - apart - held
+        if not more:
+            return replace(found, parted=tuple(sorted(apart))), signal
+        apart |= more
+        joins = [
+            replace(one, uncertainty=max(one.uncertainty, PAIR_UNCERTAINTY)) if place in more else one
+            for place, one in enumerate(joins)
+        ]
+
+
+def _fitted(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, apart: set[int]) -> tuple[CommonShifts, Array]:
     """Fit all isotherms, and say how clearly their curves slope."""
-    problem = ShiftProblem(sweeps, joins, gauge)
+    problem = ShiftProblem(sweeps, joins, gauge, apart)
     shifts = gauge.brought_to(-np.concatenate([[0.0], np.cumsum([found.step for found in joins])]))
     parameters = np.concatenate([shifts, np.zeros(len(problem.start) - problem.size)])
     for _ in range(PASSES):

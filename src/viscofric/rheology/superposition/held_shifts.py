@@ -27,6 +27,8 @@ NEAR = 0.25
 #: Where the reference lies between isotherms, factors are held to its interpolated zero by repetition, to this.
 EXACT = 1e-9  # decades
 REPETITIONS = 12
+#: A law close to its pole moves sweeps farther than this, beyond any frequency that a number can hold.
+LARGEST_SHIFT = 100.0  # decades
 
 
 def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: float) -> dict[int, float]:
@@ -53,24 +55,26 @@ def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: floa
     """
     held: dict[int, float] = {}
     for wanted, value in fixed.items():
-        kelvin = positive(wanted, "K", "temperature in fixed")
-        log10_alpha = to_si(value, "dimensionless", f"fixed[{wanted!r}]")
+        kelvin = positive(wanted, "K", "temperature of a fixed shift factor")
+        log10_alpha = to_si(value, "dimensionless", f"shift factor fixed at {shown(kelvin)}")
         place = int(np.argmin(np.abs(temperatures - kelvin)))
         gap = float(np.min(np.abs(np.delete(temperatures, place) - temperatures[place])))
         if abs(temperatures[place] - kelvin) > NEAR * gap:
             raise InputError(
-                f"fixed[{wanted!r}]: none of the joined isotherms is at {shown(kelvin)}; the nearest is at "
+                f"a shift factor is fixed at {shown(kelvin)}, where none of the joined isotherms is; the nearest is at "
                 f"{shown(temperatures[place])}."
             )
         if place in held:
-            raise InputError(f"fixed[{wanted!r}]: the isotherm at {shown(temperatures[place])} is fixed twice.")
+            raise InputError(f"two shift factors are fixed for the isotherm at {shown(temperatures[place])}; give one.")
         held[place] = log10_alpha
     around = np.flatnonzero(_weights(1.0 / reference, 1.0 / temperatures[::-1])[::-1])
     if len(around) == 1 and held.get(int(around[0]), 0.0) != 0.0:
-        raise InputError(f"fixed: the isotherm at {shown(reference)} is the reference, where log10 α is 0.")
+        raise InputError(
+            f"a shift factor is fixed at {shown(reference)}, which is the reference, where log10 α is 0; leave it out."
+        )
     if len(around) > 1 and all(int(place) in held for place in around):
         raise InputError(
-            f"fixed: the reference, {shown(reference)}, lies between two isotherms that are both fixed; "
+            f"the reference, {shown(reference)}, lies between two isotherms whose shift factors are both fixed; "
             "fix one of them only."
         )
     return held
@@ -119,9 +123,20 @@ def given_shifts(joined: JoinedIsotherms, reference: float, shift: ShiftLaw, fre
         About the reference.
     free : bool
         Whether vertical shifts are fitted.
+
+    Raises
+    ------
+    InputError
+        If a factor is beyond any frequency.
     """
     temperatures = _temperatures(joined)
     values = np.array(shift.log10(temperatures))
+    farthest = int(np.argmax(np.abs(values)))
+    if abs(values[farthest]) > LARGEST_SHIFT:
+        raise InputError(
+            f"the given shift factors move the sweep at {shown(temperatures[farthest])} by "
+            f"{values[farthest]:.0f} decades from the reference, {shown(reference)}: their law does not hold there."
+        )
     nothing = np.zeros((len(values), len(values)))
     covariance = nothing
     if isinstance(shift, ShiftFactors):

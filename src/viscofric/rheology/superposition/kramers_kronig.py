@@ -83,6 +83,9 @@ class KramersKronig:
     loss_scale: float
     loss_scale_error: float
 
+    def __repr__(self) -> str:
+        return f"KramersKronig(loss scale {self.loss_scale:.2f} ± {self.loss_scale_error:.2f})"
+
     @property
     def scale_differs(self) -> bool:
         """Whether E'' is off as a whole, by more than 15 % and three standard errors."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +25,10 @@ FLAT = 0.5  # decades
 FAILURE = 5.0
 #: … and by this at least, which interpolation between sparse points or the grid of steps cannot make.
 SMALLEST_FAILURE = 0.03  # decades
+#: Sweeps whose E' have this part of the smaller range in common belong over each other in frequency …
+COMMON_MODULI = 0.25
+#: … and where they are joined pair by pair, E' and E'' ask for steps that differ by about so much.
+PAIR_UNCERTAINTY = 0.5  # decades
 SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
 
 
@@ -121,6 +126,24 @@ def failures(joins: list[Join]) -> list[int]:
     return [place for place, found in enumerate(joins) if found.misfit > limit]
 
 
+def parted(sweeps: list[LogSweep], log10_shifts: Array) -> list[int]:
+    """Return the places of neighbours that shifts move past each other although their storage moduli overlap.
+
+    E' would fall with rising frequency from one to the other, which no material does.
+    """
+    found = []
+    for place, (colder, warmer) in enumerate(pairwise(sweeps)):
+        step = log10_shifts[place] - log10_shifts[place + 1]
+        shorter = min(np.ptp(colder.frequency), np.ptp(warmer.frequency))
+        moduli = colder.moduli[:, 0], warmer.moduli[:, 0]
+        common = min(float(one.max()) for one in moduli) - max(float(one.min()) for one in moduli)
+        smaller = min(float(np.ptp(one)) for one in moduli)
+        past = warmer.frequency[-1] - (colder.frequency[0] + step) < SMALLEST_OVERLAP * shorter
+        if past and common > COMMON_MODULI * smaller:
+            found.append(place)
+    return found
+
+
 @dataclass(frozen=True)
 class OverlapQuality:
     """How well shifted isotherms overlap with their neighbours.
@@ -134,11 +157,22 @@ class OverlapQuality:
         Root mean square of the difference of log10 E', and of log10 E'', over all neighbours; decades.
     points : int
         Number of points compared.
+    neighbours : int
+        Number of pairs of neighbouring isotherms.
+    gaps : tuple of int
+        Places of the pairs that do not overlap once shifted, counted from the coldest: nothing tests the shift there.
     """
 
     storage: float
     loss: float
     points: int
+    neighbours: int = 0
+    gaps: tuple[int, ...] = ()
+
+    @property
+    def without_overlap(self) -> int:
+        """Number of pairs of neighbours that do not overlap once shifted."""
+        return len(self.gaps)
 
     @property
     def joint(self) -> float:
@@ -149,13 +183,16 @@ class OverlapQuality:
 def overlap_quality(sweeps: list[LogSweep], log10_shifts: Array) -> OverlapQuality:
     """Compare every shifted isotherm with its warmer neighbour; see `OverlapQuality`."""
     differences = [np.empty((0, 2))]
-    for index in range(len(sweeps) - 1):
-        colder, warmer = sweeps[index], sweeps[index + 1]
-        frequency = colder.frequency + log10_shifts[index] - log10_shifts[index + 1]
+    gaps = []
+    for place, (colder, warmer) in enumerate(pairwise(sweeps)):
+        frequency = colder.frequency + log10_shifts[place] - log10_shifts[place + 1]
         inside = warmer.covers(frequency)
         differences.append(warmer.at(frequency[inside]) - colder.moduli[inside])
+        if not np.any(inside):
+            gaps.append(place)
     every = np.concatenate(differences)
+    pairs = len(sweeps) - 1
     if not len(every):
-        return OverlapQuality(0.0, 0.0, 0)
+        return OverlapQuality(0.0, 0.0, 0, pairs, tuple(gaps))
     storage, loss = np.sqrt(np.mean(every**2, axis=0))
-    return OverlapQuality(float(storage), float(loss), len(every))
+    return OverlapQuality(float(storage), float(loss), len(every), pairs, tuple(gaps))

@@ -12,6 +12,8 @@ from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.overlap import failures
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from viscofric.rheology.superposition.gauge import Gauge
@@ -99,11 +101,11 @@ class State:
 class ShiftProblem:
     """The measured points of all isotherms, the prior on the steps between them, and what is held."""
 
-    def __init__(self, sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> None:
+    def __init__(self, sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, parted: Iterable[int] = ()) -> None:
         self.size = len(sweeps)
         self.gauge = gauge
         apart = {place for place, found in enumerate(joins) if found.uncertainty == np.inf}
-        broken = sorted(apart.union(failures(joins)))
+        broken = sorted(apart.union(failures(joins), parted))
         starts = [0, *(place + 1 for place in broken), self.size]
         self.pieces = [_Piece.of(sweeps, first, last) for first, last in pairwise(starts)]
         self.start, self.ways = gauge.free()

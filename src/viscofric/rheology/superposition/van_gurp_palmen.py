@@ -1,7 +1,8 @@
 """How far apart neighbouring isotherms run where the shift along the frequency plays no part.
 
-Plotted as tan δ against |E*| (J. Booij, G. Thoone, Rheol. Acta 21 (1982) 15; M. van Gurp, J. Palmen, Rheol.
-Bull. 67 (1998) 5, with δ instead), isotherms that superpose lie on one curve, whatever their shift factors are.
+Plotted as tan δ against |E*| (H. C. Booij, J. H. M. Palmen, Theoretical and Applied Rheology, 1992, 321; M. van
+Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5, with δ instead), isotherms that superpose lie on one curve, whatever their
+shift factors are.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from statistics import NormalDist
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from viscofric.rheology.material import Material
+    from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
@@ -55,15 +57,22 @@ class MaterialSamples:
     frequency_range : tuple of float
         Reduced angular frequencies that were measured, rad/s.  Beyond them the bands tell how the fit
         extrapolates, not what the rubber does.
+    misfit : SystematicMisfit or None
+        What the fitted spectrum misses of the measured moduli beyond noise; None where that is not known.
     """
 
     materials: tuple[Material, ...]
     C: Array
     tau: Array
     frequency_range: tuple[float, float]
+    misfit: SystematicMisfit | None = None
 
     def __len__(self) -> int:
         return len(self.materials)
+
+    def __repr__(self) -> str:
+        low, high = self.frequency_range
+        return f"MaterialSamples({len(self)} materials, measured from {low:.3g} to {high:.3g} rad/s)"
 
     @cached_property
     def E0(self) -> Array:
@@ -105,11 +114,32 @@ class MaterialSamples:
         -------
         Band
             Of complex moduli in the shape of `angular_frequency`, Pa; pointwise, not for the curve as a whole.
+
+        Notes
+        -----
+        Where the spectrum misses what was measured by more than noise (`misfit`), that counts as another error of the
+        logarithms of E' and E'', independent of those that were drawn.
         """
         omega = np.asarray(angular_frequency, dtype=float)
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
         storage, loss = _limits(moduli.real, level), _limits(moduli.imag, level)
+        if self.misfit is not None and np.any(self.misfit.size):
+            reduced = np.log10(np.abs(omega) + 1e-300) + self._log10_alpha(temperature)
+            missed = NormalDist().inv_cdf(0.5 + 0.5 * level) * self.misfit.at(reduced)
+            storage, loss = _widened(storage, missed[..., 0]), _widened(loss, missed[..., 1])
         return Band(*(real + 1j * imaginary for real, imaginary in zip(storage, loss, strict=True)))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be told of the bands: one sentence each."""
+        return () if self.misfit is None else self.misfit.notes
+
+    def _log10_alpha(self, temperature: Quantity | None) -> float:
+        """Mean log10 α of the samples, zero at the reference."""
+        shifts = [material.shift for material in self.materials if material.shift is not None]
+        if temperature is None or not shifts:
+            return 0.0
+        return float(np.mean([shift.log10(temperature) for shift in shifts]))
 
     def spectrum_band(self, level: float = 0.95) -> Band:
         """Return limits of every C, (n,), 1/Pa, at the times `tau`.
@@ -129,6 +159,14 @@ class MaterialSamples:
             Above 0 and below 1.
         """
         return _limits(np.array([value(material) for material in self.materials]), level)
+
+
+def _widened(band: Band, decades: Array) -> Band:
+    """Add an independent error of log10 of the values to their limits, where the values are above zero."""
+    lower, middle, upper = (np.maximum(one, 1e-300) for one in band)
+    down, up = np.log10(middle / lower), np.log10(upper / middle)
+    down, up = np.hypot(down, decades), np.hypot(up, decades)
+    return Band(middle * 10.0**-down, band.middle, middle * 10.0**up)
 
 
 def _limits(values: NDArray[Any], level: float) -> Band:

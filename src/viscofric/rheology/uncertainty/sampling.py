@@ -16,7 +16,9 @@ from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.refit import Refit
 from viscofric.rheology.uncertainty.residuals import Residuals
+from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit, systematic_misfit
 from viscofric.threads import one_blas_thread
+from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,6 +34,8 @@ if TYPE_CHECKING:
     Integers = NDArray[np.int64]
 
 FEWEST_SAMPLES = 20
+#: What a spectrum tells of its master curve agrees with it to this, relative; files round.
+SAME = 1e-3
 #: Scatter of shift factors about a law that makes no difference, and that which explains anything; decades.
 SCATTER = 1e-7, 10.0
 
@@ -84,6 +88,9 @@ def sample_materials(
     anew.  Errors of the shifts and of the moduli about the curve are independent to first order, for in the
     least squares that find both they belong to orthogonal spaces.
 
+    What the spectrum misses beyond noise, alike over neighbouring points, is not drawn either, for it has no
+    distribution; `MaterialSamples.misfit` holds its size, by which the bands of E(ω) are widened.
+
     Not drawn are errors common to a whole measurement (of the sample's dimensions, the temperature scale or the
     clamping), and what a fit cannot follow: sparse modes ripple about the truth, so that their 95 % bands
     of E'' held 90 % in planted tests; use the non-negative spectrum where the band matters.
@@ -92,6 +99,7 @@ def sample_materials(
         raise InputError(f"samples = {samples!r}: must be a whole number, {FEWEST_SAMPLES} or more.")
     curve, shifts = fit.master_curve, fit.shift_factors
     spectrum = fit_retardation_spectrum(curve) if spectrum is None else spectrum
+    _insist_on_same_curve(spectrum, curve)
     random = np.random.default_rng(seed)
     tables, verticals = _tables(random, fit, samples)
     moved = np.array([table.log10_values for table in tables]) - shifts.log10_values
@@ -110,7 +118,42 @@ def sample_materials(
         np.array([modes.C for modes in fitted]),
         np.array([modes.tau for modes in fitted]),
         (float(curve.angular_frequency[0]), float(curve.angular_frequency[-1])),
+        _misfit(curve, shifts, spectrum),
     )
+
+
+def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> None:
+    """Refuse a spectrum that was fitted to another curve, or that was moved to another temperature since.
+
+    Raises
+    ------
+    InputError
+        If the frequencies or storage moduli that it was fitted to range otherwise than those of the curve.
+    """
+    if spectrum.fit is None:
+        return  # `Refit` refuses it
+    frequencies, moduli = spectrum.fit.frequency_range, spectrum.fit.measured_storage
+    omega, storage = curve.angular_frequency, curve.storage_modulus
+    if not np.allclose(frequencies, (omega[0], omega[-1]), rtol=SAME, atol=0.0):
+        told = (
+            f"from {frequencies[0]:.3g} to {frequencies[1]:.3g} rad/s, the curve from {omega[0]:.3g} to {omega[-1]:.3g}"
+        )
+    elif moduli is not None and not np.allclose(moduli, (storage.min(), storage.max()), rtol=SAME, atol=0.0):
+        ends = f"the curve from {storage.min():.3g} to {storage.max():.3g}"
+        told = f"with E' from {moduli[0]:.3g} to {moduli[1]:.3g} Pa, {ends}"
+    else:
+        return
+    raise InputError(
+        f"the spectrum was not fitted to this master curve: it was fitted {told}; fit it to the superposition's own "
+        f"master curve, at its reference, {celsius(curve.reference):z.1f} °C."
+    )
+
+
+def _misfit(curve: MasterCurve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -> SystematicMisfit:
+    """Return what the spectrum misses of the master curve beyond noise."""
+    ratio = curve.complex_modulus, spectrum.complex_modulus(curve.angular_frequency)
+    residual = np.stack([np.log10(ratio[0].real / ratio[1].real), np.log10(ratio[0].imag / ratio[1].imag)], axis=1)
+    return systematic_misfit(np.log10(curve.angular_frequency), residual, _isotherm_of_points(curve, shifts))
 
 
 def _refitted(

@@ -1,0 +1,226 @@
+"""Sweeps that do not superpose well, synthetic and real: nothing is claimed of them that was not measured."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from rheology.planted import EXAMPLE_PROGRAMME, planted_sweeps
+from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
+from viscofric.errors import InputError
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST
+from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
+from viscofric.rheology.superposition.overlap import LogSweep, overlap_quality, parted
+from viscofric.rheology.uncertainty.sampling import sample_materials
+from viscofric.rheology.uncertainty.systematic_misfit import systematic_misfit
+
+#: File, how it was deformed, and a reference in its midst.
+REAL = {
+    "acrylic": ("dma/acrylic_468mp.csv", "shear", "20 degC"),
+    "adhesive": ("dma/adhesive_ems_ca.csv", "tension", "20 degC"),
+    "eva": ("dma/eva_shear.csv", "shear", "30 degC"),
+    "foam": ("dma/vinyl_nitrile_foam.csv", "tension", "20 degC"),
+    "glass": ("instruments/eplexor/freq_Eplexor_raw.xls", "tension", "60 degC"),
+    "same glass": ("instruments/two_row_csv/freq_user_raw.csv", "tension", "60 degC"),
+}
+
+
+def superposed(real_data, name, **settings):
+    path, deformation, reference = REAL[name]
+    return vf.superpose(vf.read_dma(real_data / path, deformation=deformation), reference, **settings)
+
+
+def sweep(first, last, low, high):
+    """Straight lines in log–log from E' of 10^low to 10^high."""
+    frequency = np.linspace(first, last, 16)
+    storage = np.linspace(low, high, 16)
+    return LogSweep(frequency, np.stack([storage, storage - 1.0], axis=1))
+
+
+def test_neighbours_moved_past_each_other_are_found():
+    colder, warmer = sweep(0.0, 3.0, 9.0, 9.2), sweep(0.0, 3.0, 8.9, 9.1)
+    assert parted([colder, warmer], np.array([1.5, 0.0])) == []  # where they belong
+    assert parted([colder, warmer], np.array([3.1, 0.0])) == [0]
+    assert parted([colder, warmer], np.array([2.8, 0.0])) == [0]  # a fifteenth of them overlaps
+    softer = sweep(0.0, 3.0, 8.7, 8.95)  # moduli that have nothing in common may lie apart
+    assert parted([colder, softer], np.array([3.1, 0.0])) == []
+
+
+def test_neighbours_without_overlap_are_counted():
+    sweeps = [sweep(0.0, 1.0, 9.0, 9.1), sweep(0.0, 1.0, 8.9, 9.0), sweep(0.0, 1.0, 8.8, 8.9)]
+    quality = overlap_quality(sweeps, np.array([2.5, 1.0, 0.5]))
+    assert (quality.neighbours, quality.without_overlap, quality.gaps) == (2, 1, (0,))
+
+
+def test_gaps_between_neighbours_are_told():
+    # Steps at −30 and −20 °C exceed the two decades of a sweep: what the true law gives does not overlap.
+    made = planted_sweeps(0, celsius=EXAMPLE_PROGRAMME)
+    fit = vf.superpose(made.sweeps, "30 degC", shift=made.material.shift)
+    assert 0 in fit.quality.gaps
+    assert f"{fit.quality.without_overlap} of 25 pairs of neighbouring sweeps do not overlap" in fit.notes[-1]
+    assert any("do not overlap once shifted" in sentence for sentence in fit.check.sentences)
+    whole = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
+    assert whole.quality.gaps == ()
+    assert not any("overlap once shifted" in sentence for sentence in (*whole.notes, *whole.check.sentences))
+
+
+@pytest.mark.parametrize("name", ["glass", "same glass"])
+def test_a_resonance_in_the_glass_does_not_tear_isotherms_apart(real_data, name):
+    fit = superposed(real_data, name)
+    assert fit.quality.without_overlap == 0
+    # Pair by pair, the steps from −50 to 60 °C add up to 12.6 decades; torn apart they were 26.
+    assert 10.0 < fit.shift_factors.log10_values[0] < 15.0
+    frequency = np.log10(fit.master_curve.angular_frequency)
+    assert np.diff(frequency).max() < 1.0
+    assert any("joined pair by pair" in note for note in fit.notes)
+    # Five steps of half a decade each, which is what the cold end is uncertain by at least.
+    assert fit.shift_factors.standard_errors[0] > np.sqrt(5.0) * 0.5
+
+
+def ending_in_the_transition():
+    """Return a curve whose loss still rises at its end, faster than modes within it allow: no glass in sight."""
+    omega = np.logspace(-3, 3, 120)
+    modulus = 1e6 * (1.0 + (1j * omega) ** 0.95)
+    return MasterCurve(omega, modulus.real, modulus.imag, np.full(120, 303.15), 303.15)
+
+
+@pytest.mark.parametrize("method", ["non-negative", "regularised", "sparse"])
+def test_a_glass_that_nothing_tells_is_no_result(method):
+    master = ending_in_the_transition()
+    settings = {"modes": 8} if method == "sparse" else {}
+    spectrum = fit_retardation_spectrum(master, method=method, **settings)
+    limit = STIFFEST * master.storage_modulus.max()
+    assert spectrum.E_inf == pytest.approx(limit, rel=1e-6)
+    assert spectrum.fit.E_inf_at_limit
+    assert spectrum.fit.E_inf_extrapolated
+    assert spectrum.fit.E_inf_remark.startswith("not known")
+    assert any("and no result" in note for note in spectrum.fit.notes)
+
+
+def test_a_glass_that_was_measured_is_a_result():
+    fit = vf.superpose(planted_sweeps(0, 0.003).sweeps, "30 degC")
+    spectrum = fit_retardation_spectrum(fit)
+    assert not spectrum.fit.E_inf_at_limit
+    assert spectrum.fit.E0_remark == "reached by the sweeps"
+    low, high = spectrum.fit.measured_storage
+    assert (low, high) == (fit.master_curve.storage_modulus.min(), fit.master_curve.storage_modulus.max())
+
+
+@pytest.mark.parametrize("name", ["acrylic", "foam", "eva"])
+def test_words_about_plateaus_are_true(real_data, name):
+    master = superposed(real_data, name).master_curve
+    spectrum = fit_retardation_spectrum(master)
+    quality = spectrum.fit
+    softest, stiffest = master.storage_modulus.min(), master.storage_modulus.max()
+    assert spectrum.E_inf <= STIFFEST * stiffest * (1.0 + 1e-9)
+    if name == "eva":
+        assert softest < spectrum.E0
+        assert quality.E0_missed
+        assert quality.E0_remark == "the fit lies above the softest measured E', 2.838 MPa"
+        assert quality.E_inf_extrapolated
+    else:
+        assert spectrum.E_inf < stiffest
+        assert quality.E_inf_missed
+        assert quality.E_inf_remark.startswith("the fit lies below the stiffest measured E'")
+        assert not any("so that E_inf is extrapolated" in note for note in quality.notes)
+
+
+def test_what_neighbours_miss_alike_is_told_from_noise():
+    random = np.random.default_rng(3)
+    isotherm = np.repeat(np.arange(10), 20)
+    frequency = np.concatenate([np.linspace(0.5 * place, 0.5 * place + 2.0, 20) for place in range(10)])
+    noise = 0.01 * random.standard_normal((200, 2))
+    assert systematic_misfit(frequency, noise, isotherm).size.max() < 0.005
+    bias = np.where(isotherm % 2 == 0, 0.05, -0.05)[:, None] * np.array([1.0, 0.0])
+    found = systematic_misfit(frequency, noise + bias, isotherm)
+    assert found.size[:, 0] == pytest.approx(0.05, rel=0.2)  # noise in means of five: 0.0045
+    assert found.size[:, 1].max() < 0.005
+    assert "E' by up to 0.05" in found.notes[0]
+
+
+def test_a_band_holds_the_measurement_where_superposition_fails():
+    made = planted_sweeps(0, 0.003)
+    # Every other sweep 20 % stiffer, as a sample clamped anew each time may be.
+    uneven = IsothermalSweeps(
+        tuple(
+            Isotherm(one.temperature, one.angular_frequency, one.storage_modulus * by, one.loss_modulus * by)
+            for one, by in zip(made.sweeps.isotherms, [1.0, 1.2] * 13, strict=True)
+        )
+    )
+    fit = vf.superpose(uneven, "30 degC", shift=made.material.shift)
+    samples = sample_materials(fit, samples=60)
+    assert len(samples.notes) == 1
+    assert share_inside(fit.master_curve, samples) > 0.9
+    sound = sample_materials(vf.superpose(made.sweeps, "30 degC"), samples=20)
+    assert sound.notes == ()
+
+
+def share_inside(master, samples):
+    band, measured = samples.modulus_band(master.angular_frequency), master.storage_modulus
+    return float(np.mean((measured >= band.lower.real) & (measured <= band.upper.real)))
+
+
+def test_the_band_of_a_melting_eva_holds_what_was_measured(real_data):
+    fit = superposed(real_data, "eva")
+    samples = sample_materials(fit, samples=40)
+    assert share_inside(fit.master_curve, samples) > 0.93  # half of the points without the misfit
+    assert "misses the measured moduli" in samples.notes[0]
+
+
+def test_superposition_may_hold_roughly(real_data):
+    rough, failed = superposed(real_data, "adhesive").check, superposed(real_data, "eva").check
+    assert rough.roughly
+    assert not rough.holds
+    assert rough.sentences[0].startswith("Superposition holds only roughly")
+    assert not failed.roughly
+    assert failed.sentences[0].startswith("Superposition does not hold")
+
+
+def test_a_nominal_temperature_stands_for_a_measured_one(real_data):
+    vendor = vf.read_shift_factors(real_data / "dma" / "adhesive_ems_ca__vendor_shift.csv")
+    fit = superposed(real_data, "adhesive", shift=vendor)
+    assert len(fit.isotherms) == 21
+    eva = vf.read_dma(real_data / "dma" / "eva_shear.csv", deformation="shear")
+    assert 0.0 < 333.15 - eva.isotherms[-1].temperature < 0.5
+    assert vf.superpose(eva, "60 degC").shift_factors.log10("60 degC") == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_law_too_close_to_its_pole_moves_no_sweep():
+    sweeps = planted_sweeps(0).sweeps
+    with pytest.raises(InputError, match=r"the sweep at -20\.0 °C by \d+ decades from the reference, 30\.0 °C"):
+        vf.superpose(sweeps, "30 degC", shift=vf.WLF(20.0, 51.0, "30 degC"))
+
+
+def test_what_is_no_measurement_is_named():
+    with pytest.raises(InputError, match="must be IsothermalSweeps, not str; read them with read_dma"):
+        vf.superpose("sweeps.csv", "30 degC")
+    with pytest.raises(InputError, match="not to list"):
+        fit_retardation_spectrum([1.0, 2.0])
+    fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
+    assert fit_retardation_spectrum(fit).E0 == fit_retardation_spectrum(fit.master_curve).E0
+
+
+def test_every_result_is_shown_in_one_line():
+    fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC", vertical="free")
+    spectrum = fit_retardation_spectrum(fit)
+    samples = sample_materials(fit, spectrum, samples=20)
+    table = vf.ModulusTable.from_master_curve(fit.master_curve)
+    shown = [
+        repr(one)
+        for one in (
+            fit,
+            fit.check,
+            fit.check.cole_cole,
+            fit.check.kramers_kronig,
+            fit.shift_factors,
+            fit.vertical_shift,
+            spectrum,
+            spectrum.to_relaxation(),
+            samples,
+            samples.misfit,
+            table,
+        )
+    ]
+    assert all("\n" not in line and "array" not in line and len(line) < 160 for line in shown), shown
+    assert shown[0].startswith("Superposition(26 isotherms, -20.0 °C to 200.0 °C, reference 30.0 °C")

@@ -1,0 +1,193 @@
+"""Standard errors of shift factors: counted degrees of freedom, alike residuals, plateaus, laws and given tables."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.stats import linregress
+
+import viscofric as vf
+from rheology.planted import planted_sweeps
+from viscofric.data import Isotherm, IsothermalSweeps
+from viscofric.rheology.superposition.gauge import Gauge
+from viscofric.rheology.superposition.overlap import LogSweep, join, join_at
+from viscofric.rheology.superposition.plateau import BEND, continued
+from viscofric.rheology.superposition.shift_problem import ShiftProblem
+
+STEP = 0.5  # decades of α between neighbours of the power law
+EXPONENT = 0.5  # of its moduli
+FEW = np.array([0.0, 0.5, 1.0])  # decades of frequency: three points a sweep
+NOISE = 0.01
+
+
+def power_law_sweeps(seed, isotherms):
+    """Sweep E' = E'' ∝ (α ω)^½ at 0, 10, … °C, by half a decade of α from one to the next."""
+    random = np.random.default_rng(seed)
+    found = []
+    for place in range(isotherms):
+        modulus = 1e7 * 10.0 ** (EXPONENT * (FEW - STEP * place))
+        storage, loss = modulus * np.exp(NOISE * random.standard_normal((2, FEW.size)))
+        found.append(Isotherm(273.15 + 10.0 * place, 10.0**FEW, storage, loss))
+    return IsothermalSweeps(tuple(found))
+
+
+def exact_covariance(isotherms):
+    """Return the covariance of log10 α about the coldest isotherm, by linear least squares.
+
+    Unknown are the shifts of all but the coldest, and a parabola of log E' and one of log E'', which is what remains
+    of a smooth curve whose third derivative vanishes.
+    """
+    decades = (FEW[None, :] - STEP * np.arange(isotherms)[:, None]).ravel()
+    parabola = np.vander(decades - decades.mean(), 3)
+    moved = EXPONENT * np.repeat(np.eye(isotherms)[:, 1:], FEW.size, axis=0)
+    nothing = np.zeros_like(parabola)
+    jacobian = np.block([[moved, parabola, nothing], [moved, nothing, parabola]])
+    inverse = np.linalg.inv(jacobian.T @ jacobian)
+    return (NOISE / np.log(10.0)) ** 2 * inverse[: isotherms - 1, : isotherms - 1]
+
+
+def test_few_points_leave_as_many_degrees_of_freedom_as_there_are_beyond_shifts_and_curves():
+    """Eight sweeps of three points: 48 values less 6 coefficients less 7 shifts are 35, not 42."""
+    isotherms = 8
+    exact = np.diag(exact_covariance(isotherms))
+    ratios = []
+    for seed in range(40):
+        factors = vf.superpose(power_law_sweeps(seed, isotherms), "0 degC").shift_factors
+        ratios.append(np.mean(factors.standard_errors[1:] ** 2 / exact))
+    # A variance from 35 degrees of freedom is known to √(2/35) = 24 %, the mean of 40 to 4 %; three of that.  Shifts
+    # left uncounted make 35/42 = 0.83 of it.
+    assert np.mean(ratios) == pytest.approx(1.0, abs=0.12)
+
+
+def along_sweeps(random, size, points, alike):
+    """Return errors of unit variance, (size, points), of first-order autoregression along the points."""
+    errors = random.standard_normal((size, points))
+    for place in range(1, points):
+        errors[:, place] = alike * errors[:, place - 1] + np.sqrt(1.0 - alike**2) * errors[:, place]
+    return errors
+
+
+def test_errors_alike_along_a_sweep_widen_the_standard_errors():
+    """Points whose errors are 0.7 alike count for (1 − 0.7)/(1 + 0.7) of as many independent ones.
+
+    Sweeps are dense, so that the common curves cannot follow such errors.
+    """
+    exact = planted_sweeps(0, 0.0, celsius=np.arange(20.0, 91.0, 10.0), frequencies=np.logspace(-1, 1, 81))
+    scores = []
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+        noisy = []
+        for one in exact.sweeps.isotherms:
+            storage, loss = np.exp(NOISE * along_sweeps(random, 2, len(one), 0.7))
+            moduli = storage * one.storage_modulus, loss * one.loss_modulus
+            noisy.append(Isotherm(one.temperature, one.angular_frequency, *moduli))
+        factors = vf.superpose(IsothermalSweeps(tuple(noisy)), "50 degC").shift_factors
+        away = factors.log10_values - exact.log10_alpha(factors.temperatures, "50 degC")
+        known = factors.standard_errors > 1e-9
+        scores.append(away[known] / factors.standard_errors[known])
+    # One fit has some three independent scores: the standard deviation of 60 is known to 0.09, three of that and a
+    # little.  Taken for independent, the points would give √(1.7/0.3) = 2.4.
+    assert np.std(scores) == pytest.approx(1.0, abs=0.3)
+
+
+def plateau_gauge(size, reference):
+    """Isotherms at equal steps in 1/T, α = 1 at one of them."""
+    inverse = 1.0 / 300.0 - 1e-4 * np.arange(size)
+    weights = np.eye(size)[reference]
+    return Gauge(inverse, weights, weights, {})
+
+
+@pytest.mark.parametrize("hot", [True, False], ids=["hot end", "cold end"])
+def test_errors_grow_over_a_plateau_as_a_rate_that_wanders(hot):
+    """The rate of change errs by BEND more in every step, also in the first: shifts by BEND √1, √5 = √(1 + 4), √14."""
+    told = -1.5 * np.arange(4.0)
+    if hot:
+        values, covariance = continued(told, np.zeros((4, 4)), plateau_gauge(7, 1), 0, 4)
+        beyond, expected = slice(4, 7), -1.5 * np.arange(4.0, 7.0)
+        shift = values - values[0]
+    else:
+        values, covariance = continued(told, np.zeros((4, 4)), plateau_gauge(7, 5), 3, 7)
+        values, covariance = values[::-1], covariance[::-1, ::-1]
+        beyond, expected = slice(4, 7), 1.5 * np.arange(4.0, 7.0)
+        shift = values - values[0]
+    assert shift[beyond] == pytest.approx(expected, rel=1e-9)
+    errors = np.sqrt(np.diag(covariance))
+    # Rounding only: the factors that were told are exact here.
+    assert errors[:4] == pytest.approx(0.0, abs=1e-12)
+    assert errors[beyond] == pytest.approx(BEND * np.sqrt([1.0, 5.0, 14.0]), rel=1e-9)
+    # What the first step errs is in the second twice.
+    assert covariance[4, 5] == pytest.approx(2.0 * BEND**2, rel=1e-9)
+
+
+def test_a_law_fitted_to_bare_values_has_the_errors_of_a_regression_line():
+    """Without errors of its own, log10 α over 1/T is a line whose scatter is known from n − 2 residuals."""
+    random = np.random.default_rng(4)
+    kelvin = np.array([280.0, 300.0, 318.0, 331.0, 350.0])
+    values = vf.Arrhenius("120 kJ/mol", 300.0).log10(kelvin) + 0.05 * random.standard_normal(kelvin.size)
+    law = vf.ShiftFactors(kelvin, values, 300.0).law("arrhenius")
+    line = linregress(1.0 / kelvin, values)
+    [constant], [error] = law.parameters, law.standard_errors
+    # The scatter is found to 1 % of its variance, half a per cent of the error; n − 1 residuals would make 13 % less.
+    assert error / constant == pytest.approx(line.stderr / line.slope, rel=0.01)
+    assert constant == pytest.approx(line.slope * np.log(10.0) * 8.314462618, rel=1e-6)
+
+
+def test_scatter_added_to_a_law_counts_its_two_constants():
+    """WLF to six values: χ² is brought to 6 − 1 − 2 = 3, and the errors hold what they promise over many tables."""
+    random = np.random.default_rng(1)
+    kelvin = np.arange(290.0, 391.0, 20.0)
+    truth = vf.WLF(9.0, 110.0, 310.0)
+    slopes = truth.gradient(kelvin)
+    differences = np.diff(np.eye(kelvin.size), axis=0)
+    whitened = np.linalg.solve(np.linalg.cholesky(differences @ differences.T), differences @ slopes)
+    exact = 0.01 * np.sqrt(np.diag(np.linalg.inv(whitened.T @ whitened)))
+    ratios = []
+    for _ in range(60):
+        values = truth.log10(kelvin) + 0.01 * random.standard_normal(kelvin.size)
+        ratios.append(np.array(vf.ShiftFactors(kelvin, values, 310.0).law("wlf").standard_errors) / exact)
+    # Variances from 3 residuals are known to √(2/3), the mean of 60 to 11 %; counting 5 makes 0.6 of them.
+    assert np.mean(np.square(ratios), axis=0) == pytest.approx(1.0, abs=0.25)
+
+
+def test_a_given_table_lends_each_sweep_the_error_of_its_own_temperature():
+    sweeps = planted_sweeps(0, 0.01, celsius=[40.0, 50.0, 65.0]).sweeps
+    kelvin = np.arange(0.0, 81.0, 10.0) + 273.15
+    errors = 0.01 * np.arange(9.0)[::-1]
+    errors[4] = 0.0  # the reference, 40 °C
+    values = vf.synthetic_fluoroelastomer().shift.at_reference("40 degC").log10(kelvin)
+    table = vf.ShiftFactors(kelvin, values, "40 degC", np.diag(errors**2))
+    fit = vf.superpose(sweeps, "40 degC", shift=table)
+    # 65 °C lies between 60 °C (0.02) and 70 °C (0.01), by the weight w of the former in 1/T.
+    first, second, between = 1.0 / 333.15, 1.0 / 343.15, 1.0 / 338.15
+    w = (between - second) / (first - second)
+    assert fit.shift_factors.standard_errors[:2] == pytest.approx([0.0, 0.03], abs=1e-12)
+    assert fit.shift_factors.standard_errors[2] == pytest.approx(np.hypot(0.02 * w, 0.01 * (1.0 - w)), rel=1e-9)
+
+
+def test_the_error_of_a_join_falls_with_the_slope_and_the_points():
+    """Straight lines of slope s, misfit m at n points of two moduli: the step is known to m/(s √(2n))."""
+    decades = np.linspace(0.0, 2.0, 9)
+    zigzag = 0.02 * (-1.0) ** np.arange(9)
+    for slope in (0.25, 0.5):
+        straight = np.stack([slope * decades, slope * decades], axis=1)
+        found = join_at(LogSweep(decades, straight), LogSweep(decades, straight + zigzag[:, None]), 0.0)
+        assert found.misfit == pytest.approx(0.02, rel=1e-9)
+        assert found.uncertainty == pytest.approx(0.02 / (slope * np.sqrt(18.0)), rel=1e-9)
+
+
+def test_an_arrhenius_law_bends_no_trend_however_the_temperatures_are_spaced():
+    kelvin = np.array([280.0, 284.0, 296.0, 300.0, 320.0, 323.0])
+    values = vf.Arrhenius("150 kJ/mol", 300.0).log10(kelvin)
+    decades = np.linspace(-1.0, 1.0, 9)
+    logs = [LogSweep(decades, 7.0 + 0.3 * (decades + one)[:, None] * np.ones(2)) for one in values]
+    joins = [join(colder, warmer) for colder, warmer in pairwise(logs)]
+    weights = np.eye(6)[3]
+    problem = ShiftProblem(logs, joins, Gauge(1.0 / kelvin, weights, weights, {}))
+    trends = problem.prior[5:] @ values
+    assert len(trends) == 4
+    # Straight in 1/T but for rounding.
+    assert trends == pytest.approx(0.0, abs=1e-9)
+    curved = problem.prior[5:] @ vf.WLF(9.0, 60.0, 300.0).log10(kelvin)
+    assert np.abs(curved).max() > 0.1
