@@ -114,6 +114,54 @@ def test_sparse_spectrum_has_no_more_modes_than_asked(tmp_path: Path) -> None:
     assert 1 <= len(spectrum) <= 8
 
 
+def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
+    raw = tmp_path / "raw.csv"
+    raw.write_bytes(EXAMPLE.read_bytes())
+    done = call("read", raw, "--csv", raw)
+    assert done.exit_code == 1
+    assert "would be overwritten" in done.output
+    assert raw.read_bytes() == EXAMPLE.read_bytes()
+
+
+def test_a_card_that_cannot_be_written_keeps_no_other_from_it(tmp_path: Path) -> None:
+    done = call(
+        "fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "-o", tmp_path / "out",
+        "--card", "ansys", "--card", "abaqus",
+    )  # fmt: skip
+    assert done.exit_code == 1  # ANSYS takes no Poisson ratio of 0.5
+    assert "no card for ansys" in done.output
+    assert (tmp_path / "out" / "cards" / "rubber_abaqus.inp").exists()
+    assert "holds at the reference temperature only" in done.output  # no law was asked for
+
+
+def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str], tmp_path: Path) -> None:
+    folder, _ = fitted
+    before = vf.read_card(folder / "rubber.json")
+    rows = (folder / "master_curve.csv").read_text(encoding="utf-8").splitlines()[1:]
+    table = [",".join(row.split(",")[:3]) for row in rows]
+    table[0] = "omega (rad/s),E' (Pa),E'' (Pa)"
+    (tmp_path / "curve.csv").write_text("\n".join(table), encoding="utf-8")
+    done = call(
+        "fit", tmp_path / "curve.csv", "--master-curve", "--reference", "30 degC", "--name", "again",
+        "--shift-factors", folder / "shift_factors.csv", "-o", tmp_path / "out",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.output
+    after = vf.read_card(tmp_path / "out" / "rubber.json")
+    assert after.name == "again"
+    # Ten printed digits of the curve; the fit is as smooth as that.
+    np.testing.assert_allclose(after.complex_modulus([1.0, 1e4]), before.complex_modulus([1.0, 1e4]), rtol=1e-6)
+    assert after.shift is not None
+    assert after.shift.log10("60 degC") == pytest.approx(
+        vf.read_shift_factors(folder / "shift_factors.csv").log10("60 degC"), rel=1e-12
+    )
+
+
+def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
+    done = call("fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "--synthetic", "-o", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert "Synthetic data" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -127,6 +175,9 @@ def test_sparse_spectrum_has_no_more_modes_than_asked(tmp_path: Path) -> None:
         (["read", "nothing.csv"], "nothing.csv: no such file"),
         (["show", "synthetic fluoroelastomer", "--frequency", "10"], "Hz or rad/s"),
         (["fitt"], "Did you mean 'fit'?"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--shift-factors", "no.csv"], "no.csv: no such file"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "0 degC=1", "--fix", "273.15 K=2"], "given twice"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--master-curve", "--vertical-shift", "free"], "only for sweeps"),
     ],
 )
 def test_mistakes_are_one_sentence(

@@ -127,8 +127,9 @@ def _dma() -> dict[str, xr.Dataset]:
             {
                 "E0": 3.021e6,
                 "E_inf": 1.507e9,
-                "E0_extrapolated": 1,
-                "E_inf_extrapolated": 0,
+                "E0_remark": "extrapolated: beyond what the sweeps reach",
+                "E_inf_remark": "reached by the sweeps",
+                "E_inf_at_limit": 0,
                 "statements": json.dumps(["E0 lies below what the sweeps reach & is extrapolated."]),
             },
         ),

@@ -78,7 +78,11 @@ def test_one_speed_or_temperature_needs_no_list() -> None:
         ('"60 degC"', '"-300 degC"', ["conditions.temperature.1", "absolute zero"]),
         ('dma = "dma.csv"', "", ["material: nothing says where the rubber comes from", "dma ="]),
         ('dma = "dma.csv"', 'dma = "dma.csv"\nfile = "rubber.json"', ["material: dma and file are both given"]),
-        ('dma = "dma.csv"', 'catalogue = "a"\ntau_ratio = 2.0', ["tau_ratio cannot be chosen", "(catalogue)"]),
+        (
+            'dma = "dma.csv"',
+            'catalogue = "PVB interlayer"\ntau_ratio = 2.0',
+            ["tau_ratio cannot be chosen", "(catalogue)"],
+        ),
         ('reference_temperature = "30 degC"', "", ["material: reference_temperature is missing"]),
         ('dma = "dma.csv"', 'dma = "dma.csv"\nmodes = 12', ['modes is for spectrum = "sparse" only']),
         (

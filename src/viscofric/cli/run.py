@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
+from viscofric.cli.errors import tell_doubts
 
 if TYPE_CHECKING:
     from viscofric.study import StudyResults
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 SOME_CASES_FAILED = 3
 # As many notes and kinds of failure are printed; the report has them all.
 _MOST_LINES = 5
+# Checks that a study tells as warnings, notes or failures of its own.
+_TOLD_OTHERWISE = ("Small strain", "Measured frequency range", "Isotherms used", "All cases solved")
 
 
 @click.command(name="run")
@@ -80,5 +83,6 @@ def tell(results: StudyResults) -> None:
             click.echo(f"Note: {readable(note)}", err=True)
     for warning in results.warnings:
         click.echo(f"Warning: {readable(warning)}", err=True)
+    tell_doubts(results.tree, but=_TOLD_OTHERWISE)
     for line in grouped_failures(results.failures, _MOST_LINES):
         click.echo(f"Failed: {line}", err=True)

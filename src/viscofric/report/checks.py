@@ -84,18 +84,24 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
     if factors is None:
         return
     storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
+    pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
     if math.isfinite(storage) and math.isfinite(loss):
         yield _check(
             "Overlap of the isotherms",
-            max(storage, loss) <= _OVERLAP,
+            max(storage, loss) <= _OVERLAP and not apart > 0,
             f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
-            f"{_decades(loss)} in the loss modulus (rms; up to {_decades(_OVERLAP)} counts as sound).",
+            f"{_decades(loss)} in the loss modulus (rms; up to {_decades(_OVERLAP)} counts as sound)."
+            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
         )
     yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
     whole = group(tree, "superposition")
     if whole is not None:
-        holds = number(whole.attrs, "holds") == 1.0
-        yield _check("Superposition", holds, " ".join(sentences(whole.attrs, "sentences")))
+        words = " ".join(sentences(whole.attrs, "sentences"))
+        holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
+        yield Check("Superposition", "passed" if holds else "look at this" if roughly else "failed", words)
+        if whole.attrs.get("causality"):
+            belong = number(whole.attrs, "consistent") == 1.0
+            yield _check("Storage against loss modulus", belong, str(whole.attrs["causality"]))
 
 
 def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
@@ -105,10 +111,10 @@ def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
         return
     far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
     if measured_used:
-        words = f"{far}; the prediction uses the measured shift factors, not this law."
+        words = f"{far}; the measured shift factors are used, not this law."
         yield Check("Shift law", "noted", words)
     else:
-        yield _check("Shift law", rms <= _LAW, f"{far} that the prediction uses (up to {_LAW:g} counts as sound).")
+        yield _check("Shift law", rms <= _LAW, f"{far} that is used (up to {_LAW:g} counts as sound).")
 
 
 def _spectrum(tree: xr.DataTree) -> Iterator[Check]:

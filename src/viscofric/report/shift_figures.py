@@ -63,7 +63,7 @@ def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | 
             markersize=4.5,
             elinewidth=1.0,
             zorder=3,
-            label="from the sweeps, ± standard error",
+            label="isotherms, ± standard error",
         )
     ]
     if law is not None:

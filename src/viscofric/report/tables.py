@@ -232,7 +232,7 @@ def _shift_factor_table(tree: xr.DataTree) -> Table | None:
         _Column("standard error of log₁₀ b", "vertical_standard_error", _times(1.0, 2)),
     ]
     full = factors.assign(alpha=10.0 ** factors["log10_shift_factor"])
-    return _table("shift-factors", "Shift factors measured on the sweeps.", full, columns, is_open=False)
+    return _table("shift-factors", "Shift factors of the isotherms.", full, columns, is_open=False)
 
 
 def _law_table(tree: xr.DataTree) -> Table | None:

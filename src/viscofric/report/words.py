@@ -152,7 +152,7 @@ def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         return []
     C1, C2, error1, error2 = (number(law.attrs, name) for name in ("wlf_C1", "wlf_C2", "wlf_C1_error", "wlf_C2_error"))
     if not math.isfinite(C1):
-        return []
+        return [KeyNumber("Shift law", str(law.attrs.get("told", "")), "")]
     used = "used"
     if str(factors.attrs.get("shift_used", "measured")) == "measured":
         used = "a summary: the measured shift factors are used"
@@ -169,11 +169,9 @@ def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     found = []
     for name, title in (("E0", "Modulus at rest E₀"), ("E_inf", "Glass modulus E∞")):
         value = number(spectrum.attrs, name)
-        beyond = number(spectrum.attrs, f"{name}_extrapolated") == 1.0
-        remark = "extrapolated: beyond what the sweeps reach" if beyond else "reached by the sweeps"
-        if f"{name}_extrapolated" not in spectrum.attrs:
-            remark = ""
-        found.append(KeyNumber(title, megapascals(value) if math.isfinite(value) else ABSENT, remark))
+        known = math.isfinite(value) and number(spectrum.attrs, f"{name}_at_limit") != 1.0
+        remark = str(spectrum.attrs.get(f"{name}_remark", ""))
+        found.append(KeyNumber(title, megapascals(value) if known else ABSENT, remark))
     return found
 
 
@@ -197,8 +195,7 @@ def captions(tree: xr.DataTree) -> dict[str, str]:
         f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them"
         f"{_banded(tree)}; below, what the spectrum leaves over.",
         "spectrum": "Retardation spectrum: the compliance of each mode over its retardation time.",
-        "shift_factors": "Shift factors found by laying the isotherms over one another, with their standard "
-        "errors, and a law fitted to them.",
+        "shift_factors": f"Shift factors {_origin(tree)}, and a law fitted to them.",
         "vertical_shift": "Vertical shift b of the modulus.",
         "superposition": "Loss angle against the size of the modulus (van Gurp–Palmen), and loss against storage "
         "modulus (Cole–Cole), which no shift along the frequency changes: where superposition holds, all temperatures "
@@ -206,6 +203,16 @@ def captions(tree: xr.DataTree) -> dict[str, str]:
         "isotherms": f"Storage and loss modulus {'of the synthetic sweeps' if made else 'as measured'}, one curve "
         "for each temperature.",
     }
+
+
+def _origin(tree: xr.DataTree) -> str:
+    """Say where the shift factors come from."""
+    factors = group(tree, "shift_factors")
+    origin = "found" if factors is None else str(factors.attrs.get("shift_origin", "found"))
+    if origin == "given":
+        return "that were given, not found on the sweeps"
+    found = "found by laying the isotherms over one another, with their standard errors"
+    return f"{found}; single ones were held at given values, without an error" if origin == "held" else found
 
 
 def _banded(tree: xr.DataTree) -> str:

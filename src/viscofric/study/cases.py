@@ -35,8 +35,9 @@ class CaseSolver:
     ----------
     failures : list of str
         Cases that could not be solved, one sentence each.
-    frequency_range : tuple of float
-        Reduced angular frequencies between which the material's spectrum was measured, rad/s.
+    frequency_range : tuple of float or None
+        Reduced angular frequencies between which the material's spectrum was measured, rad/s; None where that is not
+        known.
     """
 
     def __init__(
@@ -51,7 +52,7 @@ class CaseSolver:
         self.material, self.shift, self.ball, self.accuracy = material, shift, ball, accuracy
         self.store, self.progress = store, progress
         fit = getattr(material.spectrum, "fit", None)
-        self.frequency_range = (0.0, math.inf) if fit is None else fit.frequency_range
+        self.frequency_range: tuple[float, float] | None = None if fit is None else fit.frequency_range
         self.failures: list[str] = []
         self._solved: list[CaseRecord] = []
         store.prepare()
@@ -100,8 +101,8 @@ class CaseSolver:
         )
 
     def within_measured_frequencies(self, record: CaseRecord) -> bool:
-        """Whether the contact's frequency v/a, reduced by α(T), lies within the master curve's."""
-        low, high = self.frequency_range
+        """Whether the contact's frequency v/a, reduced by α(T), lies within the master curve's, as far as is known."""
+        low, high = self.frequency_range or (0.0, math.inf)
         return low <= self.shift(record.temperature) * record.speed / record.half_width <= high
 
     @property

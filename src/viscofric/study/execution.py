@@ -97,7 +97,7 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
     tree = _tree(study, rubber, shift, measured, solver)
     tree.attrs = {
         "title": study.title,
-        "data_origin": study.data_origin,
+        "data_origin": "synthetic" if rubber.synthetic else study.data_origin,
         "study_file": path.name,
         "study_text": text,
         "notes": _listed([*rubber.notes, *(_measurement_notes(measured, shift) if measured else ())]),
@@ -106,7 +106,7 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
         **rubber.attributes,
         "indenter": f"ball of radius {1e3 * study.indenter.radius:.6g} mm",
         "indenter_radius": study.indenter.radius,
-        "frequency_range": solver.frequency_range,
+        **({} if solver.frequency_range is None else {"frequency_range": solver.frequency_range}),
         "load": study.conditions.load,
         "accuracy": study.solver.accuracy,
         "input_hashes": hashes,
@@ -149,7 +149,14 @@ def _doubts(study: Study, rubber: Rubber, shift: ShiftLaw) -> list[str]:
     """Tell what of the prediction rests on more than was measured, or does not lie on one curve."""
     asked = np.array(study.conditions.temperature)
     beyond = asked[np.asarray(shift.extrapolates(asked))]
-    said = []
+    spectrum = rubber.material.spectrum
+    fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
+    # What is wrong with a ready rubber is told by nothing else.
+    said = list(fit.notes) if rubber.fit is None and fit is not None else []
+    if fit is None:
+        said.append(
+            "At which frequencies the rubber was measured is not known, so that nothing tells where it is extrapolated."
+        )
     if beyond.size:
         at = ", ".join(f"{celsius(float(kelvin)):z.4g}" for kelvin in np.unique(beyond))
         said.append(f"At {at} °C the shift factor is extrapolated beyond the temperatures of the sweeps, by its law.")
@@ -186,7 +193,9 @@ def _tree(
             measured,
             reduced_measured,
             at_points,
-            [record is not None and solver.within_measured_frequencies(record) for record in at_points],
+            None
+            if solver.frequency_range is None
+            else [record is not None and solver.within_measured_frequencies(record) for record in at_points],
         )
         groups |= _agreement(measured, at_points)
     master_speeds = np.geomspace(reduced.min(), reduced.max(), study.solver.master_curve_points)
@@ -199,6 +208,8 @@ def _tree(
 
 
 def _prediction(records: list[CaseRecord], solver: CaseSolver) -> xarray.Dataset:
+    if solver.frequency_range is None:
+        return labels.prediction_data(records, None)
     return labels.prediction_data(records, [solver.within_measured_frequencies(record) for record in records])
 
 

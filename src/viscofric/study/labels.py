@@ -113,14 +113,16 @@ def dataset(
     return result.set_coords(coordinate) if coordinate else result
 
 
-def prediction_data(records: Sequence[CaseRecord], within: Sequence[bool]) -> xarray.Dataset:
-    """Label solved cases."""
-    columns = {name: [getattr(record, name) for record in records] for name in NUMBERS}
-    return dataset("case", {**columns, "within_measured_frequencies": np.array(within, dtype=np.int8)})
+def prediction_data(records: Sequence[CaseRecord], within: Sequence[bool] | None) -> xarray.Dataset:
+    """Label solved cases, with whether they lie within the measured frequencies, where those are known."""
+    columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in NUMBERS}
+    if within is not None:
+        columns["within_measured_frequencies"] = np.array(within, dtype=np.int8)
+    return dataset("case", columns)
 
 
 def measurement_data(
-    measured: FrictionCurves, reduced_speed: Any, records: Sequence[CaseRecord | None], within: Sequence[bool]
+    measured: FrictionCurves, reduced_speed: Any, records: Sequence[CaseRecord | None], within: Sequence[bool] | None
 ) -> xarray.Dataset:
     """Label the separated measurement with the prediction at the same points, NaN where it failed."""
     columns: dict[str, Any] = {
@@ -129,7 +131,8 @@ def measurement_data(
     columns["reduced_speed"] = reduced_speed
     columns["predicted"] = [np.nan if record is None else record.friction_coefficient for record in records]
     columns["predicted_error"] = [np.nan if record is None else record.friction_error for record in records]
-    columns["within_measured_frequencies"] = np.array(within, dtype=np.int8)
+    if within is not None:
+        columns["within_measured_frequencies"] = np.array(within, dtype=np.int8)
     return dataset("point", columns)
 
 

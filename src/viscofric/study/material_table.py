@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, FiniteFloat, model_validator
 
 from viscofric.study.quantities import Table, Temperature, kelvin
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 #: Keys that say where the rubber comes from, one of them in every run file.
-SOURCES = ("dma", "file", "catalogue")
-#: Keys that say how sweeps are made into a rubber; without meaning for one that is ready.
+SOURCES = ("dma", "master_curve", "file", "catalogue")
+#: Keys that say how sweeps are made into a rubber, without meaning for one that is ready …
 _HOW = (
+    "name",
     "deformation",
     "temperature",
     "modulus_unit",
@@ -26,6 +31,8 @@ _HOW = (
     "modes",
     "tau_ratio",
 )
+#: … and those without meaning for a master curve.
+_OF_SWEEPS = ("temperature", "vertical_shift", "fixed_shift_factors")
 
 
 def _listed(value: object) -> object:
@@ -37,57 +44,85 @@ def _by_kelvin(value: object) -> object:
     """Turn the temperatures that are the keys of a table into K."""
     if not isinstance(value, dict):
         return value
-    return {kelvin(key): entry for key, entry in value.items()}
+    found = {kelvin(key): entry for key, entry in value.items()}
+    if len(found) < len(value):
+        raise ValueError("one temperature is given twice, in different words")
+    return found
+
+
+def _unit_of_modulus(value: str) -> str:
+    conversion(value, "Pa", "modulus_unit")
+    return value
+
+
+def _in_catalogue(value: str) -> str:
+    from viscofric.rheology.catalogue import catalogue_entry
+
+    return catalogue_entry(value).name
 
 
 class MaterialTable(Table):
     """[material]: the DMA files and how the rubber is made of them, or a rubber that is ready."""
 
     dma: Annotated[tuple[Path, ...], BeforeValidator(_listed), Field(min_length=1)] | None = None
+    master_curve: Path | None = None
     file: Path | None = None
-    catalogue: str | None = None
+    catalogue: Annotated[str, AfterValidator(_in_catalogue)] | None = None
 
+    name: str = ""
     deformation: Literal["tension", "shear"] | None = None
     temperature: Annotated[tuple[Temperature, ...], BeforeValidator(_listed), Field(min_length=1)] | None = None
-    modulus_unit: str | None = None
+    modulus_unit: Annotated[str, AfterValidator(_unit_of_modulus)] | None = None
     poisson_ratio: float = Field(default=0.5, ge=0.0, le=0.5)
     reference_temperature: Temperature | None = None
     vertical_shift: Literal["none", "free", "density"] = "none"
     shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = "measured"
     shift_factors: Path | None = None
-    fixed_shift_factors: Annotated[dict[float, float], BeforeValidator(_by_kelvin)] = Field(default_factory=dict)
+    fixed_shift_factors: Annotated[dict[float, FiniteFloat], BeforeValidator(_by_kelvin)] = Field(default_factory=dict)
     spectrum: Literal["non-negative", "regularised", "sparse"] = "non-negative"
     modes: int | None = Field(default=None, ge=1, le=200)
     tau_ratio: float = Field(default=math.e, gt=1.0, le=100.0)
 
     @model_validator(mode="after")
-    def _has_one_source(self) -> Self:
+    def _fits_together(self) -> Self:
+        problems = list(self._problems())
+        if problems:
+            raise ValueError("; ".join(problems))
+        return self
+
+    def _problems(self) -> Iterator[str]:
         given = [name for name in SOURCES if getattr(self, name) is not None]
         if not given:
-            raise ValueError(
-                'nothing says where the rubber comes from; give dma = "sweeps.csv" (or file = a material file, '
-                "or catalogue = a name)"
+            yield (
+                'nothing says where the rubber comes from; give dma = "sweeps.csv" (or a master_curve, a file with a '
+                "ready rubber, or a name of the catalogue)"
             )
         if len(given) > 1:
-            raise ValueError(f"{' and '.join(given)} are both given; the rubber comes from one of them")
-        if self.dma is None:
-            useless = [name for name in _HOW if name in self.model_fields_set]
+            yield f"{' and '.join(given)} are both given; the rubber comes from one of them"
+        chosen = self.model_fields_set
+        if given in (["file"], ["catalogue"]):
+            useless = [name for name in _HOW if name in chosen]
             if useless:
-                raise ValueError(f"{' and '.join(useless)} cannot be chosen for a rubber that is ready ({given[0]})")
-        elif self.reference_temperature is None:
-            raise ValueError('reference_temperature is missing; sweeps are shifted to it, e.g. "30 degC"')
+                yield f"{' and '.join(useless)} cannot be chosen for a rubber that is ready ({given[0]})"
+        elif given and self.reference_temperature is None:
+            yield 'reference_temperature is missing; the master curve is for it, e.g. "30 degC"'
+        if given == ["master_curve"]:
+            useless = [name for name in _OF_SWEEPS if name in chosen]
+            if useless:
+                yield f"{' and '.join(useless)} cannot be chosen for a master curve, only for sweeps (dma)"
+            if self.shift != "measured" and self.shift_factors is None:
+                yield "shift is a law fitted to shift factors; give those of the master curve as shift_factors"
         if self.shift_factors is not None and self.fixed_shift_factors:
-            raise ValueError("shift_factors and fixed_shift_factors are both given; the first gives them all")
+            yield "shift_factors and fixed_shift_factors are both given; the first gives them all"
         if self.modes is not None and self.spectrum != "sparse":
-            raise ValueError('modes is for spectrum = "sparse" only')
-        return self
+            yield 'modes is for spectrum = "sparse" only'
 
     def beside(self, folder: Path) -> MaterialTable:
         """Return the table with its paths relative to a folder, and patterns such as ``*.txt`` written out."""
         changes: dict[str, Any] = {}
         if self.dma is not None:
             changes["dma"] = tuple(path for one in self.dma for path in _found(folder, one))
-        for name in ("file", "shift_factors"):
+        for name in ("master_curve", "file", "shift_factors"):
             if (path := getattr(self, name)) is not None:
                 changes[name] = folder / path
         return self.model_copy(update=changes)
@@ -95,7 +130,10 @@ class MaterialTable(Table):
     @property
     def inputs(self) -> tuple[Path, ...]:
         """All files that the rubber comes from."""
-        return (*(self.dma or ()), *(path for path in (self.file, self.shift_factors) if path is not None))
+        return (
+            *(self.dma or ()),
+            *(path for path in (self.master_curve, self.file, self.shift_factors) if path is not None),
+        )
 
 
 def _found(folder: Path, path: Path) -> tuple[Path, ...]:

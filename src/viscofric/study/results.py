@@ -99,7 +99,7 @@ def save_results(tree: xarray.DataTree, folder: Path) -> Path:
 
 
 def input_hashes(inputs: Iterable[Path]) -> str:
-    """Return the SHA-256 of each input file, as JSON keyed by its path as the run file gives it."""
+    """Return the SHA-256 of each input file, as JSON keyed by its path."""
     hashes = {}
     for path in inputs:
         # What is not a plain file is told by its reader.
@@ -111,7 +111,10 @@ def input_hashes(inputs: Iterable[Path]) -> str:
 
 def provenance() -> dict[str, str]:
     """Return what else is needed to repeat a study: versions and time."""
-    software = {"Python": platform.python_version(), **{name: version(name) for name in ("numpy", "scipy", "xarray")}}
+    software = {
+        "Python": platform.python_version(),
+        **{name: version(name) for name in ("numpy", "scipy", "xarray", "python-calamine", "tadatakit")},
+    }
     return {
         "viscofric_version": version("viscofric"),
         "created": datetime.now(UTC).isoformat(timespec="seconds"),

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from viscofric.errors import InputError, StudyError
+from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.readers import deformation_is_told, read_dma
+from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.rheology.cards import open_card
-from viscofric.rheology.catalogue import catalogue_material
+from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_files import read_shift_factors
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.superpose import superpose
 
 if TYPE_CHECKING:
-    from viscofric.data import IsothermalSweeps
+    from viscofric.data import IsothermalSweeps, MasterCurve
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.rheology.superposition.superpose import Superposition
     from viscofric.study.material_table import MaterialTable
 
@@ -30,23 +33,35 @@ class Rubber:
     ----------
     material : Material
         With a shift, about the reference temperature.
+    source : str
+        Where a rubber that was ready came from.
+    synthetic : bool
+        Whether it is one of the catalogue that nobody measured.
     sweeps : IsothermalSweeps, optional
         As read; none for a rubber that was ready.
     fit : Superposition, optional
         Of the sweeps.
+    master_curve : MasterCurve, optional
+        That was given instead of sweeps.
     laws : LawComparison, optional
         The shift laws that were tried on the measured shift factors.
     shift_used : str
         What α(T) of the material is: ``"measured"``, or the name of a law.
+    shift_origin : {"found", "given", "held"}
+        Where the factors of the isotherms come from: the sweeps, a file, or the sweeps but for some that were held.
     notes : tuple of str
         What was doubtful, changed or left out on the way: one sentence each.
     """
 
     material: Material
+    source: str = ""
+    synthetic: bool = False
     sweeps: IsothermalSweeps | None = None
     fit: Superposition | None = None
+    master_curve: MasterCurve | None = None
     laws: LawComparison | None = None
     shift_used: str = ""
+    shift_origin: str = "found"
     notes: tuple[str, ...] = ()
 
     @property
@@ -64,8 +79,8 @@ class Rubber:
         said: dict[str, str | float] = {"poisson_ratio": self.material.poisson_ratio}
         if self.sweeps is not None:
             said |= {"deformation": self.sweeps.deformation, "dma_format": self.sweeps.format}
-        if self.material.name:
-            said["material"] = self.material.name
+        if self.material.name or self.source:
+            said["material"] = " of ".join(part for part in (self.material.name or "a rubber", self.source) if part)
         if self.material.citation:
             said["citation"] = self.material.citation
         if self.material.reference is not None:
@@ -88,19 +103,23 @@ def make_rubber(wanted: MaterialTable) -> Rubber:
     DataFileError, SuperpositionError, InputError
         If a file cannot be used, or the sweeps do not give what is asked for.
     """
-    return _ready(wanted) if wanted.dma is None else _from_sweeps(wanted)
+    if wanted.dma is not None:
+        return _from_sweeps(wanted)
+    return _ready(wanted) if wanted.master_curve is None else _from_master_curve(wanted)
 
 
 def _ready(wanted: MaterialTable) -> Rubber:
     notes: tuple[str, ...] = ()
+    synthetic = False
     if wanted.file is None:
-        material = catalogue_material(str(wanted.catalogue))
+        entry = catalogue_entry(str(wanted.catalogue))
+        material, synthetic, source = catalogue_material(entry.name), entry.kind != "published", "the catalogue"
     else:
         card = open_card(wanted.file)
-        material, notes = card.material, tuple(card.notes)
+        material, notes, source = card.material, tuple(card.notes), f"the file {wanted.file.name}"
     if wanted.reference_temperature is not None:
         material = material.at_reference(wanted.reference_temperature)
-    return Rubber(material, notes=notes)
+    return Rubber(material, notes=notes, source=source, synthetic=synthetic)
 
 
 def _from_sweeps(wanted: MaterialTable) -> Rubber:
@@ -115,18 +134,61 @@ def _from_sweeps(wanted: MaterialTable) -> Rubber:
     if not deformation_is_told(sweeps):
         raise StudyError(
             f"{name}: does not say whether it was measured in tension or in shear, a factor of 3 in the modulus; "
-            'write deformation = "tension" or "shear" below [material].'
+            'say it: deformation = "tension" or "shear" below [material] of a run file, --deformation in the shell.'
         )
     try:
         fit = _superposed(wanted, sweeps)
-        shift, laws, used = _shift(wanted.shift, fit)
+        shift, laws, used = _law_or_table(wanted.shift, fit.shift_factors)
+    except DataFileError:
+        raise  # names its own file
     except InputError as error:
         raise type(error)(f"{name}: {error}") from error
-    spectrum = fit_retardation_spectrum(
-        fit.master_curve, tau_ratio=wanted.tau_ratio, method=wanted.spectrum, modes=wanted.modes
+    material = Material(
+        _spectrum(wanted, fit.master_curve, _verdict(fit)),
+        shift=shift,
+        poisson_ratio=wanted.poisson_ratio,
+        name=wanted.name,
+        vertical_shift=fit.vertical_shift,
     )
-    material = Material(spectrum, shift=shift, poisson_ratio=wanted.poisson_ratio, vertical_shift=fit.vertical_shift)
-    return Rubber(material, sweeps, fit, laws, used, fit.notes)
+    origin = "given" if wanted.shift_factors else "held" if wanted.fixed_shift_factors else "found"
+    return Rubber(material, sweeps=sweeps, fit=fit, laws=laws, shift_used=used, shift_origin=origin, notes=fit.notes)
+
+
+def _from_master_curve(wanted: MaterialTable) -> Rubber:
+    """Take a curve that others superposed; α(T) is what they found, if it is given."""
+    path, reference = wanted.master_curve, wanted.reference_temperature
+    if path is None or reference is None:
+        raise StudyError("material.reference_temperature: is missing.")
+    curve = read_master_curve(
+        path,
+        reference,
+        deformation=wanted.deformation,
+        poisson_ratio=wanted.poisson_ratio,
+        modulus_unit=wanted.modulus_unit,
+    )
+    shift: ShiftLaw | None = None
+    if wanted.shift_factors is not None:
+        factors = read_shift_factors(wanted.shift_factors, reference)
+        shift, laws, used = _law_or_table(wanted.shift, factors)
+    else:
+        laws, used = None, ""
+    spectrum = _spectrum(wanted, curve, ())
+    material = Material(spectrum, shift=shift, poisson_ratio=wanted.poisson_ratio, name=wanted.name)
+    return Rubber(material, master_curve=curve, laws=laws, shift_used=used)
+
+
+def _spectrum(wanted: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...]) -> RetardationSpectrum:
+    """Fit the spectrum; what is wrong with its master curve goes with it, into its file and to whoever uses it."""
+    spectrum = fit_retardation_spectrum(curve, tau_ratio=wanted.tau_ratio, method=wanted.spectrum, modes=wanted.modes)
+    if spectrum.fit is None or not verdict:
+        return spectrum
+    return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes)))
+
+
+def _verdict(fit: Superposition) -> tuple[str, ...]:
+    check = fit.check
+    failed = [] if check.holds else [check.sentences[0]]
+    return tuple(failed if check.consistent else [*failed, check.sentences[-1]])
 
 
 def _superposed(wanted: MaterialTable, sweeps: IsothermalSweeps) -> Superposition:
@@ -144,9 +206,8 @@ def _superposed(wanted: MaterialTable, sweeps: IsothermalSweeps) -> Superpositio
     )
 
 
-def _shift(wanted: str, fit: Superposition) -> tuple[ShiftLaw, LawComparison | None, str]:
+def _law_or_table(wanted: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:
     """Return α(T) as wanted, the laws that were tried, and what was taken."""
-    factors = fit.shift_factors
     try:
         laws = factors.compare_laws()
     except InputError:  # no law describes the factors

@@ -30,7 +30,7 @@ from viscofric.study.labels import dataset
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.data import IsothermalSweeps
+    from viscofric.data import IsothermalSweeps, MasterCurve
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.superposition.superpose import Superposition
@@ -54,12 +54,14 @@ def rubber_data(rubber: Rubber, samples: MaterialSamples | None = None) -> dict[
         groups["/isotherms"] = isotherms
         groups["/shift_factors"] = _shift_factors(rubber, rubber.fit, isotherms)
         groups["/superposition"] = _superposition(rubber.fit)
-        groups["/master_curve"] = _master_curve(rubber.fit, rubber.material)
-        if rubber.laws is not None:
-            groups["/laws"] = _laws(rubber.laws)
-        law = _shift_law(rubber, rubber.fit)
-        if law is not None:
-            groups["/shift_law"] = law
+    curve = rubber.fit.master_curve if rubber.fit is not None else rubber.master_curve
+    if curve is not None:
+        groups["/master_curve"] = _master_curve(curve, rubber.material)
+    if rubber.laws is not None:
+        groups["/laws"] = _laws(rubber.laws)
+    law = _shift_law(rubber)
+    if law is not None:
+        groups["/shift_law"] = law
     return groups | _spectrum(rubber.material, samples)
 
 
@@ -81,11 +83,14 @@ def _shift_factors(rubber: Rubber, fit: Superposition, isotherms: xarray.Dataset
     attributes: dict[str, Any] = {
         "reference_temperature": factors.reference,
         "shift_used": rubber.shift_used,
+        "shift_origin": rubber.shift_origin,
         "isotherms_given": len(given),
         "isotherms_used": len(factors.temperatures),
         "temperatures_given": json.dumps(given.tolist()),
         "overlap_rms_log10_storage": fit.quality.storage,
         "overlap_rms_log10_loss": fit.quality.loss,
+        "neighbours": fit.quality.neighbours,
+        "neighbours_without_overlap": fit.quality.without_overlap,
     }
     columns = {
         "temperature": factors.temperatures,
@@ -101,28 +106,26 @@ def _shift_factors(rubber: Rubber, fit: Superposition, isotherms: xarray.Dataset
     return dataset("temperature", columns, "temperature", **attributes)
 
 
-def _shift_law(rubber: Rubber, fit: Superposition) -> xarray.Dataset | None:
-    """Label the law that is used, or else the best one, over the temperatures that were joined."""
+def _shift_law(rubber: Rubber) -> xarray.Dataset | None:
+    """Label α(T) as a law: the one that is used, or else the best one, over the temperatures that it was fitted on."""
     law = rubber.law
     if law is None:
         return None
-    law = law.unbounded() if law.kind != "polynomial" else law
-    kelvin = np.linspace(fit.shift_factors.temperatures[0], fit.shift_factors.temperatures[-1], 201)
-    residual = fit.shift_factors.log10_values - law.log10(fit.shift_factors.temperatures)
-    attributes: dict[str, Any] = {
-        "law": law.title,
-        "rms": float(np.sqrt(np.mean(residual**2))),
-        "constants": json.dumps(plain(law)),
-    }
+    fit, ends = rubber.fit, law.fitted_range or (law.reference - 50.0, law.reference + 50.0)
+    attributes: dict[str, Any] = {"law": law.title, "constants": json.dumps(plain(law)), "told": str(law)}
+    if fit is not None:
+        law = law if law.kind == "polynomial" else law.unbounded()
+        ends = float(fit.shift_factors.temperatures[0]), float(fit.shift_factors.temperatures[-1])
+        residual = fit.shift_factors.log10_values - law.log10(fit.shift_factors.temperatures)
+        attributes["rms"] = float(np.sqrt(np.mean(residual**2)))
     if isinstance(law, WLF):
         attributes |= {"wlf_C1": law.C1, "wlf_C2": law.C2}
         if law.standard_errors is not None:
             attributes |= {"wlf_C1_error": law.standard_errors[0], "wlf_C2_error": law.standard_errors[1]}
-    columns = {
-        "temperature": kelvin,
-        "log10_shift_factor": law.log10(kelvin),
-        "standard_error": law.standard_error(kelvin),
-    }
+    kelvin = np.linspace(max(ends[0], law.extrapolation_limits[0] + 1.0), ends[1], 201)
+    columns = {"temperature": kelvin, "log10_shift_factor": law.log10(kelvin)}
+    if law.standard_errors is not None:
+        columns["standard_error"] = law.standard_error(kelvin)
     return dataset("temperature", columns, "temperature", **attributes)
 
 
@@ -145,19 +148,23 @@ def _laws(laws: LawComparison) -> xarray.Dataset:
 
 
 def _superposition(fit: Superposition) -> xarray.Dataset:
-    """Label whether superposition holds; the numbers are attributes."""
+    """Label whether superposition holds, and whether E' and E'' belong to each other; the verdicts are attributes."""
     check = fit.check
+    *holding, causality = check.sentences
     return dataset(
         "isotherm",
         {"temperature": fit.shift_factors.temperatures},
         holds=int(check.holds),
+        roughly=int(check.roughly),
         figure_of_merit=check.figure_of_merit,
-        sentences=json.dumps(list(check.sentences), ensure_ascii=False),
+        sentences=json.dumps(holding, ensure_ascii=False),
+        consistent=int(check.consistent),
+        causality=causality,
     )
 
 
-def _master_curve(fit: Superposition, material: Material) -> xarray.Dataset:
-    curve, spectrum = fit.master_curve, material.spectrum
+def _master_curve(curve: MasterCurve, material: Material) -> xarray.Dataset:
+    spectrum = material.spectrum
     fitted = spectrum.complex_modulus(curve.angular_frequency)
     quality = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
     if quality is None:
@@ -186,8 +193,9 @@ def _spectrum(material: Material, samples: MaterialSamples | None) -> dict[str, 
     attributes: dict[str, Any] = {"E0": spectrum.E0, "E_inf": spectrum.E_inf}
     if quality is not None:
         attributes |= {
-            "E0_extrapolated": int(quality.E0_extrapolated),
-            "E_inf_extrapolated": int(quality.E_inf_extrapolated),
+            "E0_remark": quality.E0_remark,
+            "E_inf_remark": quality.E_inf_remark,
+            "E_inf_at_limit": int(quality.E_inf_at_limit),
             "statements": json.dumps(list(quality.notes), ensure_ascii=False),
         }
     wide = _wide(spectrum)

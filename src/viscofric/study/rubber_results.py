@@ -15,8 +15,6 @@ from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.tables import write_master_curve, write_spectrum
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from viscofric.rheology.material import Material
     from viscofric.study.material_table import MaterialTable
     from viscofric.study.rubber import Rubber
@@ -42,6 +40,7 @@ def run_material(
     title: str = "Rubber",
     command: str = "",
     samples: int = 200,
+    synthetic: bool = False,
 ) -> tuple[StudyResults, Rubber, list[Path]]:
     """Make a rubber and store it: results, material file and tables.
 
@@ -57,6 +56,8 @@ def run_material(
         What the user called, for the report.
     samples : int
         Draws of the rubber for the bands of E(ω); 0 for none.
+    synthetic : bool
+        Whether the data were made, not measured.
 
     Returns
     -------
@@ -83,9 +84,9 @@ def run_material(
     tree = xarray.DataTree.from_dict(rubber_data(rubber, draws))
     tree.attrs = {
         "title": title,
-        "data_origin": "measured",
+        "data_origin": "synthetic" if synthetic else "measured",
         "command": command,
-        "notes": json.dumps(list(rubber.notes), ensure_ascii=False),
+        "notes": json.dumps([*rubber.notes, *(draws.notes if draws is not None else ())], ensure_ascii=False),
         "warnings": "[]",
         "failures": "[]",
         **rubber.attributes,
@@ -103,23 +104,23 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
     if rubber.fit is not None:
         rubber.fit.shift_factors.save(folder / "shift_factors.csv")
         written.append(folder / "shift_factors.csv")
-        written.append(write_master_curve(rubber.fit.master_curve, folder / "master_curve.csv"))
+    curve = rubber.master_curve if rubber.fit is None else rubber.fit.master_curve
+    if curve is not None:
+        written.append(write_master_curve(curve, folder / "master_curve.csv"))
     if isinstance(material.spectrum, RetardationSpectrum):
         written.append(write_spectrum(material.spectrum, folder / "spectrum.csv"))
     return written
 
 
-def write_cards(material: Material, folder: Path, formats: Sequence[CardFormat]) -> list[Path]:
-    """Write a rubber for several programs into a folder, each file named after the program.
+def write_program_card(material: Material, folder: Path, form: CardFormat) -> Path:
+    """Write a rubber for a program into a folder, in a file named after the program.
 
     Raises
     ------
     InputError
-        If a format cannot hold the rubber.
+        If the format cannot hold the rubber.
     DataFileError
-        If a file cannot be written.
+        If the file cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    return [
-        write_card(material, folder / f"rubber_{form.replace('-', '_')}{CARDS[form]}", format=form) for form in formats
-    ]
+    return write_card(material, folder / f"rubber_{form.replace('-', '_')}{CARDS[form]}", format=form)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.files import write_atomically
-from viscofric.units import celsius
+from viscofric.units import CELSIUS_ZERO, celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def write_sweeps(sweeps: IsothermalSweeps, path: str | Path) -> Path:
-    """Write the points of sweeps as a table that `read_dma` reads.
+    """Write the points of sweeps as a table that `read_dma` reads; strain amplitudes are not in it.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def write_sweeps(sweeps: IsothermalSweeps, path: str | Path) -> Path:
 def write_master_curve(curve: MasterCurve, path: str | Path) -> Path:
     """Write a master curve: reduced angular frequency, tensile moduli, and the isotherm each point comes from."""
     headings = ["reduced angular frequency (rad/s)", "E' (Pa)", "E'' (Pa)", "isotherm (degC)"]
-    columns = (curve.angular_frequency, curve.storage_modulus, curve.loss_modulus, curve.temperature - 273.15)
+    columns = (curve.angular_frequency, curve.storage_modulus, curve.loss_modulus, curve.temperature - CELSIUS_ZERO)
     remark = f"reference temperature {celsius(curve.reference):z.6g} degC"
     return _write(path, headings, np.column_stack(columns), remark)
 

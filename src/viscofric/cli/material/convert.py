@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import refuse_to_overwrite, told
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat
@@ -22,15 +22,32 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
 @click.option(
     "--poisson-ratio", type=float, help="For the card instead of the rubber's own: ANSYS and LS-DYNA cannot take 0.5."
 )
+@click.option(
+    "--unit-system",
+    type=click.Choice(["Pa", "MPa"]),
+    default="Pa",
+    show_default=True,
+    help="Of Abaqus, ANSYS and LS-DYNA cards; MPa goes with mm, s and tonne.",
+)
 @click.option("--density", metavar="RHO", help="Such as '1100 kg/m^3'; LS-DYNA needs it.")
-def command(rubber: str, output: Path, form: CardFormat, poisson_ratio: float | None, density: str | None) -> None:
+def command(
+    rubber: str,
+    output: Path,
+    form: CardFormat,
+    poisson_ratio: float | None,
+    unit_system: Literal["Pa", "MPa"],
+    density: str | None,
+) -> None:
     """Write RUBBER as a material card of another program into the file OUTPUT.
 
     RUBBER is a material file (JSON, CSV, or a card of any of these programs), or a name of the catalogue.
     """
-    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.cli.material.rubbers import find_rubber, tell_of_card
     from viscofric.rheology import write_card
 
+    refuse_to_overwrite(output, [Path(rubber)])
     with told():
-        write_card(find_rubber(rubber), output, format=form, poisson_ratio=poisson_ratio, density=density)
+        material = find_rubber(rubber)
+        write_card(material, output, format=form, poisson_ratio=poisson_ratio, density=density, unit_system=unit_system)
     click.echo(f"card     {output}")
+    tell_of_card(material, form)

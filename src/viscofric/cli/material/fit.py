@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import tell_doubts, told
 from viscofric.cli.material.convert import FORMATS
 from viscofric.cli.material.options import reading_options
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat
+    from viscofric.rheology.material import Material
+    from viscofric.study.material_table import MaterialTable
     from viscofric.study.results import StudyResults
 
 _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
@@ -24,6 +26,9 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("--reference", metavar="T", required=True, help="Temperature of the master curve, such as '20 degC'.")
 @reading_options
+@click.option("--name", default="", help="Of the rubber, for reports and cards.")
+@click.option("--master-curve", is_flag=True, help="FILES is one finished master curve, for the reference temperature.")
+@click.option("--synthetic", is_flag=True, help="The data were made, not measured; figures and report then say so.")
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="0 to 0.5.")
 @click.option(
     "--vertical-shift",
@@ -63,7 +68,12 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
     help="Folder for the results [default: FILE.material beside the first file].",
 )
 def command(
-    files: tuple[Path, ...], output: Path | None, cards: tuple[CardFormat, ...], samples: int, **asked: Any
+    files: tuple[Path, ...],
+    output: Path | None,
+    cards: tuple[CardFormat, ...],
+    samples: int,
+    synthetic: bool,
+    **asked: Any,
 ) -> None:
     """Make a rubber of DMA FILES: shift factors, master curve, spectrum, figures and a report.
 
@@ -71,48 +81,68 @@ def command(
     """
     if samples < 0:
         raise click.BadParameter("must not be below zero.", param_hint="--samples")
+    if asked["master_curve"] and len(files) > 1:
+        raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
     with told():
         from viscofric.report import draw_figures, write_report
-        from viscofric.study.rubber_results import run_material, write_cards
+        from viscofric.study.rubber_results import run_material
 
         folder = files[0].with_suffix(".material") if output is None else output
         results, rubber, written = run_material(
             _table(files, asked),
             folder,
-            title=f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if len(files) > 1 else ""),
-            command=_command(files, output, cards, samples, asked),
+            title=asked["name"] or f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if files[1:] else ""),
+            command=_command(
+                files, {**asked, "card": cards, "samples": samples, "output": output, "synthetic": synthetic}
+            ),
             samples=samples,
+            synthetic=synthetic,
         )
         figures = draw_figures(results.tree, results.folder / "figures")
         report = write_report(results.tree, results.folder)
-        _tell(results)
-        for path in written:
-            click.echo(f"file     {path}")
-        for path in figures:
-            click.echo(f"figure   {path}")
-        click.echo(f"report   {report}")
-        # last, since a program may not be able to hold the rubber
-        for path in write_cards(rubber.material, folder / "cards", cards):
-            click.echo(f"card     {path}")
-    if cards and rubber.shift_used == "measured":
-        click.echo(
-            "Note: other programs take a shift law but no table of factors, so that their cards hold at the reference "
-            "temperature only; --shift best gives them a law.",
-            err=True,
-        )
+    _tell(results)
+    for path in written:
+        click.echo(f"file     {path}")
+    for path in figures:
+        click.echo(f"figure   {path}")
+    click.echo(f"report   {report}")
+    failed = [form for form in cards if not _write_card(rubber.material, folder, form)]
+    if failed:
+        raise click.exceptions.Exit(1)
 
 
-def _table(files: tuple[Path, ...], asked: dict[str, Any]) -> Any:
+def _write_card(material: Material, folder: Path, form: CardFormat) -> bool:
+    """Write one card and say so; a program that cannot hold the rubber keeps no other from it."""
+    from viscofric.cli.material.rubbers import tell_of_card
+    from viscofric.errors import ViscofricError
+    from viscofric.study.rubber_results import write_program_card
+
+    try:
+        click.echo(f"card     {write_program_card(material, folder / 'cards', form)}")
+    except ViscofricError as error:
+        click.echo(f"Error: no card for {form}: {error} (viscofric material convert has the options.)", err=True)
+        return False
+    tell_of_card(material, form)
+    return True
+
+
+def _table(files: tuple[Path, ...], asked: dict[str, Any]) -> MaterialTable:
     """Check what was asked for as a run file's [material] is checked."""
     from viscofric.study.run_file import material_of
 
-    values: dict[str, Any] = {
-        "dma": [str(path) for path in files],
-        "reference_temperature": asked["reference"],
-        "fixed_shift_factors": dict(_fixed(text) for text in asked["fix"]),
-    }
+    values: dict[str, Any] = {"reference_temperature": asked["reference"]}
+    if asked["master_curve"]:
+        values["master_curve"] = str(files[0])
+    else:
+        values["dma"] = [str(path) for path in files]
+    if asked["fix"]:
+        pairs = [_fixed(text) for text in asked["fix"]]
+        values["fixed_shift_factors"] = dict(pairs)
+        if len(values["fixed_shift_factors"]) < len(pairs):
+            raise click.BadParameter("holds one temperature twice.", param_hint="--fix")
+    defaults = {option.name: option.default for option in command.params}
     for name, value in asked.items():
-        if name not in ("reference", "fix") and value not in (None, ()):
+        if name not in ("reference", "fix", "master_curve") and value not in (None, (), defaults.get(name)):
             values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
     return material_of(values)
 
@@ -127,31 +157,33 @@ def _fixed(text: str) -> tuple[str, float]:
         ) from None
 
 
-def _command(
-    files: tuple[Path, ...], output: Path | None, cards: tuple[str, ...], samples: int, asked: dict[str, Any]
-) -> str:
+def _command(files: tuple[Path, ...], asked: dict[str, Any]) -> str:
     """Return the command that does the same again, without what is the default anyway."""
     defaults = {option.name: option.default for option in command.params}
     words = ["viscofric", "material", "fit", *map(str, files)]
-    for name, value in {**asked, "card": cards, "samples": samples, "output": output}.items():
-        if value in (None, (), defaults.get(name)):
+    for name, value in asked.items():
+        if value in (None, (), False, defaults.get(name)):
+            continue
+        option = f"--{name.replace('_', '-')}"
+        if value is True:
+            words.append(option)
             continue
         for one in value if isinstance(value, tuple) else (value,):
-            words += [f"--{name.replace('_', '-')}", str(one)]
+            words += [option, str(one)]
     return shlex.join(words)
 
 
 def _tell(results: StudyResults) -> None:
     """Print the key numbers, and what was doubtful."""
     from viscofric.report.messages import readable
-    from viscofric.report.results import group, sentences
+    from viscofric.report.results import group, number, sentences
     from viscofric.report.words import key_numbers
 
     for note in results.notes:
         click.echo(f"Note: {readable(note)}", err=True)
     whole = group(results.tree, "superposition")
-    if whole is not None:
-        for sentence in sentences(whole.attrs, "sentences"):
-            click.echo(readable(sentence))
+    if whole is not None and number(whole.attrs, "holds") == 1.0:
+        click.echo(readable(sentences(whole.attrs, "sentences")[0]))
+    tell_doubts(results.tree)
     for item in key_numbers(results.tree):
         click.echo(f"{item.name}: {item.value}" + (f" ({item.remark})" if item.remark else ""))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import refuse_to_overwrite, told
 from viscofric.cli.material.options import reading_options
 
 if TYPE_CHECKING:
@@ -37,6 +37,8 @@ def command(
     """
     from viscofric.readers import read_dma
 
+    if table is not None:
+        refuse_to_overwrite(table, files)
     with told():
         sweeps = read_dma(*files, deformation=deformation, temperature=temperature or None, modulus_unit=modulus_unit)
         click.echo(f"{sweeps.format}; moduli in {sweeps.deformation}; {len(sweeps)} isotherms")

@@ -1,0 +1,103 @@
+"""The rubber of a run file: whatever it is made from, and what is wrong with it goes with it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import DataFileError, InputError
+from viscofric.study.rubber import make_rubber
+from viscofric.study.rubber_labels import rubber_data
+from viscofric.study.run_file import material_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+REFERENCE = {"reference_temperature": "30 degC"}
+
+
+@pytest.fixture(scope="module")
+def sweeps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write sweeps of a standard linear solid with a WLF shift, free of noise; return the file."""
+    path = tmp_path_factory.mktemp("sweeps") / "dma.csv"
+    rubber = vf.Material(
+        vf.Material.standard_linear_solid("2 MPa", "200 MPa", "1 ms").spectrum, vf.WLF(8.0, 120.0, "30 degC")
+    )
+    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
+    for celsius in range(-10, 61, 5):
+        for hertz in np.geomspace(0.1, 100.0, 13):
+            modulus = complex(rubber.complex_modulus(2 * np.pi * hertz, celsius + 273.15)) / 1e6
+            rows.append(f"{celsius},{hertz:.12g},{modulus.real:.12g},{modulus.imag:.12g}")
+    path.write_text("\n".join(rows), encoding="utf-8")
+    return path
+
+
+def rubber(**asked: Any) -> Any:
+    return make_rubber(material_of(asked))
+
+
+def test_given_factors_are_used_as_they_are(sweeps: Path, tmp_path: Path) -> None:
+    law = vf.WLF(8.0, 120.0, "30 degC")
+    kelvin = np.arange(-10.0, 61.0, 5.0) + 273.15
+    vf.ShiftFactors(kelvin, law.log10(kelvin), 303.15).save(tmp_path / "alpha.csv")
+    made = rubber(dma=str(sweeps), shift_factors=str(tmp_path / "alpha.csv"), **REFERENCE)
+    assert made.shift_origin == "given"
+    np.testing.assert_allclose(made.fit.shift_factors.log10_values, law.log10(kelvin), atol=1e-12)
+    # The curves of one solid, shifted by the truth, join to what linear interpolation between points misses.
+    assert made.fit.quality.joint < 0.01
+
+
+def test_a_held_factor_is_held(sweeps: Path) -> None:
+    made = rubber(dma=str(sweeps), fixed_shift_factors={"0 degC": 2.5}, **REFERENCE)
+    assert made.shift_origin == "held"
+    assert made.fit.shift_factors.log10("0 degC") == pytest.approx(2.5, abs=1e-9)
+
+
+def test_the_best_law_is_the_one_that_was_planted(sweeps: Path) -> None:
+    made = rubber(dma=str(sweeps), shift="best", **REFERENCE)
+    assert made.shift_used == "wlf"
+    assert isinstance(made.material.shift, vf.WLF)
+
+
+def test_a_file_that_is_missing_is_named_once(sweeps: Path) -> None:
+    with pytest.raises(DataFileError, match=r"^no such\.csv: no such file"):
+        rubber(dma=str(sweeps), shift_factors="no such.csv", **REFERENCE)
+
+
+def test_a_catalogue_rubber_says_where_it_comes_from() -> None:
+    made = rubber(catalogue="pvb interlayer")
+    assert "of the catalogue" in str(made.attributes["material"])
+    assert "1999" in str(made.attributes["citation"])
+    assert not made.synthetic
+    assert rubber(catalogue="synthetic fluoroelastomer").synthetic
+    # What a ready rubber has, its results show: spectrum and shift law, and no sweeps.
+    assert set(rubber_data(made)) == {"/spectrum", "/spectrum_curve", "/shift_law"}
+
+
+def test_a_ready_rubber_can_have_another_reference() -> None:
+    before, after = rubber(catalogue="PVB interlayer"), rubber(catalogue="PVB interlayer", **REFERENCE)
+    assert after.material.reference == pytest.approx(303.15)
+    for kelvin in (283.15, 323.15):
+        # The same solid, described about another temperature.
+        assert complex(after.material.complex_modulus(1.0, kelvin)) == pytest.approx(
+            complex(before.material.complex_modulus(1.0, kelvin)), rel=1e-12
+        )
+
+
+def test_two_names_of_one_temperature_are_told() -> None:
+    with pytest.raises(InputError, match="one temperature is given twice"):
+        material_of({"dma": "a.csv", "fixed_shift_factors": {"0 degC": 1.0, "273.15 K": 2.0}, **REFERENCE})
+
+
+def test_failed_superposition_goes_with_the_rubber(real_data: Path, tmp_path: Path) -> None:
+    eva = real_data / "dma" / "eva_shear.csv"
+    made = rubber(dma=str(eva), deformation="shear", reference_temperature="25 degC")
+    vf.write_card(made.material, tmp_path / "rubber.json", format="json")
+    again = rubber(file=str(tmp_path / "rubber.json"))
+    spectrum = again.material.spectrum
+    assert isinstance(spectrum, vf.RetardationSpectrum)
+    assert spectrum.fit is not None
+    assert any("superposition does not hold" in note.lower() for note in spectrum.fit.notes)
