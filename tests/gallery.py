@@ -1,6 +1,6 @@
 """Model problems of contact mechanics with known answers, shared by tests, benchmarks and docs.
 
-Each problem is a ball sliding over a viscoelastic half-space, stated in ordinary units (1 MPa, 10 mm,
+Each problem is a ball or a cylinder sliding over a viscoelastic half-space, stated in ordinary units (1 MPa, 10 mm,
 0.1 m/s) but described by two or three pure numbers.  Lengths are counted in the Hertz radius a0, depths in a0²/R,
 friction in a0/R and pressures in p0, all of the elastic contact at E0 under the same load.
 """
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.indenters import Ball
+from viscofric.contact.indenters import Ball, Cylinder
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material
@@ -271,6 +271,47 @@ BALL_REFERENCES: tuple[BallReference, ...] = (
         (5.3697086, 5.5e-05),
     ),
 )
+
+
+CYLINDER_LOAD = np.pi * RUBBER_MODULUS * HERTZ_RADIUS**2 / (4.0 * BALL_RADIUS * (1.0 - POISSON_RATIO**2))  # N/m
+
+
+@dataclass(frozen=True)
+class CylinderProblem:
+    """A cylinder on a half-space in steady motion, its Hertz half-width at E0 being `HERTZ_RADIUS`.
+
+    Attributes
+    ----------
+    name : str
+    material : Material
+    cylinder : Cylinder
+    speed, load : float
+        m/s and N/m.
+    """
+
+    name: str
+    material: Material
+    cylinder: Cylinder
+    speed: float
+    load: float
+
+    def solve(self, **settings: float) -> ContactSolution:
+        """Solve with `solve_steady`, `settings` being its accuracy, tolerance and finest grid."""
+        return solve_steady(self.material, self.cylinder, speed=self.speed, load=self.load, **settings)  # type: ignore[arg-type]
+
+
+def cylinder_problem(
+    name: str, modulus_ratio: float, shares: Sequence[float], memory_lengths: Sequence[float]
+) -> CylinderProblem:
+    """Return a cylinder problem from pure numbers, as `ball_problem` does."""
+    ball = ball_problem(name, modulus_ratio, shares, memory_lengths)
+    return CylinderProblem(name, ball.material, Cylinder(radius=BALL_RADIUS), SPEED, CYLINDER_LOAD)
+
+
+def cylinder_on_standard_linear_solid(modulus_ratio: float, memory_length: float) -> CylinderProblem:
+    """Return a cylinder on a material with one retardation time: k = E∞/E0 and vτ/a0."""
+    name = f"cylinder, one retardation time, k = {modulus_ratio:g}, vτ/a0 = {memory_length:g}"
+    return cylinder_problem(name, modulus_ratio, [1.0], [memory_length])
 
 
 def low_speed_friction(problem: BallProblem, speed: float | None = None) -> float:

@@ -9,7 +9,20 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from viscofric.contact.fields import highest_von_mises as highest_von_mises
+    from viscofric.contact.fields import line_stress as line_stress
+    from viscofric.contact.fields import stress_at as stress_at
+    from viscofric.contact.fields import stress_layer as stress_layer
+    from viscofric.contact.fields import stress_plane as stress_plane
+    from viscofric.contact.fields import surface_displacement as surface_displacement
+    from viscofric.contact.fields import surface_power as surface_power
+    from viscofric.contact.height_map import HeightMap as HeightMap
+    from viscofric.contact.height_map import Profile as Profile
     from viscofric.contact.indenters import Ball as Ball
+    from viscofric.contact.indenters import Cylinder as Cylinder
+    from viscofric.contact.shapes import Cone as Cone
+    from viscofric.contact.shapes import Ellipsoid as Ellipsoid
+    from viscofric.contact.shapes import FlatPunch as FlatPunch
     from viscofric.contact.solution import ContactSolution as ContactSolution
     from viscofric.contact.solution import Diagnostics as Diagnostics
     from viscofric.contact.steady import solve_steady as solve_steady
@@ -47,6 +60,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.laws import WLF as WLF
     from viscofric.rheology.shifts.laws import Arrhenius as Arrhenius
     from viscofric.rheology.shifts.laws import InversePolynomial as InversePolynomial
+    from viscofric.rheology.shifts.laws import ShiftLaw as ShiftLaw
     from viscofric.rheology.shifts.laws import WLFArrhenius as WLFArrhenius
     from viscofric.rheology.shifts.shift_factors import ShiftFactors as ShiftFactors
     from viscofric.rheology.shifts.shift_files import read_shift_factors as read_shift_factors
@@ -76,7 +90,20 @@ __version__: str
 
 # public name -> the module that defines it
 _HOME = {
+    "highest_von_mises": "viscofric.contact.fields",
+    "line_stress": "viscofric.contact.fields",
+    "stress_at": "viscofric.contact.fields",
+    "stress_layer": "viscofric.contact.fields",
+    "stress_plane": "viscofric.contact.fields",
+    "surface_displacement": "viscofric.contact.fields",
+    "surface_power": "viscofric.contact.fields",
+    "HeightMap": "viscofric.contact.height_map",
+    "Profile": "viscofric.contact.height_map",
     "Ball": "viscofric.contact.indenters",
+    "Cylinder": "viscofric.contact.indenters",
+    "Cone": "viscofric.contact.shapes",
+    "Ellipsoid": "viscofric.contact.shapes",
+    "FlatPunch": "viscofric.contact.shapes",
     "ContactSolution": "viscofric.contact.solution",
     "Diagnostics": "viscofric.contact.solution",
     "solve_steady": "viscofric.contact.steady",
@@ -108,31 +135,32 @@ _HOME = {
     "catalogue_material": "viscofric.rheology.catalogue",
     "CatalogueEntry": "viscofric.rheology.catalogue",
     "synthetic_fluoroelastomer": "viscofric.rheology.catalogue",
-    "check_superposition": "viscofric.rheology.superposition.consistency",
-    "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
-    "LawComparison": "viscofric.rheology.shifts.law_comparison",
     "Material": "viscofric.rheology.material",
-    "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
-    "ModulusTable": "viscofric.rheology.spectra.modulus_table",
-    "OverlapQuality": "viscofric.rheology.superposition.overlap",
-    "RelaxationSpectrum": "viscofric.rheology.spectra.relaxation",
-    "ShiftFactors": "viscofric.rheology.shifts.shift_factors",
-    "read_shift_factors": "viscofric.rheology.shifts.shift_files",
-    "read_vendor_law": "viscofric.rheology.shifts.shift_files",
+    "LawComparison": "viscofric.rheology.shifts.law_comparison",
     "Arrhenius": "viscofric.rheology.shifts.laws",
     "InversePolynomial": "viscofric.rheology.shifts.laws",
+    "ShiftLaw": "viscofric.rheology.shifts.laws",
     "VFT": "viscofric.rheology.shifts.laws",
     "WLF": "viscofric.rheology.shifts.laws",
     "WLFArrhenius": "viscofric.rheology.shifts.laws",
-    "RetardationSpectrum": "viscofric.rheology.spectra.retardation",
-    "SpectrumFit": "viscofric.rheology.spectra.retardation",
-    "fit_retardation_spectrum": "viscofric.rheology.spectra.spectrum_fit",
-    "superpose": "viscofric.rheology.superposition.superpose",
-    "Superposition": "viscofric.rheology.superposition.superpose",
-    "sample_materials": "viscofric.rheology.uncertainty.sampling",
+    "ShiftFactors": "viscofric.rheology.shifts.shift_factors",
+    "read_shift_factors": "viscofric.rheology.shifts.shift_files",
+    "read_vendor_law": "viscofric.rheology.shifts.shift_files",
     "DensityShift": "viscofric.rheology.shifts.vertical_shift",
     "VerticalShift": "viscofric.rheology.shifts.vertical_shift",
     "VerticalShiftFactors": "viscofric.rheology.shifts.vertical_shift",
+    "ModulusTable": "viscofric.rheology.spectra.modulus_table",
+    "RelaxationSpectrum": "viscofric.rheology.spectra.relaxation",
+    "RetardationSpectrum": "viscofric.rheology.spectra.retardation",
+    "SpectrumFit": "viscofric.rheology.spectra.retardation",
+    "fit_retardation_spectrum": "viscofric.rheology.spectra.spectrum_fit",
+    "check_superposition": "viscofric.rheology.superposition.consistency",
+    "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
+    "OverlapQuality": "viscofric.rheology.superposition.overlap",
+    "superpose": "viscofric.rheology.superposition.superpose",
+    "Superposition": "viscofric.rheology.superposition.superpose",
+    "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
+    "sample_materials": "viscofric.rheology.uncertainty.sampling",
     "load_study": "viscofric.study",
     "open_results": "viscofric.study",
     "run_study": "viscofric.study",

@@ -78,6 +78,68 @@ def test_answer_does_not_depend_on_the_guess() -> None:
     np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-6 * one.max())
 
 
+@pytest.mark.parametrize("name", ["elastic", "one mode", "six modes"])
+def test_given_indentation_and_given_load_meet(name: str) -> None:
+    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    operator = HalfSpaceOperator(window, MATERIALS[name])
+    loaded = solve_complementarity(operator, height, 100.0, np.ones(window.shape), tolerance=1e-11)
+    indented = solve_complementarity(
+        operator, height, None, np.zeros(window.shape), indentation=loaded.indentation, tolerance=1e-11
+    )
+    assert indented.converged
+    assert indented.load == 0.0
+    # Both residuals, times the condition of the finest grid wave (see above).
+    np.testing.assert_allclose(indented.pressure, loaded.pressure, rtol=0.0, atol=1e-8 * loaded.pressure.max())
+    assert indented.pressure.sum() == pytest.approx(100.0, rel=1e-8)
+
+
+def test_too_little_indentation_leaves_no_contact() -> None:
+    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    height = 1.0 + 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    operator = HalfSpaceOperator(window, MATERIALS["one mode"])
+    solution = solve_complementarity(operator, height, None, np.zeros(window.shape), indentation=0.9)
+    assert solution.converged
+    assert not solution.pressure.any()
+
+
+def test_way_of_tightening_and_stored_directions_leave_the_answer() -> None:
+    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    operator = HalfSpaceOperator(window, MATERIALS["six modes"])
+    one = solve_complementarity(operator, height, 100.0, np.ones(window.shape), tolerance=1e-10)
+    other = solve_complementarity(
+        operator, height, 100.0, np.ones(window.shape), tolerance=1e-10, tighten="near the end", directions=4
+    )
+    assert one.converged
+    assert other.converged
+    assert 0.0 < other.linear < 1.0
+    np.testing.assert_allclose(one.pressure, other.pressure, rtol=0.0, atol=1e-6 * one.pressure.max())
+
+
+def test_complementarity_is_measured_in_the_given_depth() -> None:
+    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    operator = HalfSpaceOperator(window, MATERIALS["one mode"])
+    solution = solve_complementarity(operator, height, 100.0, np.ones(window.shape), tolerance=1e-6, depth=50.0)
+    gap = operator(solution.pressure) + height - solution.indentation
+    worst = max(np.abs(gap[solution.pressure > 0.0]).max(), -gap.min())
+    assert solution.complementarity == pytest.approx(worst / 50.0, rel=1e-6)  # round-off in a small gap
+
+
+def test_patience_ends_with_the_best_that_was_met() -> None:
+    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    operator = HalfSpaceOperator(window, MATERIALS["one mode"])
+    solution = solve_complementarity(
+        operator, height, 100.0, np.ones(window.shape), tolerance=0.0, patience=3, most_products=10_000
+    )
+    assert not solution.converged
+    # Nothing is below round-off: the solver stops there by itself, with nothing worse than it has seen.
+    assert solution.complementarity < 1e-12
+    assert solution.products < 5000
+
+
 def test_failure_is_told() -> None:
     window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
     height = 0.5 * (window.x[:, None] ** 2 + window.y**2)

@@ -6,19 +6,27 @@ import numpy as np
 import pytest
 
 from gallery import standard_linear_solid
-from viscofric.contact.indenters import Ball
-from viscofric.contact.nested import FRICTION_FLOOR, Estimate, Problem, find_window, refine, settled
+from viscofric.contact.control import GivenIndentation, GivenLoad
+from viscofric.contact.estimates import FRICTION_FLOOR, Estimate, settled
+from viscofric.contact.geometry import LINE, POINT
+from viscofric.contact.grids import Strip, Window
+from viscofric.contact.indenters import Ball, Cylinder, Indenter
+from viscofric.contact.nested import find_window, refine
 from viscofric.contact.operator import SteadyMaterial
+from viscofric.contact.problem import Problem
 from viscofric.errors import ConvergenceError
 
-# A standard linear solid in units of the Hertz contact at E0, and a ball, whose radius is one there.
-PROBLEM = Problem(SteadyMaterial(0.1, np.array([0.9]), np.array([1.0])), Ball(radius=1.0), 1e-8)
+# A standard linear solid in units of the Hertz contact at E0, and indenters whose radius is one there.
+SOLID = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))
+PROBLEM = Problem(POINT, SOLID, Ball(radius=1.0), GivenLoad(POINT.parabolic_load), 1e-8)
+LINE_PROBLEM = Problem(LINE, SOLID, Cylinder(radius=1.0), GivenLoad(LINE.parabolic_load), 1e-8)
 
 
-@pytest.mark.parametrize("modulus", [1e-3, 1.0, 30.0, 1e4])
-def test_window_finds_the_contact_from_a_poor_guess(modulus: float) -> None:
+@pytest.mark.parametrize("problem", [PROBLEM, LINE_PROBLEM], ids=["point", "line"])
+@pytest.mark.parametrize("size", [10.0, 1.0, 0.3, 0.05])
+def test_window_finds_the_contact_from_a_poor_guess(problem: Problem, size: float) -> None:
     """A first window ten times too large or twenty times too small ends around the same contact."""
-    good, found = (find_window(PROBLEM, guess) for guess in (3.0, modulus))
+    good, found = (find_window(problem, guess) for guess in (0.7, size))
     assert found.window.extent(found.result.pressure > 0.0) == pytest.approx(
         good.window.extent(good.result.pressure > 0.0),
         abs=2.0 * good.window.spacing,  # each counts in its own cells
@@ -59,7 +67,54 @@ def test_displacements_are_given_at_the_cell_centres() -> None:
 
 
 def test_contact_that_is_cut_by_every_window_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    first = find_window(PROBLEM, 3.0)
-    monkeypatch.setattr("viscofric.contact.nested.touches_edge", lambda mask: True)
+    first = find_window(PROBLEM, 0.7)
+    monkeypatch.setattr(Window, "cuts", lambda window, mask: True)
     with pytest.raises(ConvergenceError, match="no window"):
         refine(first, 1e-3, 512)
+
+
+@pytest.mark.parametrize("indenter", [Ball(radius=1.0), Cylinder(radius=1.0)], ids=["point", "line"])
+def test_first_size_is_that_of_the_hertz_contact(indenter: Indenter) -> None:
+    soft = SteadyMaterial(1.0, np.empty(0), np.empty(0))
+    hard = SteadyMaterial(1e-3, np.empty(0), np.empty(0))
+    geometry = indenter.geometry
+    for solid, size in ((soft, 1.0), (hard, 1e-3 ** (1.0 / (geometry.dimension + 1.0)))):
+        problem = Problem(geometry, solid, indenter, GivenLoad(geometry.parabolic_load), 1e-8)
+        assert problem.first_size == pytest.approx(size, rel=1e-9)  # a fixed point: round-off
+        # On 32 cells the contact ends within a cell of its true edge.
+        stage = find_window(problem, problem.first_size)
+        assert stage.footprint.front == pytest.approx(size, abs=stage.window.spacing)
+
+
+def test_given_indentation_finds_the_load() -> None:
+    stage = find_window(PROBLEM, 0.7)
+    guess = 3.0 * stage.result.pressure  # a load three times too large
+    height = PROBLEM.shape.height(stage.window.x[:, None], stage.window.y)
+    found = GivenIndentation(stage.indentation).solve(stage.operator, height, guess, 1e-9)
+    assert found.converged
+    assert found.indentation == stage.indentation
+    # Gaps of 1e-8 and 1e-9 of the indentation, over which the load grows with an exponent near 3/2.
+    assert found.pressure.sum() == pytest.approx(stage.result.pressure.sum(), rel=1e-6)
+
+
+def test_strip_is_a_window_of_one_row() -> None:
+    strip = Strip.around(1.0, 2.0, 9.0, 30)
+    assert strip.shape == (30, 1)
+    assert strip.cell_area == strip.spacing == pytest.approx(0.1, rel=1e-12)
+    np.testing.assert_allclose(strip.x[[0, -1]], [-0.95, 1.95], rtol=1e-12)
+    assert strip.refined().shape == (60, 1)
+    loaded = np.zeros(strip.shape, dtype=bool)
+    loaded[3:12] = True
+    assert not strip.cuts(loaded)
+    assert strip.cuts(~loaded)
+    assert strip.extent(loaded) == pytest.approx((0.7, 0.2, 0.0), abs=1e-12)
+
+
+@pytest.mark.parametrize("grid", [Strip.around(1.0, 2.0, 0.0, 30), Window.around(1.0, 2.0, 1.0, 30)], ids=["1", "2"])
+def test_refinement_keeps_the_load(grid: Strip | Window) -> None:
+    pressure = np.random.default_rng(5).random(grid.shape)
+    finer = grid.refined()
+    carried = grid.resample(pressure, finer)
+    # The same values on cells that are halved: sums in another order.
+    assert carried.sum() * finer.cell_area == pytest.approx(pressure.sum() * grid.cell_area, rel=1e-12)
+    assert finer.whole == pytest.approx(grid.whole, rel=1e-12)

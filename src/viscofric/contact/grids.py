@@ -1,26 +1,128 @@
-"""Windows of square cells that follow the indenter, and the passage from a coarse one to a finer one."""
+"""Windows of cells that follow the indenter, and the passage from a coarse one to a finer one.
+
+A `Window` of square cells holds a point contact, a `Strip`, one row of cells, a line contact.  Both give their
+values as (nx, ny) arrays, so that a strip is a window with ny = 1.
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from numpy.typing import NDArray
 
     Array: TypeAlias = NDArray[np.float64]
     Mask: TypeAlias = NDArray[np.bool_]
+    Indices: TypeAlias = NDArray[np.intp]
+
+
+class Extent(NamedTuple):
+    """Distances from the indenter's axis to the rear, to the front and to either side; negative beyond the axis."""
+
+    rear: float
+    front: float
+    side: float
+
+    @property
+    def longest(self) -> float:
+        """Longer edge of the rectangle."""
+        return max(self.rear + self.front, 2.0 * self.side)
+
+    def widened(self, margin: float) -> Extent:
+        """Return the rectangle with a margin on all sides."""
+        return Extent(self.rear + margin, self.front + margin, self.side + margin)
 
 
 @dataclass(frozen=True)
-class Window:
-    """Square cells around the indenter's axis, which lies on a corner of cells.
+class Grid(ABC):
+    """Cells along the motion around the indenter's axis, which lies between two of them.
 
-    With the axis on a corner (at every refinement), an elastic contact is symmetric on the grid too, and its
+    With the axis between cells (at every refinement), an elastic contact is symmetric on the grid too, and its
     friction exactly zero.
+
+    Parameters
+    ----------
+    spacing : float
+        Side of a cell.
+    behind, ahead : int
+        Cells between the axis and the rear and the front edge of the grid; either may be negative.
+    """
+
+    spacing: float
+    behind: int
+    ahead: int
+
+    @classmethod
+    @abstractmethod
+    def around(cls, rear: float, front: float, side: float, cells: int) -> Self:
+        """Return the grid over −rear … front (and ±side) with `cells` cells along its longer edge."""
+
+    @property
+    @abstractmethod
+    def shape(self) -> tuple[int, int]:
+        """Number of cells along x and y."""
+
+    @property
+    @abstractmethod
+    def cell_area(self) -> float:
+        """What a pressure is multiplied by to give a load."""
+
+    @property
+    @abstractmethod
+    def y(self) -> Array:
+        """Cell centres across the motion."""
+
+    @abstractmethod
+    def refined(self) -> Self:
+        """Return the same grid with cells half as large."""
+
+    @abstractmethod
+    def extent(self, mask: Mask) -> Extent:
+        """Smallest such grid that holds a set of cells."""
+
+    @abstractmethod
+    def cuts(self, mask: Mask) -> bool:
+        """Whether a set of cells reaches the outermost cells."""
+
+    @abstractmethod
+    def _rows(self, y: Array) -> Indices:
+        """Rows of cells in which coordinates across the motion lie; any number out of range if in none."""
+
+    @property
+    def x(self) -> Array:
+        """Cell centres along the motion, relative to the indenter's axis."""
+        return np.asarray(self.spacing * (np.arange(-self.behind, self.ahead) + 0.5), dtype=np.float64)
+
+    @property
+    def whole(self) -> Extent:
+        """Extent of all the cells."""
+        return self.extent(np.ones(self.shape, dtype=bool))
+
+    def resample(self, values: Array, target: Grid) -> Array:
+        """Carry cell values to another grid (nearest cell; zero outside this one)."""
+        result = np.zeros(target.shape)
+        i = np.floor(target.x / self.spacing).astype(int) + self.behind
+        j = self._rows(target.y)
+        inside_i, inside_j = (i >= 0) & (i < self.shape[0]), (j >= 0) & (j < self.shape[1])
+        result[np.ix_(inside_i, inside_j)] = values[np.ix_(i[inside_i], j[inside_j])]
+        return result
+
+    def _along(self, mask: Mask) -> tuple[float, float]:
+        loaded = self.x[mask.any(axis=1)]
+        half = 0.5 * self.spacing
+        return half - float(loaded.min()), float(loaded.max()) + half
+
+
+@dataclass(frozen=True)
+class Window(Grid):
+    """Square cells around the indenter's axis, which lies on a corner of cells.
 
     Parameters
     ----------
@@ -32,21 +134,13 @@ class Window:
         Cells between the axis and each side.
     """
 
-    spacing: float
-    behind: int
-    ahead: int
     beside: int
 
     @classmethod
-    def around(cls, rear: float, front: float, side: float, cells: int) -> Window:
+    def around(cls, rear: float, front: float, side: float, cells: int) -> Self:
         """Return the window over −rear … front, ±side with `cells` cells along its longer edge."""
         spacing = max(rear + front, 2.0 * side) / cells
-        return cls(
-            spacing,
-            math.ceil(rear / spacing - 1e-9),
-            math.ceil(front / spacing - 1e-9),
-            math.ceil(side / spacing - 1e-9),
-        )
+        return cls(spacing, _whole_cells(rear, spacing), _whole_cells(front, spacing), _whole_cells(side, spacing))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -59,36 +153,77 @@ class Window:
         return self.spacing**2
 
     @property
-    def x(self) -> Array:
-        """Cell centres along the motion, relative to the indenter's axis."""
-        return np.asarray(self.spacing * (np.arange(-self.behind, self.ahead) + 0.5), dtype=np.float64)
-
-    @property
     def y(self) -> Array:
         """Cell centres across the motion."""
         return np.asarray(self.spacing * (np.arange(-self.beside, self.beside) + 0.5), dtype=np.float64)
 
-    def refined(self) -> Window:
+    def refined(self) -> Self:
         """Return the same window with cells half as large."""
-        return Window(0.5 * self.spacing, 2 * self.behind, 2 * self.ahead, 2 * self.beside)
+        return replace(
+            self, spacing=0.5 * self.spacing, behind=2 * self.behind, ahead=2 * self.ahead, beside=2 * self.beside
+        )
 
-    def resample(self, values: Array, target: Window) -> Array:
-        """Carry cell values to another window (nearest cell; zero outside this one)."""
-        result = np.zeros(target.shape)
-        i = np.floor(target.x / self.spacing).astype(int) + self.behind
-        j = np.floor(target.y / self.spacing).astype(int) + self.beside
-        inside_i, inside_j = (i >= 0) & (i < self.shape[0]), (j >= 0) & (j < self.shape[1])
-        result[np.ix_(inside_i, inside_j)] = values[np.ix_(i[inside_i], j[inside_j])]
-        return result
-
-    def extent(self, mask: Mask) -> tuple[float, float, float]:
-        """Rear, front and side of the smallest such window that holds a set of cells."""
-        along = self.x[mask.any(axis=1)]
+    def extent(self, mask: Mask) -> Extent:
+        """Smallest such window that holds a set of cells."""
         across = np.abs(self.y[mask.any(axis=0)])
-        half = 0.5 * self.spacing
-        return half - float(along.min()), float(along.max()) + half, float(across.max()) + half
+        return Extent(*self._along(mask), float(across.max()) + 0.5 * self.spacing)
+
+    def cuts(self, mask: Mask) -> bool:
+        """Whether a set of cells reaches the outermost cells of the window."""
+        return bool(mask[0].any() or mask[-1].any() or mask[:, 0].any() or mask[:, -1].any())
+
+    def _rows(self, y: Array) -> Indices:
+        return np.asarray(np.floor(y / self.spacing).astype(np.intp) + self.beside)
 
 
-def touches_edge(mask: Mask) -> bool:
-    """Whether a set of cells reaches the outermost cells of its window."""
-    return bool(mask[0].any() or mask[-1].any() or mask[:, 0].any() or mask[:, -1].any())
+@dataclass(frozen=True)
+class Strip(Grid):
+    """One row of cells along the motion, for what is the same all along y; loads are per unit of length.
+
+    Parameters
+    ----------
+    spacing : float
+        Length of a cell.
+    behind, ahead : int
+        Cells between the axis and the rear and the front edge of the strip; either may be negative.
+    """
+
+    @classmethod
+    def around(cls, rear: float, front: float, side: float, cells: int) -> Self:
+        """Return the strip over −rear … front with `cells` cells; there are no sides."""
+        spacing = (rear + front) / cells
+        return cls(spacing, _whole_cells(rear, spacing), _whole_cells(front, spacing))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of cells along x, and one."""
+        return self.behind + self.ahead, 1
+
+    @property
+    def cell_area(self) -> float:
+        """Area of a cell, per unit of length."""
+        return self.spacing
+
+    @property
+    def y(self) -> Array:
+        """Zero: the one row."""
+        return np.zeros(1)
+
+    def refined(self) -> Self:
+        """Return the same strip with cells half as large."""
+        return replace(self, spacing=0.5 * self.spacing, behind=2 * self.behind, ahead=2 * self.ahead)
+
+    def extent(self, mask: Mask) -> Extent:
+        """Smallest such strip that holds a set of cells; its side is zero."""
+        return Extent(*self._along(mask), 0.0)
+
+    def cuts(self, mask: Mask) -> bool:
+        """Whether a set of cells reaches the first or the last cell."""
+        return bool(mask[0].any() or mask[-1].any())
+
+    def _rows(self, y: Array) -> Indices:
+        return np.zeros(len(y), dtype=np.intp)
+
+
+def _whole_cells(distance: float, spacing: float) -> int:
+    return math.ceil(distance / spacing - 1e-9)

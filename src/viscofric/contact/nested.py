@@ -1,143 +1,47 @@
 """Nested grids: the window found on a coarse one, then cells halved until the friction is known well enough.
 
-Everything here is in units of the Hertz contact at E0 (lengths a0, depths a0²/R, load 4/3), so that neither the
-user's units nor his material's modulus matter.
+Everything here is in units of the Hertz contact at E0 (lengths a0, depths a0²/R; see `viscofric.contact.scale`), so
+that neither the user's units nor his material's modulus matter.  Whether it is a point or a line contact, and whether
+the load or the indentation is given, is a part of the problem.
 """
 
 from __future__ import annotations
 
 import logging
 import math
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from dataclasses import replace
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.grids import Window, touches_edge
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial, collocation_shift
+from viscofric.contact.estimates import friction_estimate
+from viscofric.contact.operator import collocation_shift
+from viscofric.contact.problem import Problem, Stage
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from viscofric.contact.grids import Grid
+
     Array: TypeAlias = NDArray[np.float64]
 
 logger = logging.getLogger(__name__)
 
-LOAD = 4.0 / 3.0
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
-FEWEST_GRIDS = 3  # one change alone may be small by chance
 MARGIN = 0.15  # free space left around the contact, relative to its size
-#: Friction is resolved relative to its own value, but not below this fraction of a0/R.
-FRICTION_FLOOR = 1e-6
 
 # Step of the continuation in the glassy compliance, which leads into the hard corner (one mode, E∞ >> E0).
 _CONTINUATION = 1.4
 _EASY_GLASSY = 0.1
 _LONGEST_CONTINUATION = 64
-_LARGEST_CONTINUATION_GRID = 160  # cells: beyond, a failure is final, since a continuation would take hours
+# A contact n times longer than wide has n/2 times the cells along it, up to so many times.
+_MOST_SLENDER = 4
+# First windows that are tried, in units of the contact's size as it is guessed.
+_FIRST_WINDOWS = (1.0, 2.5, 5.0, 1.6, 0.6)
 _MOST_WINDOWS = 20
 _MOST_RESTARTS = 5
 _NO_WINDOW = "no window was found that holds the contact; the indenter may be too blunt."
-
-
-class Shape(Protocol):
-    """An indenter, in these units."""
-
-    def height(self, x: Array, y: Array) -> Array:
-        """Height above the lowest point."""
-
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the height along x."""
-
-
-@dataclass(frozen=True, eq=False)
-class Problem:
-    """What is to be solved on every grid: a solid, an indenter, and how exactly the contact conditions hold."""
-
-    solid: SteadyMaterial
-    shape: Shape
-    tolerance: float
-
-
-@dataclass(frozen=True, eq=False)
-class Stage:
-    """A converged solution on one grid."""
-
-    problem: Problem
-    window: Window
-    operator: HalfSpaceOperator
-    result: ComplementaritySolution
-
-    @cached_property
-    def pressure_friction(self) -> float:
-        """Friction coefficient from the lean of the pressure, ∫ p ∂h/∂x dA / F."""
-        slope = self.problem.shape.slope(self.window.x[:, None], self.window.y)
-        return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / LOAD
-
-    @cached_property
-    def energy_friction(self) -> float:
-        """Friction coefficient from the dissipated energy."""
-        return self.operator.dissipated_force(self.result.pressure) / LOAD
-
-    @property
-    def displacement(self) -> Array:
-        """Displacement at the cell centres, wherever the gap was looked at."""
-        if self.operator.shift == 0.0:
-            return self.result.displacement
-        return HalfSpaceOperator(self.window, self.operator.material)(self.result.pressure)
-
-
-class Estimate(NamedTuple):
-    """A number and the error that its changes from grid to grid let expect."""
-
-    value: float
-    error: float
-
-    @property
-    def relative_error(self) -> float:
-        """Error relative to the value, or to `FRICTION_FLOOR` for smaller ones."""
-        return self.error / max(abs(self.value), FRICTION_FLOOR)
-
-
-def friction_estimate(stages: list[Stage]) -> Estimate:
-    """Return the friction coefficient from the quantity that has settled best on the nested grids.
-
-    The lean of the pressure settles quickest where friction is large; the dissipated energy where it is small
-    against the contact's slope a/R (at low and high speed), because it does not live on a small difference.  At low
-    speed its error is of first order in the cell, so that its linear extrapolation is the third candidate.
-    """
-    if len(stages) < FEWEST_GRIDS:
-        return Estimate(stages[-1].pressure_friction, math.inf)
-    lean = np.array([stage.pressure_friction for stage in stages])
-    energy = np.array([stage.energy_friction for stage in stages])
-    candidates = [settled(lean), settled(energy)]
-    if len(stages) > FEWEST_GRIDS:
-        candidates.append(settled(2.0 * energy[1:] - energy[:-1]))
-    best = min(candidates, key=lambda candidate: candidate.error)
-    # However well one has settled, part of what the two ways differ by is claimed as error: most where their own
-    # errors do not explain the difference, or where the gap is looked at behind the cell centres, since friction
-    # then settles more slowly than its changes promise; much on three grids, whose two changes may both be small by
-    # chance; little otherwise.
-    difference = abs(float(lean[-1] - energy[-1]))
-    explained = difference <= candidates[0].error + candidates[1].error and stages[-1].operator.shift == 0.0
-    share = 0.5 if not explained else 0.35 if len(stages) == FEWEST_GRIDS else 0.1
-    return Estimate(best.value, max(best.error, share * difference))
-
-
-def settled(values: Array) -> Estimate:
-    """Return the last of three or more values on nested grids, with an estimate of its error.
-
-    With changes d1 (the last) and d0 before it, a geometric sequence has d1/(d0/d1 − 1) still to go.  No less than
-    d1 is taken, nor than d0/4 and a sixteenth of the one before, since single changes may be small by chance.
-    """
-    changes = np.abs(np.diff(values))[-3:]
-    before, last = changes[-2:]
-    ratio = max(before / last, 1.25) if last > 0.0 else math.inf
-    faded = changes * 0.25 ** np.arange(len(changes) - 1.0, -1.0, -1.0)
-    return Estimate(float(values[-1]), float(max(last / (ratio - 1.0), *faded)))
 
 
 def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
@@ -163,7 +67,7 @@ def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
                 f"the finest grid allowed ({finest} cells); ask for less accuracy than {accuracy:g} or a finer grid."
             )
         stage = _solve_in_window(window, coarse)
-        if touches_edge(stage.result.pressure > 0.0):
+        if window.cuts(stage.result.pressure > 0.0):
             # The coarse contact was a little too small: start again from a window around the finer one.
             if restarts == _MOST_RESTARTS:
                 raise ConvergenceError(_NO_WINDOW)
@@ -176,63 +80,77 @@ def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
             return stages
 
 
-def find_window(problem: Problem, modulus: float) -> Stage:
+def find_window(problem: Problem, size: float) -> Stage:
     """Solve on coarse grids until the window fits the contact: nothing cut off, little space wasted.
 
     Parameters
     ----------
     problem : Problem
-    modulus : float
-        First guess of the modulus that the contact meets, relative to E0.
+    size : float
+        First guess of the contact's radius.
+
+    Raises
+    ------
+    ConvergenceError
+        If no window is found, or no grid converges on the way to it.
     """
-    radius = modulus ** (-1.0 / 3.0)
-    window = Window.around(1.5 * radius, 1.5 * radius, 1.5 * radius, COARSEST)
-    guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / radius**2))
+    failure = ConvergenceError(_NO_WINDOW)
+    for wider in _FIRST_WINDOWS:
+        try:
+            return _fitted_window(problem, wider * size)
+        except ConvergenceError as error:
+            # A window that cuts the contact can be harder to solve in than one that holds it.
+            failure = error
+    raise failure
+
+
+def _fitted_window(problem: Problem, size: float) -> Stage:
+    window = problem.geometry.grid.around(1.5 * size, 1.5 * size, 1.5 * size, COARSEST)
+    guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / size**2))
     stage = _solve_on(window, problem, guess)
     for _ in range(_MOST_WINDOWS):
-        loaded = stage.result.pressure > 0.0
-        if touches_edge(loaded):
-            old = stage.window
-            size = old.spacing * max(old.shape)
-            rear, front, side = old.spacing * old.behind, old.spacing * old.ahead, old.spacing * old.beside
-            window = Window.around(rear + 0.3 * size, front + 0.3 * size, side + 0.3 * size, COARSEST)
+        old = stage.window
+        if old.cuts(stage.result.pressure > 0.0):
+            wider = old.whole.widened(0.3 * old.spacing * max(old.shape))
+            window = problem.geometry.grid.around(*wider, COARSEST)
         else:
             window = _around(stage)
-            if window.spacing > 0.8 * stage.window.spacing:
+            if window.spacing > 0.8 * old.spacing:
                 return stage
         stage = _solve_in_window(window, stage)
     raise ConvergenceError(_NO_WINDOW)
 
 
-def _around(stage: Stage) -> Window:
-    rear, front, side = stage.window.extent(stage.result.pressure > 0.0)
-    margin = MARGIN * max(rear + front, 2.0 * side)
-    return Window.around(rear + margin, front + margin, side + margin, COARSEST)
+def _around(stage: Stage) -> Grid:
+    contact = stage.extent
+    narrow = min(contact.rear + contact.front, 2.0 * contact.side) or contact.longest
+    slender = min(_MOST_SLENDER, max(1, int(0.5 * contact.longest / narrow)))
+    return stage.problem.geometry.grid.around(*contact.widened(MARGIN * contact.longest), COARSEST * slender)
 
 
-def _solve_in_window(window: Window, before: Stage) -> Stage:
+def _solve_in_window(window: Grid, before: Stage) -> Stage:
     return _solve_on(window, before.problem, before.window.resample(before.result.pressure, window))
 
 
-def _solve_on(window: Window, problem: Problem, guess: Array) -> Stage:
+def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
     """Solve on one grid; where that fails, come from a material with a softer glassy state."""
-    solid, tolerance = problem.solid, problem.tolerance
-    load = LOAD / window.cell_area
+    solid, geometry = problem.solid, problem.geometry
 
     def attempt(glassy: float, start: Array) -> Stage:
         material = replace(solid, glassy=glassy)
         shift = collocation_shift(material, window.spacing)
-        operator = HalfSpaceOperator(window, material, shift)
+        operator = geometry.operator(window, material, shift)
         x = window.x - shift * window.spacing
         height = problem.shape.height(x[:, None], window.y)
-        result = solve_complementarity(operator, height, load, start, tolerance=tolerance)
-        return Stage(problem, window, operator, result)
+        below = np.where(np.isfinite(height), start, 0.0)  # no pressure beyond the indenter's walls
+        return Stage(problem, window, operator, problem.control.solve(operator, height, below, problem.tolerance))
 
     stage = attempt(solid.glassy, guess)
     if stage.result.converged:
         return stage
     failed = stage
-    steps = _LONGEST_CONTINUATION if max(window.shape) <= _LARGEST_CONTINUATION_GRID else 0
+    # On a large grid a failure is final, since a continuation would take hours.
+    steps = _LONGEST_CONTINUATION if max(window.shape) <= geometry.finest_continuation else 0
     glassy, factor, good = max(_EASY_GLASSY, solid.glassy), _CONTINUATION, guess
     for _ in range(steps):
         stage = attempt(glassy, good)
@@ -248,6 +166,6 @@ def _solve_on(window: Window, problem: Problem, guess: Array) -> Stage:
             glassy *= factor
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
-        f"{failed.result.complementarity:.1e} of the indentation was left where {tolerance:.0e} was asked for; ask for "
-        "less accuracy of the friction, which needs a coarser grid."
+        f"{failed.result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for; "
+        "ask for less accuracy of the friction, which needs a coarser grid."
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -13,7 +14,7 @@ from viscofric.contact.influence import cell_potential, cell_potential_xx, memor
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.grids import Window
+    from viscofric.contact.grids import Grid
 
     Array: TypeAlias = NDArray[np.float64]
     ComplexArray: TypeAlias = NDArray[np.complex128]
@@ -52,14 +53,14 @@ class SteadyMaterial:
 
 
 @dataclass
-class HalfSpaceOperator:
-    """Displacement of the free half-space under pressures on the cells of a window (paper Eqs. 7 and 8).
+class ConvolutionOperator(ABC):
+    """Displacement under pressures on the cells of a grid, each cell's influence the same wherever it lies.
 
     Linear and positive definite, but *not* symmetric: the solid remembers the load that lies ahead.
 
     Parameters
     ----------
-    window : Window
+    window : Grid
     material : SteadyMaterial
     shift : float, optional
         How far behind the cell centres the displacement is taken, in cells (0 to 0.5); see `collocation_shift`.
@@ -70,7 +71,7 @@ class HalfSpaceOperator:
         Applications so far; each costs one forward and one inverse FFT of the padded window.
     """
 
-    window: Window
+    window: Grid
     material: SteadyMaterial
     shift: float = 0.0
     products: int = field(default=0, init=False)
@@ -90,24 +91,12 @@ class HalfSpaceOperator:
         self._dissipation = self._spectrum(dissipation)
         self._inverse_symbol = _optimal_circulant_inverse(displacement)
 
+    @abstractmethod
     def _influence(self) -> tuple[Array, Array]:
-        """Influence coefficients of the displacement, and of the part of its slope that dissipates."""
-        nx, ny = self.window.shape
-        h = self.window.spacing
-        compliances = self.material.compliances
-        lengths = self.material.memory_lengths / h
-        x, y = np.arange(-(nx - 1.0), nx)[:, None], np.arange(float(ny))
-        # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
-        long = lengths > _SHORT_MEMORY
-        rates = np.zeros_like(compliances)
-        rates[long] = compliances[long] / lengths[long]
-        displacement, slope = memory_influence((nx, ny), np.stack([compliances, rates]), lengths)
-        if self.shift > 0.0:
-            (displacement,) = memory_influence((nx, ny), compliances[None], lengths, self.shift)
-        displacement += self.material.glassy * cell_potential(x - self.shift, y)
-        slope -= rates.sum() * cell_potential(x, y)
-        slope += (compliances[~long] * lengths[~long]).sum() * cell_potential_xx(x, y)
-        return displacement * h / np.pi, slope / np.pi
+        """Influence coefficients of the displacement, and of the part of its slope that dissipates.
+
+        Both (2 nx − 1, ny), at x = −(nx−1) … nx−1 and y = 0 … ny−1 cells from the loaded one, even in y.
+        """
 
     def _spectrum(self, influence: Array) -> ComplexArray:
         nx, ny = self.window.shape
@@ -145,6 +134,29 @@ class HalfSpaceOperator:
         """
         slope = self._convolve(self._dissipation, pressure)
         return -self.window.cell_area * float(np.vdot(pressure, slope))
+
+
+@dataclass
+class HalfSpaceOperator(ConvolutionOperator):
+    """Displacement of the free half-space under pressures on square cells (paper Eqs. 7 and 8)."""
+
+    def _influence(self) -> tuple[Array, Array]:
+        nx, ny = self.window.shape
+        h = self.window.spacing
+        compliances = self.material.compliances
+        lengths = self.material.memory_lengths / h
+        x, y = np.arange(-(nx - 1.0), nx)[:, None], np.arange(float(ny))
+        # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
+        long = lengths > _SHORT_MEMORY
+        rates = np.zeros_like(compliances)
+        rates[long] = compliances[long] / lengths[long]
+        displacement, slope = memory_influence((nx, ny), np.stack([compliances, rates]), lengths)
+        if self.shift > 0.0:
+            (displacement,) = memory_influence((nx, ny), compliances[None], lengths, self.shift)
+        displacement += self.material.glassy * cell_potential(x - self.shift, y)
+        slope -= rates.sum() * cell_potential(x, y)
+        slope += (compliances[~long] * lengths[~long]).sum() * cell_potential_xx(x, y)
+        return displacement * h / np.pi, slope / np.pi
 
 
 def collocation_shift(material: SteadyMaterial, spacing: float) -> float:

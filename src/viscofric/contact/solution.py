@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import numpy as np
-
 if TYPE_CHECKING:
+    import numpy as np
     import xarray
     from numpy.typing import NDArray
 
@@ -52,11 +51,22 @@ class Diagnostics:
         Relative error of the load.
     energy : float
         Energy balance: friction from the pressure's lean less that from the dissipated energy, over the larger of
-        them (or over 1e-6 a0/R).
+        them (or over 1e-6 a0/R).  Minus one for a flat punch, all of whose
+        friction sits on its edge.
     friction_error : float
         Error estimate of the friction coefficient (absolute), from its changes on the nested grids.
-    indentation_error : float
-        Change of the indentation from the last but one grid to the last, m.
+    indentation_error, load_error : float
+        Change of the indentation (m) and of the load (N or N/m) from the last but one grid to the last; zero for the
+        one that was given.
+    edge_error : float
+        Error estimate of front, rear and half width, from the change of the one that changed most, m.
+    contact_area_error : float
+        Error estimate of the contact area, from its changes on the nested grids, m² or m.
+    max_pressure_error : float
+        Error estimate of the largest pressure, from its changes on the nested grids, Pa.
+    peak_resolved : bool
+        Whether the largest pressure means something: it lies more than two cells within the contact and has settled to
+        2 %.  It has not where the layer at the leading edge is thinner than a cell, at a sharp edge or at a tip.
     levels : tuple of Level
         What each nested grid gave, coarsest first.
     set_changes, linear_iterations, products, ffts : int
@@ -73,6 +83,11 @@ class Diagnostics:
     energy: float
     friction_error: float
     indentation_error: float
+    load_error: float
+    edge_error: float
+    contact_area_error: float
+    max_pressure_error: float
+    peak_resolved: bool
     levels: tuple[Level, ...]
     set_changes: int
     linear_iterations: int
@@ -88,35 +103,41 @@ class ContactSolution:
 
     Attributes
     ----------
-    speed, load : float
-        m/s and N, as asked.
+    speed : float
+        m/s, as asked.
+    load : float
+        N, or N/m for a line contact: as asked, or what a given indentation takes.
     temperature : float or None
         K, as asked.
     friction_coefficient : float
         μ = F_t/F_N, with the sign of the speed: of the two below the one that has settled better on the nested
         grids (the second maybe extrapolated).
     pressure_friction_coefficient : float
-        From the lean of the pressure, on the finest grid.
+        From the lean of the pressure on the indenter's slope, on the finest grid.
     energy_friction_coefficient : float
         From the energy that the material dissipates, on the finest grid.
     indentation : float
-        δ, m.
+        δ, m: depth of the indenter's lowest point below the undeformed surface.  In a line contact, where the surface
+        far away is infinitely high above it, below the surface at the contact's leading edge.
     contact_area : float
-        m², counted in cells.
+        m², to a fraction of a cell; the width, m, of a line contact.
     front, rear : float
         Distances from the indenter's axis to the leading and to the trailing edge of the contact on the centre
-        line, m, positive ahead of and behind it respectively.
+        line (of the whole contact where it does not meet that line), m, positive ahead of and behind the axis
+        respectively.
     half_width : float
-        Half the largest width of the contact across the motion, m.
+        Half the largest width of the contact across the motion, m; infinite for a line contact.
     max_pressure : float
-        Pa.
+        Pa; see `Diagnostics.peak_resolved`.
     x, y : (nx,) and (ny,) array
         Cell centres relative to the indenter's axis, m.
     pressure, displacement : (nx, ny) array
-        Pa, and m into the solid.
+        Pa, and m into the solid, from the same level as the indentation.
     diagnostics : Diagnostics
     warnings : tuple of str
         One sentence for each assumption that does not hold well.
+    geometry : str
+        "point" or "line".
     """
 
     speed: float
@@ -137,6 +158,12 @@ class ContactSolution:
     displacement: Array
     diagnostics: Diagnostics
     warnings: tuple[str, ...] = ()
+    geometry: str = "point"
+
+    @property
+    def centre_of_pressure(self) -> float:
+        """Distance from the indenter's axis to where the resultant load acts, along +x, m."""
+        return float(self.x @ self.pressure.sum(axis=1)) / float(self.pressure.sum())
 
     def to_dataset(self) -> xarray.Dataset:
         """Return pressure and displacement as a labelled data set with units in its attributes."""
@@ -161,33 +188,3 @@ class ContactSolution:
                 "indentation": self.indentation,
             },
         )
-
-
-def edges(position: Array, pressure: Array) -> tuple[float, float]:
-    """Lower and upper end of the loaded stretch of a pressure profile, to a fraction of a cell.
-
-    Near the edge of a smooth contact the pressure rises like the square root of the distance, so its square is
-    extrapolated linearly to zero from the two outermost loaded cells, and never beyond the next cell's centre.
-
-    Parameters
-    ----------
-    position : (n,) array
-        Equally spaced, ascending.
-    pressure : (n,) array
-        Positive somewhere.
-    """
-    loaded = np.flatnonzero(pressure > 0.0)
-    first, last = int(loaded[0]), int(loaded[-1])
-    return (
-        _zero_of_square(position, pressure, first, first + 1),
-        _zero_of_square(position, pressure, last, last - 1),
-    )
-
-
-def _zero_of_square(position: Array, pressure: Array, outer: int, inner: int) -> float:
-    cell = position[1] - position[0]
-    outward = np.sign(outer - inner) * cell
-    if not 0 <= inner < len(pressure) or pressure[inner] <= pressure[outer]:
-        return float(position[outer] + 0.5 * outward)
-    ratio = (pressure[outer] / pressure[inner]) ** 2
-    return float(position[outer] + outward * min(1.0, ratio / (1.0 - ratio)))

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.nested import (
-    COARSEST,
-    FEWEST_GRIDS,
-    FRICTION_FLOOR,
-    Problem,
-    find_window,
-    friction_estimate,
-    refine,
-)
+from viscofric.contact.assembly import assemble
+from viscofric.contact.control import GivenIndentation, GivenLoad
+from viscofric.contact.estimates import FEWEST_GRIDS
+from viscofric.contact.indenters import SMALL_STRAIN, Indenter
+from viscofric.contact.nested import COARSEST, find_window, refine
 from viscofric.contact.operator import SteadyMaterial
-from viscofric.contact.reference import hertz_ball
-from viscofric.contact.solution import ContactSolution, Diagnostics, Level, edges
+from viscofric.contact.problem import Problem
+from viscofric.contact.scale import Scale, ScaledIndenter
 from viscofric.errors import InputError
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si
@@ -27,42 +23,50 @@ from viscofric.units import Quantity, positive, to_si
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.indenters import Ball
-    from viscofric.contact.nested import Stage
+    from viscofric.contact.control import Control
+    from viscofric.contact.problem import Stage
+    from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array: TypeAlias = NDArray[np.float64]
 
-FINEST = 2048
+__all__ = ["SMALL_STRAIN", "solve_steady"]
+
 LEAST_FINEST = COARSEST * 2 ** (FEWEST_GRIDS - 1)
 TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
-SMALL_STRAIN = 0.3  # contact radius over ball radius beyond which linear contact is doubtful
 
 
 @one_blas_thread
 def solve_steady(
     material: Material,
-    indenter: Ball,
+    indenter: Indenter,
     *,
     speed: Quantity,
-    load: Quantity,
+    load: Quantity | None = None,
+    indentation: Quantity | None = None,
     temperature: Quantity | None = None,
     accuracy: float = 1e-3,
     tolerance: float = 1e-8,
-    finest: int = FINEST,
+    finest: int | None = None,
+    indenter_modulus: Quantity | None = None,
+    indenter_poisson_ratio: float = 0.3,
 ) -> ContactSolution:
-    """Solve the steady contact of a rigid ball sliding or rolling over a viscoelastic half-space.
+    """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space.
 
     Parameters
     ----------
     material : Material
-    indenter : Ball
+    indenter : Indenter
+        Ball, Ellipsoid, Cone, FlatPunch or HeightMap; for a line contact in plane strain, Cylinder or Profile.
     speed : float, str or pint.Quantity
         Velocity along x at which the solid is deformed, m/s.  Zero and infinity are the elastic limits; a
-        negative one mirrors the solution.
-    load : float, str or pint.Quantity
-        Normal load, N.
+        negative one is motion towards −x.
+    load : float, str or pint.Quantity, optional
+        Normal load, N; of a line contact per unit of length, N/m.  Either it or the indentation is given.
+    indentation : float, str or pint.Quantity, optional
+        Depth of the indenter's lowest point below the undeformed surface, m; not for a line contact, in which it has
+        no meaning.
     temperature : float, str or pint.Quantity, optional
         K if a plain number.  May be left out for a material without a shift law.
     accuracy : float
@@ -71,8 +75,12 @@ def solve_steady(
     tolerance : float
         Of the complementarity: largest gap under pressure or overlap without it over the indentation; from 1e-13
         to a thousandth of the accuracy.
-    finest : int
-        Most cells along the window's longer edge.
+    finest : int, optional
+        Most cells along the window's longer edge: 2048 if not given, 65536 for a line contact.
+    indenter_modulus : float, str or pint.Quantity, optional
+        Young's modulus of an elastic indenter, Pa; rigid without it.
+    indenter_poisson_ratio : float
+        Of an elastic indenter.
 
     Returns
     -------
@@ -81,14 +89,16 @@ def solve_steady(
     Raises
     ------
     InputError
-        If a value cannot be used, or the contact would be wider than the ball.
+        If a value cannot be used, or the contact would be wider than the indenter.
     ConvergenceError
         If the solver fails, or the accuracy is not reached on the finest grid.
 
     Notes
     -----
-    Solved in units of the Hertz contact at E0, so that the user's units do not matter.  The window is found
+    Solved in units of the elastic contact at E0, so that the user's units do not matter.  The window is found
     on a coarse grid and the grids are nested: each starts from the coarser one's pressure.
+
+    An elastic indenter is a second half-space, which adds (1 − ν_i²)/E_i to the compliance without memory.
 
     Examples
     --------
@@ -96,10 +106,39 @@ def solve_steady(
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> solution = vf.solve_steady(rubber, vf.Ball(radius="10 mm"), speed="1 m/s", load="1 N")
     >>> round(solution.friction_coefficient, 4)
-    0.0698
+    0.0576
     """
+    if not isinstance(indenter, Indenter):
+        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
     velocity = _velocity(speed)
-    force = positive(load, "N", "load")
+    geometry = indenter.geometry
+    finest = geometry.finest if finest is None else finest
+    _check_settings(accuracy, tolerance, finest)
+    kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
+    spectrum = material.modes_at(kelvin)
+    counterface = _indenter_compliance(indenter_modulus, indenter_poisson_ratio)
+    plane_strain = 1.0 - material.poisson_ratio**2
+    compliance = plane_strain / spectrum.E0 + counterface
+    scale, control, held = _held(indenter, 1.0 / compliance, load, indentation)
+    solid = _steady_material(
+        spectrum, abs(velocity) / scale.length, plane_strain / compliance, counterface / compliance
+    )
+    shape = ScaledIndenter(indenter, scale, math.copysign(1.0, velocity))
+    problem = Problem(geometry, solid, shape, control, tolerance)
+    first = find_window(problem, problem.first_size)
+    indenter.check(scale.extent(first.extent), held)
+    stages = refine(first, accuracy, finest)
+    solution = assemble(stages, scale, velocity, kelvin)
+    return _with_doubts(solution, indenter, scale, stages[-1])
+
+
+def _velocity(speed: Quantity) -> float:
+    if isinstance(speed, float) and math.isinf(speed):
+        return speed
+    return to_si(speed, "m/s", "speed")
+
+
+def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
     if not 0.0 < accuracy < 1.0:
         raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1, such as 1e-3.")
     if not TIGHTEST <= tolerance <= LOOSEST * accuracy:
@@ -109,159 +148,63 @@ def solve_steady(
         )
     if finest < LEAST_FINEST:
         raise InputError(f"finest = {finest!r}: must be at least {LEAST_FINEST} cells.")
-    kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
-    spectrum = material.modes_at(kelvin)
-    scale = _Scale.of(spectrum, material.poisson_ratio, indenter, force)
-    solid = _steady_material(spectrum, abs(velocity) / scale.length)
-    problem = Problem(solid, _ScaledIndenter(indenter, scale), tolerance)
-    first = find_window(problem, _effective_modulus(solid))
-    _check_width(first, scale, force, indenter)
-    stages = refine(first, accuracy, finest)
-    return _with_warnings(_assemble(stages, scale, velocity, force, kelvin), indenter)
 
 
-def _velocity(speed: Quantity) -> float:
-    if isinstance(speed, float) and math.isinf(speed):
-        return speed
-    return to_si(speed, "m/s", "speed")
-
-
-@dataclass(frozen=True)
-class _Scale:
-    """Units of the Hertz contact at E0: a0, a0²/R and E0 a0/((1−ν²) R)."""
-
-    length: float
-    depth: float
-    pressure: float
-
-    @classmethod
-    def of(cls, spectrum: RetardationSpectrum, poisson_ratio: float, ball: Ball, load: float) -> _Scale:
-        radius = float(ball.radius)
-        hertz = hertz_ball(load, radius, spectrum.E0, poisson_ratio)
-        pressure = spectrum.E0 / (1.0 - poisson_ratio**2) * hertz.radius / radius
-        return cls(hertz.radius, hertz.indentation, pressure)
-
-    @property
-    def slope(self) -> float:
-        """a0/R, the unit of friction coefficients."""
-        return self.depth / self.length
-
-
-@dataclass(frozen=True)
-class _ScaledIndenter:
-    """An indenter in units of the Hertz contact."""
-
-    indenter: Ball
-    scale: _Scale
-
-    def height(self, x: Array, y: Array) -> Array:
-        length, depth = self.scale.length, self.scale.depth
-        return self.indenter.height(length * x, length * y) / depth
-
-    def slope(self, x: Array, y: Array) -> Array:
-        length = self.scale.length
-        return self.indenter.slope(length * x, length * y) / self.scale.slope
-
-
-def _steady_material(spectrum: RetardationSpectrum, speed: float) -> SteadyMaterial:
-    """Compliances relative to 1/E0 and memory lengths v τ_k; equal to one spring in the elastic limits."""
-    if speed == 0.0:
-        return SteadyMaterial(1.0, np.empty(0), np.empty(0))
-    if math.isinf(speed):
-        return SteadyMaterial(spectrum.E0 / spectrum.E_inf, np.empty(0), np.empty(0))
-    return SteadyMaterial(
-        spectrum.E0 / spectrum.E_inf, spectrum.E0 * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau)
-    )
-
-
-def _effective_modulus(solid: SteadyMaterial) -> float:
-    """|E(v/a)|/E0 at the contact radius a of Hertz with that modulus: a first guess at the contact's size."""
-    radius = 1.0
-    for _ in range(30):
-        compliance = float(np.abs(solid.symbol(np.array([1.0 / radius])))[0])
-        radius = compliance ** (1.0 / 3.0)
-    return radius**-3
-
-
-def _assemble(
-    stages: list[Stage], scale: _Scale, velocity: float, load: float, temperature: float | None
-) -> ContactSolution:
-    """Bring the finest stage back to SI units, mirrored if the indenter moves backwards."""
-    fine, coarse = stages[-1], stages[-2]
-    result, window = fine.result, fine.window
-    pressure, x = scale.pressure * result.pressure, scale.length * window.x
-    displacement = scale.depth * fine.displacement
-    slope = math.copysign(scale.slope, velocity)
-    friction = friction_estimate(stages)
-    lean, energy = fine.pressure_friction, fine.energy_friction
-    centre = window.beside
-    rear, front = edges(x, pressure[:, centre])
-    _, side = edges(scale.length * window.y, pressure.max(axis=0))
-    if velocity < 0.0:
-        x, pressure, displacement = -x[::-1], pressure[::-1], displacement[::-1]
-    results = [stage.result for stage in stages]
-    products = sum(one.products for one in results)
-    linear = sum(one.linear_iterations for one in results)
-    return ContactSolution(
-        speed=velocity,
-        load=load,
-        temperature=temperature,
-        friction_coefficient=slope * friction.value,
-        pressure_friction_coefficient=slope * lean,
-        energy_friction_coefficient=slope * energy,
-        indentation=scale.depth * result.indentation,
-        contact_area=scale.length**2 * window.cell_area * float(np.count_nonzero(result.pressure)),
-        front=front,
-        rear=-rear,
-        half_width=side,
-        max_pressure=float(pressure.max()),
-        x=x,
-        y=scale.length * window.y,
-        pressure=pressure,
-        displacement=displacement,
-        diagnostics=Diagnostics(
-            shape=window.shape,
-            spacing=scale.length * window.spacing,
-            collocation_shift=fine.operator.shift,
-            complementarity=result.complementarity,
-            load=result.load,
-            energy=(lean - energy) / max(abs(lean), abs(energy), FRICTION_FLOOR),
-            friction_error=scale.slope * friction.error,
-            indentation_error=scale.depth * abs(result.indentation - coarse.result.indentation),
-            levels=tuple(
-                Level(
-                    cells=max(one.window.shape),
-                    pressure_friction=slope * one.pressure_friction,
-                    energy_friction=slope * one.energy_friction,
-                    indentation=scale.depth * one.result.indentation,
-                )
-                for one in stages
-            ),
-            set_changes=sum(one.set_changes for one in results),
-            linear_iterations=linear,
-            products=products,
-            ffts=2 * products + 2 * linear,
-        ),
-    )
-
-
-def _check_width(first: Stage, scale: _Scale, load: float, ball: Ball) -> None:
-    """Refuse a contact wider than the ball before time is spent on refining it."""
-    _, _, side = first.window.extent(first.result.pressure > 0.0)
-    width, diameter = 2.0 * scale.length * side, 2.0 * float(ball.radius)
-    if width > diameter:
+def _held(
+    indenter: Indenter, stiffness: float, load: Quantity | None, indentation: Quantity | None
+) -> tuple[Scale, Control, str]:
+    """Return the units, what is given in them, and what is given in words."""
+    geometry = indenter.geometry
+    if (load is None) == (indentation is None):
+        both = "neither" if load is None else "both"
+        raise InputError(f"load and indentation: {both} given; give exactly one of them.")
+    if load is not None:
+        force = positive(load, geometry.load_unit, "load")
+        scale = Scale.for_load(indenter, stiffness, force)
+        return scale, GivenLoad(geometry.parabolic_load), f"under {force:g} {geometry.load_unit}"
+    if not geometry.has_far_field:
         raise InputError(
-            f"under {load:g} N the contact would be {1e3 * width:.3g} mm wide, wider than the ball "
-            f"({1e3 * diameter:.3g} mm): the material is too soft for this load; lower the load."
+            f"indentation = {indentation!r}: has no meaning in plane strain, where the surface far away is infinitely "
+            f"high above the contact; give the load ({geometry.load_unit})."
         )
+    depth = positive(indentation, "m", "indentation")  # type: ignore[arg-type]
+    return Scale.for_indentation(indenter, stiffness, depth), GivenIndentation(1.0), f"{1e3 * depth:g} mm deep"
 
 
-def _with_warnings(solution: ContactSolution, ball: Ball) -> ContactSolution:
-    ratio = max(solution.front, solution.rear, solution.half_width) / float(ball.radius)
-    if ratio <= SMALL_STRAIN:
-        return solution
-    warning = (
-        f"The contact reaches {ratio:.2f} ball radii from the axis; above {SMALL_STRAIN} the assumption of "
-        "small strain and of a parabolic ball is doubtful."
-    )
-    return replace(solution, warnings=(*solution.warnings, warning))
+def _indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
+    """(1 − ν_i²)/E_i in 1/Pa; zero if rigid."""
+    if modulus is None:
+        return 0.0
+    ratio = to_si(poisson_ratio, "dimensionless", "indenter_poisson_ratio")
+    if not -1.0 < ratio <= 0.5:
+        raise InputError(
+            f"indenter_poisson_ratio = {poisson_ratio!r}: must lie between -1 and 0.5, such as 0.3 of steel."
+        )
+    return (1.0 - ratio**2) / positive(modulus, "Pa", "indenter_modulus")
+
+
+def _steady_material(
+    spectrum: RetardationSpectrum, speed: float, plane_strain: float, counterface: float
+) -> SteadyMaterial:
+    """Compliances relative to the relaxed one and memory lengths v τ_k; one spring in the elastic limits.
+
+    Parameters
+    ----------
+    spectrum : RetardationSpectrum
+    speed : float
+        Lengths per second.
+    plane_strain, counterface : float
+        1 − ν² in Pa and the indenter's share: over the relaxed compliance of both bodies.
+    """
+    none = np.empty(0)
+    if speed == 0.0:
+        return SteadyMaterial(1.0, none, none)
+    glassy = plane_strain / spectrum.E_inf + counterface
+    if math.isinf(speed):
+        return SteadyMaterial(glassy, none, none)
+    return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau))
+
+
+def _with_doubts(solution: ContactSolution, indenter: Indenter, scale: Scale, finest: Stage) -> ContactSolution:
+    doubt = indenter.doubt(scale.extent(finest.extent), solution.indentation)
+    return replace(solution, warnings=(doubt,)) if doubt else solution

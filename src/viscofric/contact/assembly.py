@@ -1,0 +1,97 @@
+"""From nested solutions in units of the Hertz contact to one solution in SI units."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from viscofric.contact.estimates import FRICTION_FLOOR, friction_estimate
+from viscofric.contact.footprint import FootprintErrors
+from viscofric.contact.solution import ContactSolution, Diagnostics, Level
+
+if TYPE_CHECKING:
+    from viscofric.contact.problem import Stage
+    from viscofric.contact.scale import Scale
+
+
+def assemble(stages: list[Stage], scale: Scale, velocity: float, temperature: float | None) -> ContactSolution:
+    """Bring the finest stage back to SI units, mirrored if the indenter moves backwards.
+
+    Parameters
+    ----------
+    stages : list of Stage
+        Coarsest first.
+    scale : Scale
+    velocity : float
+        m/s.
+    temperature : float or None
+        K.
+
+    Returns
+    -------
+    ContactSolution
+        Without warnings.
+    """
+    fine, window = stages[-1], stages[-1].window
+    pressure, x = scale.pressure * fine.result.pressure, scale.length * window.x
+    displacement = scale.depth * fine.displacement
+    slope = math.copysign(scale.slope, velocity)
+    if velocity < 0.0:
+        x, pressure, displacement = -x[::-1], pressure[::-1], displacement[::-1]
+    return ContactSolution(
+        speed=velocity,
+        load=scale.force * fine.load,
+        temperature=temperature,
+        friction_coefficient=slope * friction_estimate(stages).value,
+        pressure_friction_coefficient=slope * fine.pressure_friction,
+        energy_friction_coefficient=slope * fine.energy_friction,
+        indentation=scale.depth * fine.indentation,
+        contact_area=scale.area * fine.footprint.area,
+        front=scale.length * fine.footprint.front,
+        rear=scale.length * fine.footprint.rear,
+        half_width=scale.length * fine.footprint.side,
+        max_pressure=scale.pressure * fine.footprint.peak,
+        x=x,
+        y=scale.length * window.y,
+        pressure=pressure,
+        displacement=displacement,
+        diagnostics=_diagnostics(stages, scale, slope),
+        geometry=scale.geometry.name,
+    )
+
+
+def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics:
+    fine, coarse = stages[-1], stages[-2]
+    results = [stage.result for stage in stages]
+    products = sum(one.products for one in results)
+    linear = sum(one.linear_iterations for one in results)
+    lean, energy = fine.pressure_friction, fine.energy_friction
+    errors = FootprintErrors.of(stages)
+    return Diagnostics(
+        shape=fine.window.shape,
+        spacing=scale.length * fine.window.spacing,
+        collocation_shift=fine.operator.shift,
+        complementarity=fine.result.complementarity,
+        load=fine.result.load,
+        energy=(lean - energy) / max(abs(lean), abs(energy), FRICTION_FLOOR),
+        friction_error=scale.slope * friction_estimate(stages).error,
+        indentation_error=scale.depth * abs(fine.indentation - coarse.indentation),
+        load_error=scale.force * abs(fine.load - coarse.load),
+        edge_error=scale.length * errors.edge,
+        contact_area_error=scale.area * errors.area,
+        max_pressure_error=scale.pressure * errors.peak,
+        peak_resolved=errors.peak_resolved,
+        levels=tuple(
+            Level(
+                cells=max(one.window.shape),
+                pressure_friction=slope * one.pressure_friction,
+                energy_friction=slope * one.energy_friction,
+                indentation=scale.depth * one.indentation,
+            )
+            for one in stages
+        ),
+        set_changes=sum(one.set_changes for one in results),
+        linear_iterations=linear,
+        products=products,
+        ffts=2 * products + 2 * linear,
+    )

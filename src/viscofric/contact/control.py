@@ -1,0 +1,62 @@
+"""What holds the indenter: a given load, or a given indentation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from viscofric.contact.operator import ConvolutionOperator
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+class Control(Protocol):
+    """How the contact problem on one grid is closed."""
+
+    def solve(
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float
+    ) -> ComplementaritySolution:
+        """Solve on one grid from a guess of the pressure."""
+
+
+@dataclass(frozen=True)
+class GivenLoad:
+    """The load is given.
+
+    Parameters
+    ----------
+    load : float
+    """
+
+    load: float
+
+    def solve(
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float
+    ) -> ComplementaritySolution:
+        """Solve on one grid from a guess of the pressure."""
+        load = self.load / operator.window.cell_area
+        return solve_complementarity(operator, height, load, guess, tolerance=tolerance)
+
+
+@dataclass(frozen=True)
+class GivenIndentation:
+    """The indentation is given.
+
+    Parameters
+    ----------
+    indentation : float
+    """
+
+    indentation: float
+
+    def solve(
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float
+    ) -> ComplementaritySolution:
+        """Solve on one grid from a guess of the pressure."""
+        return solve_complementarity(operator, height, None, guess, indentation=self.indentation, tolerance=tolerance)

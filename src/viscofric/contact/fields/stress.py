@@ -1,0 +1,120 @@
+"""Stresses in a solid, and their closed form below a uniformly loaded rectangle or strip of its surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Stress:
+    """Stress at a set of points; tension is positive, z points into the solid.
+
+    Attributes
+    ----------
+    xx, yy, zz, yz, xz, xy : array
+        Components, all of one shape, Pa.
+    """
+
+    xx: Array
+    yy: Array
+    zz: Array
+    yz: Array
+    xz: Array
+    xy: Array
+
+    @property
+    def von_mises(self) -> Array:
+        """Von Mises' equivalent stress √(3 J2), Pa."""
+        normal = (self.xx - self.yy) ** 2 + (self.yy - self.zz) ** 2 + (self.zz - self.xx) ** 2
+        return np.asarray(np.sqrt(0.5 * normal + 3.0 * (self.yz**2 + self.xz**2 + self.xy**2)))
+
+    @property
+    def principal(self) -> Array:
+        """Principal stresses, ascending, along a new last axis, Pa."""
+        rows = ((self.xx, self.xy, self.xz), (self.xy, self.yy, self.yz), (self.xz, self.yz, self.zz))
+        matrix = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+        return np.asarray(np.linalg.eigvalsh(matrix))
+
+    @property
+    def max_shear(self) -> Array:
+        """Largest shear stress, half the difference of the extreme principal stresses, Pa."""
+        principal = self.principal
+        return np.asarray(0.5 * (principal[..., -1] - principal[..., 0]))
+
+
+def rectangle_corners(X: Array, Y: Array, z: float | Array, poisson_ratio: float) -> Array:
+    """Antiderivatives, along x and y, of the stresses below a unit point load.
+
+    The stress under a unit pressure on a rectangle is their alternating sum over its four corners, seen from the point:
+    F(X2, Y2) − F(X1, Y2) − F(X2, Y1) + F(X1, Y1) with X, Y the point's coordinates relative to a corner.
+
+    Parameters
+    ----------
+    X, Y, z : array
+        Broadcast against each other; z above zero.
+    poisson_ratio : float
+
+    Returns
+    -------
+    (6, …) array
+        xx, yy, zz, yz, xz, xy.
+
+    References
+    ----------
+    A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377, doi:10.1098/rsta.1929.0009.  With the potentials
+    V = ∫∫ p/ρ and χ = ∫∫ p ln(ρ + z): 2π σ_x = 2ν V_z − z V_xx − (1−2ν) χ_xx, 2π σ_z = V_z − z V_zz,
+    2π τ_xy = −z V_xy − (1−2ν) χ_xy, 2π τ_xz = −z V_xz.  For a point load these are K. L. Johnson, Contact Mechanics
+    (1985), Eqs. 3.19.
+    """
+    rho = np.sqrt(X**2 + Y**2 + z**2)
+    V_z = -np.arctan2(X * Y, z * rho)
+    V_xx = -X * Y / ((X**2 + z**2) * rho)
+    V_yy = -X * Y / ((Y**2 + z**2) * rho)
+    # The differences of two arctangents, one for each derivative, put into one.
+    chi_xx = np.arctan2(X * Y * (rho - z), X**2 * rho + z * Y**2)
+    chi_yy = np.arctan2(X * Y * (rho - z), Y**2 * rho + z * X**2)
+    shear = 1.0 - 2.0 * poisson_ratio
+    parts = (
+        2.0 * poisson_ratio * V_z - z * V_xx - shear * chi_xx,
+        2.0 * poisson_ratio * V_z - z * V_yy - shear * chi_yy,
+        V_z + z * (V_xx + V_yy),
+        z**2 * X / ((Y**2 + z**2) * rho),
+        z**2 * Y / ((X**2 + z**2) * rho),
+        -z / rho - shear * np.log(rho + z),
+    )
+    return np.stack(np.broadcast_arrays(*parts)) / (2.0 * np.pi)
+
+
+def strip_ends(X: Array, z: float, poisson_ratio: float) -> Array:
+    """Antiderivatives along x of the stresses below a unit line load, in plane strain.
+
+    Parameters
+    ----------
+    X : (…) array
+        The point's coordinate relative to an end of the strip.
+    z : float
+        Depth, above zero.
+    poisson_ratio : float
+
+    Returns
+    -------
+    (6, …) array
+        xx, yy, zz, yz, xz, xy; the stress under a unit pressure on a strip is F(X2) − F(X1).
+
+    References
+    ----------
+    K. L. Johnson, Contact Mechanics (1985), Sec. 2.5.
+    """
+    angle, ratio = np.arctan2(X, z), X * z / (X**2 + z**2)
+    zero = np.zeros_like(angle)
+    normal_x, normal_z = -(angle - ratio), -(angle + ratio)
+    parts = (normal_x, poisson_ratio * (normal_x + normal_z), normal_z, zero, z**2 / (X**2 + z**2), zero)
+    return np.stack(parts) / np.pi

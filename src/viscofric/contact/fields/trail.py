@@ -1,0 +1,171 @@
+"""The surface around a contact and the trail behind it, where the solid has not yet recovered."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.fields._cells import on_cells, spacing
+from viscofric.contact.influence import cell_potential, memory_influence
+from viscofric.contact.line_influence import line_memory_influence, strip_potential
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Most cells of the window that is looked at.
+LARGEST = 2**24
+# Square cells may differ in their last digits.
+_NOT_SQUARE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceDisplacement:
+    """Displacement of the surface in and around a contact.
+
+    Attributes
+    ----------
+    x, y : (nx,) and (ny,) array
+        Cell centres, m, the pressure's own among them.
+    displacement : (nx, ny) array
+        u, positive into the solid, m.
+    """
+
+    x: Array
+    y: Array
+    displacement: Array
+
+
+def surface_displacement(
+    x: ArrayLike,
+    y: ArrayLike,
+    pressure: ArrayLike,
+    *,
+    speed: float,
+    E_inf: float,
+    C: ArrayLike,
+    tau: ArrayLike,
+    poisson_ratio: float,
+    behind: float = 0.0,
+    ahead: float = 0.0,
+    beside: float = 0.0,
+) -> SurfaceDisplacement:
+    """Displacement of the half-space under a steady pressure, in a window larger than the contact's.
+
+    Parameters
+    ----------
+    x, y : (nx,) and (ny,) array
+        Centres of square cells, m; one y means a line contact in plane strain.
+    pressure : (nx, ny) array
+        p, Pa.
+    speed : float
+        v, m/s, positive towards +x; 0 and ±inf are the elastic limits.
+    E_inf : float
+        Glass modulus, Pa.
+    C, tau : (m,) array
+        Compliance (1/Pa) and retardation time (s) of each mode.
+    poisson_ratio : float
+    behind, ahead : float
+        How far to look beyond the ends of `x`, against and along the motion, m; rounded up to whole cells.
+    beside : float
+        How far to look beyond both ends of `y`, m.
+
+    Returns
+    -------
+    SurfaceDisplacement
+        For a line contact, relative to the end of the window ahead of it, since in plane strain only differences are
+        determined.
+
+    Raises
+    ------
+    InputError
+        If the arrays do not fit each other, the cells are not square, or the window has too many of them.
+
+    Notes
+    -----
+    The convolution of the paper's Eq. 8, with the influence coefficients that the solver uses.
+    """
+    along, across = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    step = spacing(along, "x")
+    load = on_cells(pressure, (len(along), len(across)), "pressure")
+    is_line = len(across) == 1
+    if not is_line and abs(spacing(across, "y") / step - 1.0) > _NOT_SQUARE:
+        raise InputError("the cells must be square: x and y must ascend in the same step.")
+    if min(behind, ahead, beside) < 0.0:
+        raise InputError("behind, ahead and beside must not be negative.")
+    modes = _Modes.at(speed, E_inf, C, tau, step)
+    below, above = (math.ceil(distance / step - 1e-9) for distance in (behind, ahead))
+    if speed < 0.0:
+        below, above = above, below
+    sides = 0 if is_line else math.ceil(beside / step - 1e-9)
+    cells = (len(along) + below + above) * (len(across) + 2 * sides)
+    if cells > LARGEST:
+        raise InputError(f"the window has {cells} cells, more than {LARGEST}; look less far.")
+    larger = np.pad(load, ((below, above), (sides, sides)))
+    # The influence functions know motion towards +x only.
+    mirrored = larger[::-1] if speed < 0.0 else larger
+    influence = _line_influence(modes, len(larger)) if is_line else _influence(modes, larger.shape)
+    found = (1.0 - poisson_ratio**2) * step / np.pi * _convolve(influence, mirrored)
+    if is_line:
+        found -= found[-1]
+    return SurfaceDisplacement(
+        x=along[0] + step * (np.arange(len(larger)) - below),
+        y=across if is_line else across[0] + step * (np.arange(larger.shape[1]) - sides),
+        displacement=found[::-1] if speed < 0.0 else found,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Modes:
+    """Compliance without memory, and those that fade with memory lengths in cells."""
+
+    glassy: float
+    compliances: Array
+    lengths: Array
+
+    @classmethod
+    def at(cls, speed: float, E_inf: float, C: ArrayLike, tau: ArrayLike, step: float) -> _Modes:
+        compliances, times = np.asarray(C, dtype=float), np.asarray(tau, dtype=float)
+        if compliances.ndim != 1 or compliances.shape != times.shape:
+            raise InputError(f"C and tau must be as many: their shapes are {compliances.shape} and {times.shape}.")
+        if not E_inf > 0.0 or np.any(compliances < 0.0) or np.any(times <= 0.0) or math.isnan(speed):
+            raise InputError("E_inf and tau must be above zero, C must not be below it, and speed must be a number.")
+        glassy = 1.0 / E_inf
+        if speed == 0.0:
+            glassy += float(compliances.sum())
+        if speed == 0.0 or math.isinf(speed):
+            compliances = times = np.zeros(0)
+        return cls(glassy, compliances, abs(speed) * times / step if len(times) else times)
+
+
+def _influence(modes: _Modes, shape: tuple[int, ...]) -> Array:
+    """Influence of the unit cell at offsets −(nx−1) … nx−1 and −(ny−1) … ny−1."""
+    nx, ny = shape
+    half = modes.glassy * cell_potential(np.arange(-(nx - 1.0), nx)[:, None], np.arange(float(ny)))
+    half += memory_influence((nx, ny), modes.compliances[None], modes.lengths)[0]
+    return np.concatenate([half[:, :0:-1], half], axis=1)
+
+
+def _line_influence(modes: _Modes, cells: int) -> Array:
+    """Twice the influence of the unit cell of a strip, up to a constant."""
+    x = np.arange(-(cells - 1.0), cells)
+    total = modes.glassy * strip_potential(x)
+    for compliance, length in zip(modes.compliances, modes.lengths, strict=True):
+        total += compliance * line_memory_influence(x, length)[0]
+    return 2.0 * total[:, None]
+
+
+def _convolve(influence: Array, pressure: Array) -> Array:
+    """Σ influence(i − j) p(j) at the cells of the pressure, by FFT."""
+    padded = [scipy.fft.next_fast_len(size, real=True) for size in influence.shape]
+    spectrum = scipy.fft.rfft2(influence, padded)
+    spectrum *= scipy.fft.rfft2(pressure, padded)
+    nx, ny = pressure.shape
+    # Circular in a period as long as the influence: only offsets that are not asked for wrap around.
+    return np.asarray(scipy.fft.irfft2(spectrum, padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])

@@ -1,0 +1,163 @@
+"""Edges, area and peak of a contact to a fraction of a cell.
+
+Near the edge of a smooth contact the pressure rises like the square root of the distance, so that its square crosses
+zero at the edge as a straight line.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.estimates import settled
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.contact.grids import Grid
+    from viscofric.contact.problem import Stage
+
+    Array: TypeAlias = NDArray[np.float64]
+
+# The largest pressure counts as resolved this far from the edge (in cells) and settled this well.
+_RESOLVED_CELLS = 3
+_RESOLVED_CHANGE = 0.02
+# No edge is claimed to be known better than to this part of a cell: what the extrapolation misses on Hertz's contact.
+_LEAST_EDGE_ERROR = 0.25
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """Size of the contact and its largest pressure, in the units of the grid.
+
+    Attributes
+    ----------
+    front, rear, side : float
+        Distances from the axis to the leading and trailing edge on the centre line, and to the farther side.
+    area : float
+    peak : float
+        Largest pressure.
+    peak_depth : int
+        Cells, its own included, from the largest pressure to the nearer end of the loaded cells along the motion.
+    """
+
+    front: float
+    rear: float
+    side: float
+    area: float
+    peak: float
+    peak_depth: int
+
+    @classmethod
+    def of(cls, window: Grid, pressure: Array) -> Footprint:
+        """Measure the contact on one grid.
+
+        Parameters
+        ----------
+        window : Grid
+        pressure : (nx, ny) array
+        """
+        centre = pressure[:, pressure.shape[1] // 2]
+        rear, front = edges(window.x, centre if centre.any() else pressure.max(axis=1))
+        across = pressure.max(axis=0)
+        side = max(-(found := edges(window.y, across))[0], found[1]) if len(across) > 1 else math.inf
+        place, row = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
+        empty = np.flatnonzero(pressure[:, row] == 0.0)
+        depth = int(np.abs(empty - place).min()) if len(empty) else len(pressure)
+        return cls(front, -rear, side, contact_area(window, pressure), float(pressure.max()), depth)
+
+
+@dataclass(frozen=True)
+class FootprintErrors:
+    """Error estimates of the finest footprint from its changes on the nested grids."""
+
+    edge: float
+    area: float
+    peak: float
+    peak_resolved: bool
+
+    @classmethod
+    def of(cls, stages: list[Stage]) -> FootprintErrors:
+        """Estimate from all stages, coarsest first."""
+        footprints = [stage.footprint for stage in stages]
+        last = footprints[-1]
+
+        def error(name: str) -> float:
+            return settled(np.array([getattr(one, name) for one in footprints])).error
+
+        shift, cell = stages[-1].operator.shift, stages[-1].window.spacing
+        least = cell * max(_LEAST_EDGE_ERROR, 2.0 * shift)
+        sides = [name for name in ("front", "rear", "side") if math.isfinite(getattr(last, name))]
+        rim = last.area / max(last.front + last.rear, cell)  # the contact's width across, one for a line contact
+        peak = error("peak")
+        # Where the gap is looked at behind the cell centres, the layer at the leading edge is thinner than a cell, and
+        # may hide a pressure that no grid so far has seen.
+        deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
+        return cls(
+            edge=max(least, *(error(name) for name in sides)),
+            area=max(least * rim, error("area")),
+            peak=peak,
+            peak_resolved=deep and still and shift == 0.0,
+        )
+
+
+def edges(position: Array, pressure: Array) -> tuple[float, float]:
+    """Lower and upper end of the loaded stretch of a pressure profile, to a fraction of a cell.
+
+    The pressure's square is extrapolated linearly to zero from the two outermost loaded cells, and never beyond the
+    next cell's centre.
+
+    Parameters
+    ----------
+    position : (n,) array
+        Equally spaced, ascending.
+    pressure : (n,) array
+        Positive somewhere.
+    """
+    cell = float(position[1] - position[0])
+    loaded = np.flatnonzero(pressure > 0.0)
+    first, last = int(loaded[0]), int(loaded[-1])
+    padded = np.concatenate([[0.0], pressure, [0.0]])  # place i is i + 1 here
+    lower = _overhang(padded[first + 1 : first + 2], padded[first + 2 : first + 3])
+    upper = _overhang(padded[last + 1 : last + 2], padded[last : last + 1])
+    return float(position[first] - cell * lower[0]), float(position[last] + cell * upper[0])
+
+
+def contact_area(window: Grid, pressure: Array) -> float:
+    """Area of the contact: loaded cells, corrected along their rim by where the pressure's square ends.
+
+    Parameters
+    ----------
+    window : Grid
+    pressure : (nx, ny) array
+
+    Returns
+    -------
+    float
+        Mean of what the rims along x and along y give; for one row of cells, its loaded length.
+    """
+    axes = [axis for axis in (0, 1) if pressure.shape[axis] > 1]
+    corrections = [_rim(np.moveaxis(pressure, axis, 0)) for axis in axes]
+    count = float(np.count_nonzero(pressure))
+    return window.cell_area * (count + sum(corrections) / len(corrections))
+
+
+def _rim(pressure: Array) -> float:
+    """Sum up what the contact covers beyond its loaded cells' edges along the first axis, in cells."""
+    padded = np.pad(pressure, [(2, 2), (0, 0)])
+    total = 0.0
+    for one in (padded, padded[::-1]):
+        outer, inner, beyond = one[1:-1], one[2:], one[:-2]
+        rim = (outer > 0.0) & (beyond == 0.0)
+        total += float(np.sum(_overhang(outer[rim], inner[rim]) - 0.5))
+    return total
+
+
+def _overhang(outer: Array, inner: Array) -> Array:
+    """Distance from the outermost loaded cell's centre to the edge, in cells; half a cell if nothing else is known."""
+    rising = inner > outer
+    ratio = np.where(rising, (outer / np.where(rising, inner, 1.0)) ** 2, 0.5)
+    return np.where(rising, np.minimum(1.0, ratio / (1.0 - ratio)), 0.5)

@@ -1,0 +1,55 @@
+"""The two free contacts: a point contact on square cells, a line contact in plane strain on one row of cells."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from viscofric.contact.grids import Grid, Strip, Window
+from viscofric.contact.line_operator import LineOperator
+from viscofric.contact.operator import ConvolutionOperator, HalfSpaceOperator
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """What distinguishes a point contact from a line contact.
+
+    Attributes
+    ----------
+    name : str
+    dimension : int
+        Of the surface that the contact covers: loads are pressures times lengths to this power.
+    grid : type of Grid
+    operator : callable
+        Grid, material and collocation shift to the influence operator.
+    parabolic_load : float
+        Load on an elastic half-space under the paraboloid or the parabolic cylinder, in units of Hertz's contact
+        (K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22 and 4.43).
+    load_unit : str
+    has_far_field : bool
+        Whether the surface far away stays where it was, so that displacements are counted from there.
+    scatter : float
+        By what the error that the changes from grid to grid let expect is multiplied.  Where an edge lies within its
+        cell is a matter of luck, which the many cells of a rim average, but not the two at the ends of a strip.
+    finest, finest_continuation : int
+        Most cells along the longer edge that are spent by default, and in a continuation.
+    """
+
+    name: str
+    dimension: int
+    grid: type[Grid]
+    operator: Callable[..., ConvolutionOperator]
+    parabolic_load: float
+    load_unit: str
+    has_far_field: bool
+    scatter: float
+    finest: int
+    finest_continuation: int
+
+
+POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, 160)
+LINE: Final = Geometry("line", 1, Strip, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, 4096)

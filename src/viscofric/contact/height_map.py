@@ -1,0 +1,208 @@
+"""Measured or computed indenters: heights on a grid, interpolated smoothly onto the cells of the contact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.geometry import LINE, Geometry
+from viscofric.contact.indenters import Indenter, too_steep
+from viscofric.errors import InputError
+from viscofric.units import Quantity, positive
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+    from scipy.interpolate import PPoly, RectBivariateSpline
+
+    from viscofric.contact.grids import Extent
+
+    Array: TypeAlias = NDArray[np.float64]
+
+_FEWEST = 4  # points that a cubic spline needs
+
+
+@dataclass(frozen=True, eq=False)
+class HeightMap(Indenter):
+    """A free surface given by its heights on a rectangular grid, x (the motion) along the first axis.
+
+    Between the points it is the bicubic spline through them (no smoothing), beyond the outermost ones there is no
+    surface; a contact that reaches them is refused.  The lowest point given is the origin of x, y and of heights, and
+    what the indentation is counted from.
+
+    Parameters
+    ----------
+    z : (nx, ny) array
+        Heights, m, from any level, growing away from the solid.  At least four points each way.
+    spacing : float, str, pint.Quantity, or a pair of them
+        Distance of neighbouring points along both axes, or along x and y, m.
+
+    Raises
+    ------
+    InputError
+        If the heights are not a finite two-dimensional array, or a spacing is not a length above zero.
+    """
+
+    noun: ClassVar[str] = "height map"
+    z: ArrayLike
+    spacing: Quantity | tuple[Quantity, Quantity]
+    _origin: tuple[float, float] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        z = _heights(self.z, 2)
+        pair = self.spacing if isinstance(self.spacing, (tuple, list)) else (self.spacing, self.spacing)
+        if len(pair) != 2:
+            raise InputError(f"spacing = {self.spacing!r}: must be one length, or two, along x and along y.")
+        spacing = (positive(pair[0], "m", "spacing along x"), positive(pair[1], "m", "spacing along y"))
+        lowest = np.unravel_index(int(np.argmin(z)), z.shape)
+        object.__setattr__(self, "z", z)
+        object.__setattr__(self, "spacing", spacing)
+        object.__setattr__(self, "_origin", (spacing[0] * float(lowest[0]), spacing[1] * float(lowest[1])))
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the lowest point at (x, y), in m; infinite beyond the map."""
+        return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), grid=False), np.inf)
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y); zero beyond the map."""
+        return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), dx=1, grid=False), 0.0)
+
+    def check(self, contact: Extent, held: str) -> None:
+        """Refuse a contact that reaches the outermost points of the map."""
+        (rear, front), side = self._ends[0], min(self._ends[1])
+        if contact.rear > rear or contact.front > front or contact.side > side:
+            raise InputError(
+                f"{held} the contact reaches the edge of the height map; give a map of a larger piece of the surface, "
+                "or press less."
+            )
+
+    def doubt(self, contact: Extent, indentation: float) -> str | None:
+        """Return what is doubtful about small strain, if anything."""
+        x = self._points[0]
+        y = self._points[1]
+        within = np.ix_((x >= -contact.rear) & (x <= contact.front), np.abs(y) <= contact.side)
+        steepness = np.hypot(*np.gradient(np.asarray(self.z), *self._steps))[within]
+        return too_steep(float(steepness.max(initial=0.0)))
+
+    @property
+    def _steps(self) -> tuple[float, float]:
+        return self.spacing  # type: ignore[return-value]
+
+    @cached_property
+    def _points(self) -> tuple[Array, Array]:
+        """Positions of the points along x and y, from the lowest one, m."""
+        x, y = (
+            step * np.arange(count) - start
+            for step, count, start in zip(self._steps, np.shape(self.z), self._origin, strict=True)
+        )
+        return x, y
+
+    @property
+    def _ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Distances from the lowest point to the ends of the map, less one point, along x and along y."""
+        x, y = (
+            (-float(points[0]) - step, float(points[-1]) - step)
+            for points, step in zip(self._points, self._steps, strict=True)
+        )
+        return x, y
+
+    @cached_property
+    def _spline(self) -> RectBivariateSpline:
+        from scipy.interpolate import RectBivariateSpline
+
+        z = np.asarray(self.z)
+        return RectBivariateSpline(*self._points, z - z.min(), kx=3, ky=3, s=0)
+
+    def _inside(self, x: Array, y: Array) -> NDArray[np.bool_]:
+        px, py = self._points
+        return np.asarray((x >= px[0]) & (x <= px[-1]) & (y >= py[0]) & (y <= py[-1]))
+
+    def _on_map(self, x: Array, y: Array) -> tuple[Array, Array]:
+        px, py = self._points
+        a, b = np.broadcast_arrays(np.clip(x, px[0], px[-1]), np.clip(y, py[0], py[-1]))
+        return a, b
+
+
+@dataclass(frozen=True, eq=False)
+class Profile(Indenter):
+    """A free surface that is the same all along y, given by heights along x: a line contact in plane strain.
+
+    Between the points it is the cubic spline through them, beyond the outermost ones there is no surface; a contact
+    that reaches them is refused.  The lowest point given is the origin.  Its load is per unit of length (N/m).
+
+    Parameters
+    ----------
+    z : (n,) array
+        Heights, m, from any level, growing away from the solid.  At least four.
+    spacing : float, str or pint.Quantity
+        Distance of neighbouring points, m.
+
+    Raises
+    ------
+    InputError
+        If the heights are not a finite one-dimensional array, or the spacing is not a length above zero.
+    """
+
+    geometry: ClassVar[Geometry] = LINE
+    noun: ClassVar[str] = "profile"
+    z: ArrayLike
+    spacing: Quantity
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "z", _heights(self.z, 1))
+        object.__setattr__(self, "spacing", positive(self.spacing, "m", "spacing"))
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the lowest point at (x, y), in m; infinite beyond the profile."""
+        return np.where(self._inside(x), self._spline(x), np.inf) + 0.0 * y
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y); zero beyond the profile."""
+        return np.where(self._inside(x), self._spline(x, 1), 0.0) + 0.0 * y
+
+    def check(self, contact: Extent, held: str) -> None:
+        """Refuse a contact that reaches the outermost points of the profile."""
+        x, step = self._points, float(self.spacing)
+        if contact.rear > -x[0] - step or contact.front > x[-1] - step:
+            raise InputError(f"{held} the contact reaches the end of the profile; give a longer one, or press less.")
+
+    def doubt(self, contact: Extent, indentation: float) -> str | None:
+        """Return what is doubtful about small strain, if anything."""
+        within = (self._points >= -contact.rear) & (self._points <= contact.front)
+        return too_steep(float(np.abs(self._spline(self._points[within], 1)).max(initial=0.0)))
+
+    @cached_property
+    def _points(self) -> Array:
+        z = np.asarray(self.z)
+        return np.asarray(float(self.spacing) * (np.arange(len(z)) - np.argmin(z)))
+
+    @cached_property
+    def _spline(self) -> PPoly:
+        from scipy.interpolate import CubicSpline
+
+        z = np.asarray(self.z)
+        return CubicSpline(self._points, z - z.min())
+
+    def _inside(self, x: Array) -> NDArray[np.bool_]:
+        return np.asarray((x >= self._points[0]) & (x <= self._points[-1]))
+
+
+def _heights(z: ArrayLike, dimensions: int) -> Array:
+    """Return heights as a finite array of so many dimensions, or refuse them."""
+    try:
+        heights = np.array(z, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("z: the heights must be an array of numbers in m.") from None
+    if heights.ndim != dimensions or min(heights.shape, default=0) < _FEWEST:
+        shape = " x ".join(str(count) for count in heights.shape) or "a single number"
+        raise InputError(
+            f"z: the heights are {shape}, but must be a {dimensions}-dimensional array of at least {_FEWEST} points "
+            "along each axis."
+        )
+    if not math.isfinite(float(np.abs(heights).max())):
+        raise InputError("z: the heights must all be finite numbers; fill gaps of a measurement first.")
+    heights.setflags(write=False)
+    return heights

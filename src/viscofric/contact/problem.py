@@ -1,0 +1,135 @@
+"""One contact problem in units of the Hertz contact at E0, and its solution on one grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.control import GivenLoad
+from viscofric.contact.footprint import Footprint
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.contact.complementarity import ComplementaritySolution
+    from viscofric.contact.control import Control
+    from viscofric.contact.geometry import Geometry
+    from viscofric.contact.grids import Extent, Grid
+    from viscofric.contact.operator import ConvolutionOperator, SteadyMaterial
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+class Shape(Protocol):
+    """An indenter, in these units."""
+
+    @property
+    def has_walls(self) -> bool:
+        """Whether the height jumps to infinity, so that the pressure's lean misses a part of the friction."""
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height above the lowest point."""
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What is to be solved on every grid.
+
+    Attributes
+    ----------
+    geometry : Geometry
+        Point or line contact.
+    solid : SteadyMaterial
+    shape : Shape
+    control : Control
+        Given load or given indentation.
+    tolerance : float
+        How exactly the contact conditions hold.
+    """
+
+    geometry: Geometry
+    solid: SteadyMaterial
+    shape: Shape
+    control: Control
+    tolerance: float
+
+    @property
+    def first_size(self) -> float:
+        """First guess of the contact's size.
+
+        Under a given load, the radius a of Hertz's contact with the modulus |E(v/a)|; a given indentation hardly leaves
+        the size a choice.
+        """
+        size = 1.0
+        if isinstance(self.control, GivenLoad):
+            for _ in range(30):
+                compliance = float(np.abs(self.solid.symbol(np.array([1.0 / size])))[0])
+                size = compliance ** (1.0 / (self.geometry.dimension + 1.0))
+        return size
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """A converged solution on one grid."""
+
+    problem: Problem
+    window: Grid
+    operator: ConvolutionOperator
+    result: ComplementaritySolution
+
+    @cached_property
+    def load(self) -> float:
+        """What the pressures add up to."""
+        return self.window.cell_area * float(self.result.pressure.sum())
+
+    @cached_property
+    def pressure_friction(self) -> float:
+        """Friction coefficient from the lean of the pressure, ∫ p ∂h/∂x dA / F."""
+        slope = self.problem.shape.slope(self.window.x[:, None], self.window.y)
+        return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / self.load
+
+    @cached_property
+    def energy_friction(self) -> float:
+        """Friction coefficient from the dissipated energy."""
+        return self.operator.dissipated_force(self.result.pressure) / self.load
+
+    @cached_property
+    def extent(self) -> Extent:
+        """Of the contact."""
+        return self.window.extent(self.result.pressure > 0.0)
+
+    @cached_property
+    def footprint(self) -> Footprint:
+        """Edges, area and peak of the contact."""
+        return Footprint.of(self.window, self.result.pressure)
+
+    @cached_property
+    def level(self) -> float:
+        """Displacement that counts as zero.
+
+        That of the surface far away; in plane strain, where that is infinite, that of the contact's leading edge.
+        """
+        if self.problem.geometry.has_far_field:
+            return 0.0
+        edge = self.problem.shape.height(np.array([self.footprint.front]), np.zeros(1))
+        return self.result.indentation - float(edge[0])
+
+    @property
+    def indentation(self) -> float:
+        """Depth of the indenter's lowest point below the level."""
+        return self.result.indentation - self.level
+
+    @property
+    def displacement(self) -> Array:
+        """Displacement at the cell centres, wherever the gap was looked at, from the level."""
+        displacement = self.result.displacement
+        if self.operator.shift > 0.0:
+            centred = self.problem.geometry.operator(self.window, self.operator.material)
+            displacement = centred(self.result.pressure)
+        return displacement - self.level

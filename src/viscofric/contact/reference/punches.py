@@ -1,0 +1,174 @@
+"""Sneddon's rigid punches on an elastic half-space: flat cylinder, cone, and any power of the radius."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.reference._checks import plane_strain_modulus
+from viscofric.units import positive
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.units import Quantity
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FlatPunchContact:
+    """A flat-ended rigid cylinder pressed into an elastic half-space.
+
+    Attributes
+    ----------
+    radius : float
+        a, m.
+    indentation : float
+        δ, m.
+    load : float
+        F = 2aE*δ, N.
+    """
+
+    radius: float
+    indentation: float
+    load: float
+
+    def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
+        """Pressure F/(2πa √(a² − r²)) at (x, y) from the axis, in m; Pa, infinite at the rim, zero outside."""
+        r2 = (np.asarray(x, dtype=float) ** 2 + np.asarray(y, dtype=float) ** 2) / self.radius**2
+        mean = self.load / (np.pi * self.radius**2)
+        with np.errstate(divide="ignore"):
+            inside = 0.5 * mean / np.sqrt(np.maximum(0.0, 1.0 - r2))
+        return np.where(r2 <= 1.0, inside, 0.0)
+
+
+def flat_punch(indentation: Quantity, radius: Quantity, modulus: Quantity, poisson_ratio: float) -> FlatPunchContact:
+    """Sneddon's solution for a flat-ended cylinder.
+
+    Parameters
+    ----------
+    indentation, radius, modulus : float, str or pint.Quantity
+        δ (m), a (m) and E (Pa).
+    poisson_ratio : float
+
+    Raises
+    ------
+    InputError
+        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
+
+    References
+    ----------
+    I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 6; K. L. Johnson, Contact Mechanics (1985), Eqs. 3.34-3.36.
+    """
+    depth, a = positive(indentation, "m", "indentation"), positive(radius, "m", "radius")
+    return FlatPunchContact(a, depth, 2.0 * a * plane_strain_modulus(modulus, poisson_ratio) * depth)
+
+
+@dataclass(frozen=True)
+class ConeContact:
+    """A rigid cone pressed into an elastic half-space.
+
+    Attributes
+    ----------
+    radius : float
+        Contact radius a, m.
+    indentation : float
+        δ = πa s/2, with s the slope of the cone's flank, m.
+    mean_pressure : float
+        p̄ = E* s/2 at any load, Pa; at the tip the pressure is (logarithmically) infinite.
+    """
+
+    radius: float
+    indentation: float
+    mean_pressure: float
+
+    def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
+        """Pressure p̄ arcosh(a/r) at (x, y) from the axis, in m; Pa, infinite at the tip, zero outside the contact."""
+        r = np.hypot(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+        with np.errstate(divide="ignore"):
+            return np.asarray(self.mean_pressure * np.arccosh(np.maximum(1.0, self.radius / r)))
+
+
+def sneddon_cone(load: Quantity, slope: float, modulus: Quantity, poisson_ratio: float) -> ConeContact:
+    """Sneddon's solution for a cone of height s·r.
+
+    Parameters
+    ----------
+    load, modulus : float, str or pint.Quantity
+        F and E: N and Pa.
+    slope : float
+        s = ∂h/∂r, the cotangent of the half-angle at the tip; small, as in all of linear elasticity.
+    poisson_ratio : float
+
+    Raises
+    ------
+    InputError
+        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
+
+    References
+    ----------
+    I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 5; K. L. Johnson, Contact Mechanics (1985), Sec. 5.2.
+    """
+    force, steepness = positive(load, "N", "load"), positive(slope, "dimensionless", "slope")
+    mean_pressure = 0.5 * plane_strain_modulus(modulus, poisson_ratio) * steepness
+    radius = math.sqrt(force / (math.pi * mean_pressure))
+    return ConeContact(radius, 0.5 * math.pi * radius * steepness, mean_pressure)
+
+
+@dataclass(frozen=True)
+class PowerLawContact:
+    """A rigid punch of height B r^n pressed into an elastic half-space.
+
+    Attributes
+    ----------
+    radius, indentation : float
+        Contact radius a and indentation δ, m.
+    """
+
+    radius: float
+    indentation: float
+
+
+def power_law_punch(
+    load: Quantity,
+    height: Quantity,
+    reference_radius: Quantity,
+    exponent: float,
+    modulus: Quantity,
+    poisson_ratio: float,
+) -> PowerLawContact:
+    """Contact radius and indentation for a punch of height h = h1 (r/r1)^n: a cone, a paraboloid, ever flatter ends.
+
+    Parameters
+    ----------
+    load, height, reference_radius : float, str or pint.Quantity
+        F (N), and the height h1 of the punch at the radius r1 (m).  The paraboloid of a ball has n = 2, h1 = r1²/2R.
+    exponent : float
+        n above zero.
+    modulus : float, str or pint.Quantity
+        E, Pa.
+    poisson_ratio : float
+
+    Raises
+    ------
+    InputError
+        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
+
+    Notes
+    -----
+    δ = h(a) √π Γ(n/2 + 1)/Γ(n/2 + 1/2) and F = 2E* a δ n/(n + 1).
+
+    References
+    ----------
+    L. A. Galin, Prikl. Mat. Mekh. 10 (1946) 425; I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47.
+    """
+    n = positive(exponent, "dimensionless", "exponent")
+    h1, r1 = positive(height, "m", "height"), positive(reference_radius, "m", "reference_radius")
+    lift = math.sqrt(math.pi) * math.exp(math.lgamma(0.5 * n + 1.0) - math.lgamma(0.5 * n + 0.5))  # δ/h(a)
+    stiffness = 2.0 * plane_strain_modulus(modulus, poisson_ratio) * n / (n + 1.0)  # F/(aδ)
+    radius = r1 * (positive(load, "N", "load") / (stiffness * lift * h1 * r1)) ** (1.0 / (n + 1.0))
+    return PowerLawContact(radius, lift * h1 * (radius / r1) ** n)

@@ -1,0 +1,142 @@
+"""Other shapes of indenters: ellipsoid, cone, flat punch."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.indenters import Indenter, too_steep
+from viscofric.errors import InputError
+from viscofric.units import Quantity, positive
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.contact.grids import Extent
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Ellipsoid(Indenter):
+    """A surface with two radii of curvature: the paraboloid x²/2R_x + y²/2R_y.
+
+    Parameters
+    ----------
+    radius_x, radius_y : float, str or pint.Quantity
+        Radii of curvature at the lowest point along and across the motion, m.
+
+    Raises
+    ------
+    InputError
+        If a radius is not a length above zero.
+    """
+
+    noun: ClassVar[str] = "ellipsoid"
+    radius_x: Quantity
+    radius_y: Quantity
+
+    def __post_init__(self) -> None:
+        for name in ("radius_x", "radius_y"):
+            object.__setattr__(self, name, positive(getattr(self, name), "m", name))
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the lowest point at (x, y), in m."""
+        return x**2 / (2.0 * self.radius_x) + y**2 / (2.0 * self.radius_y)  # type: ignore[operator]
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y)."""
+        return x / self.radius_x + 0.0 * y  # type: ignore[operator]
+
+    @property
+    def reach(self) -> float:
+        """Half the largest width that a contact can have, m."""
+        return float(max(self.radius_x, self.radius_y))
+
+    def doubt(self, contact: Extent, indentation: float) -> str | None:
+        """Return what is doubtful about small strain, if anything."""
+        along = max(contact.rear, contact.front) / float(self.radius_x)
+        return too_steep(max(along, contact.side / float(self.radius_y)))
+
+
+@dataclass(frozen=True)
+class Cone(Indenter):
+    """A blunt cone, its axis upright.
+
+    Parameters
+    ----------
+    angle : float, str or pint.Quantity
+        Between the flank and the undeformed surface, rad; below a right angle, and small for linear contact.
+
+    Raises
+    ------
+    InputError
+        If the angle is not between zero and a right angle.
+    """
+
+    noun: ClassVar[str] = "cone"
+    angle: Quantity
+
+    def __post_init__(self) -> None:
+        angle = positive(self.angle, "rad", "angle")
+        if angle >= 0.5 * math.pi:
+            raise InputError(f"angle = {self.angle!r}: must be less than a right angle, such as '10 deg'.")
+        object.__setattr__(self, "angle", angle)
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the tip at (x, y), in m."""
+        return self._steepness * np.hypot(x, y)
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y); zero at the tip."""
+        radius = np.hypot(x, y)
+        return np.asarray(self._steepness * x / np.where(radius > 0.0, radius, 1.0))
+
+    @property
+    def _steepness(self) -> float:
+        return math.tan(float(self.angle))
+
+    def doubt(self, contact: Extent, indentation: float) -> str | None:
+        """Return what is doubtful about small strain, if anything."""
+        return too_steep(self._steepness)
+
+
+@dataclass(frozen=True)
+class FlatPunch(Indenter):
+    """A flat circular face with a sharp edge.
+
+    Its pressure is infinite at the edge, so that all that a grid gives of it settles slowly; all its friction sits on
+    the edge, where only the dissipated energy can tell it.
+
+    Parameters
+    ----------
+    radius : float, str or pint.Quantity
+        Of the face, m.
+
+    Raises
+    ------
+    InputError
+        If the radius is not a length above zero.
+    """
+
+    noun: ClassVar[str] = "punch"
+    has_walls: ClassVar[bool] = True
+    radius: Quantity
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Zero on the face, infinite beyond."""
+        return np.where(np.hypot(x, y) <= self.radius, 0.0, np.inf)
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Zero: the face is flat."""
+        return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+
+    def doubt(self, contact: Extent, indentation: float) -> str | None:
+        """Return what is doubtful about small strain, if anything."""
+        return too_steep(indentation / float(self.radius))
