@@ -20,6 +20,11 @@ if TYPE_CHECKING:
     from viscofric.contact.height_map import Profile as Profile
     from viscofric.contact.indenters import Ball as Ball
     from viscofric.contact.indenters import Cylinder as Cylinder
+    from viscofric.contact.periodic.layers import Layer as Layer
+    from viscofric.contact.periodic.solution import PeriodicDiagnostics as PeriodicDiagnostics
+    from viscofric.contact.periodic.solution import PeriodicSolution as PeriodicSolution
+    from viscofric.contact.periodic.solve import solve_periodic as solve_periodic
+    from viscofric.contact.periodic.surface import PeriodicSurface as PeriodicSurface
     from viscofric.contact.shapes import Cone as Cone
     from viscofric.contact.shapes import Ellipsoid as Ellipsoid
     from viscofric.contact.shapes import FlatPunch as FlatPunch
@@ -101,6 +106,11 @@ _HOME = {
     "Profile": "viscofric.contact.height_map",
     "Ball": "viscofric.contact.indenters",
     "Cylinder": "viscofric.contact.indenters",
+    "Layer": "viscofric.contact.periodic.layers",
+    "PeriodicDiagnostics": "viscofric.contact.periodic.solution",
+    "PeriodicSolution": "viscofric.contact.periodic.solution",
+    "solve_periodic": "viscofric.contact.periodic.solve",
+    "PeriodicSurface": "viscofric.contact.periodic.surface",
     "Cone": "viscofric.contact.shapes",
     "Ellipsoid": "viscofric.contact.shapes",
     "FlatPunch": "viscofric.contact.shapes",

@@ -1,0 +1,1 @@
+"""Periodic contact: rough surfaces that repeat themselves, on a half-space or a layer."""

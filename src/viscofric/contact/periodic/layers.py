@@ -1,0 +1,125 @@
+"""A layer of finite thickness on a rigid base: how much less it yields than a half-space, wave by wave.
+
+Plane strain of one wave.  Under the pressure p cos qx on the top z = H of an elastic layer, without shear, the
+surface moves by u = 2(1−ν²)/(E q) Θ(qH) p cos qx.  A displacement (U(z) sin qx, W(z) cos qx) with the tractions
+(T(z) sin qx, Σ(z) cos qx) is in equilibrium, and obeys Hooke's law, if ::
+
+    U' = q W + 2(1+ν) T/E                       (shear)
+    W' = −ν/(1−ν) q U + (1+ν)(1−2ν)/(1−ν) Σ/E   (compression)
+    T' = q²E U/(1−ν²) + ν/(1−ν) q Σ             (balance along x)
+    Σ' = −q T                                   (balance along z)
+
+with solutions (a + b qz) e^{±qz}.  Let two of the four constants meet U = W = 0 at z = 0 (bonded) or W = T = 0
+(sliding without friction), the others T = 0 and Σ = −p at z = H.  Then, with Q = qH, ::
+
+    bonded    Θ = [(3−4ν) sinh 2Q − 2Q] / [(3−4ν) cosh 2Q + 2Q² + 5 − 12ν + 8ν²]
+    sliding   Θ = (cosh 2Q − 1) / (sinh 2Q + 2Q)
+
+[1]_ (Eq. A.30), [2]_, [3]_ (section 5.8 for thin ones).  Both go to 1 for Q → ∞.  For Q → 0, a sliding layer is a
+Winkler foundation with u = (1−ν²) H p/E, and a bonded one with u = (1+ν)(1−2ν)/(1−ν) H p/E; a bonded incompressible
+layer must flow sideways instead, and u = q²H³ p/E.  By the correspondence principle 1/E becomes S(ω).
+
+The mean pressure (q = 0) compresses a layer without bound sideways, on either base, by (1+ν)(1−2ν)/(1−ν) H p/E.
+
+References
+----------
+.. [1] G. Carbone, L. Mangialardi, J. Mech. Phys. Solids 56 (2008) 684, doi:10.1016/j.jmps.2007.05.009
+.. [2] C. Putignano, G. Carbone, D. Dini, Int. J. Solids Struct. 69–70 (2015) 507,
+   doi:10.1016/j.ijsolstr.2015.04.034
+.. [3] K. L. Johnson, Contact Mechanics (1985), chapter 5.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.units import Quantity, positive
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A viscoelastic layer on a rigid base.
+
+    Parameters
+    ----------
+    thickness : float, str or pint.Quantity
+        H, m.
+    bonded : bool
+        Whether it sticks to the base, or slides on it without friction.
+
+    Raises
+    ------
+    InputError
+        If the thickness is not a length above zero.
+    """
+
+    thickness: Quantity
+    bonded: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "thickness", positive(self.thickness, "m", "thickness of the layer"))
+        if not isinstance(self.bonded, (bool, np.bool_)):
+            raise InputError(f"bonded = {self.bonded!r}: must be True (bonded) or False (sliding without friction).")
+
+    def yielding(self, wave_number: ArrayLike, poisson_ratio: float) -> Array:
+        """Return Θ(qH): displacement under a wave of pressure over that of the half-space.
+
+        Parameters
+        ----------
+        wave_number : array
+            q > 0, 1/m.
+        poisson_ratio : float
+            0 to 0.5.
+
+        Returns
+        -------
+        array
+            In the shape of `wave_number`, to rounding from qH = 1e-6 to 1e6 and beyond.
+        """
+        depth = np.asarray(wave_number, dtype=float) * float(self.thickness)
+        return _bonded(depth, poisson_ratio) if self.bonded else _sliding(depth)
+
+    def mean_compression(self, poisson_ratio: float) -> float:
+        """Return E u/p under a uniform pressure, m: (1+ν)(1−2ν)/(1−ν) H."""
+        modulus_ratio = (1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio) / (1.0 - poisson_ratio)
+        return modulus_ratio * float(self.thickness)
+
+
+def _bonded(depth: Array, poisson_ratio: float) -> Array:
+    # Multiplied above and below by 2 exp(−2Q), so that nothing overflows; (3−4ν) sinh 2Q − 2Q written as the sum of
+    # (3−4ν)(sinh 2Q − 2Q) and 4(1−2ν)Q, neither of which is ever negative, so that nothing cancels.
+    kappa = 3.0 - 4.0 * poisson_ratio
+    decay = np.exp(-2.0 * depth)
+    above = kappa * _scaled_excess_of_sinh(2.0 * depth) + 8.0 * (1.0 - 2.0 * poisson_ratio) * depth * decay
+    constant = 5.0 - 12.0 * poisson_ratio + 8.0 * poisson_ratio**2
+    # Q² e^{−2Q}, without 0 · ∞ for the deepest layers
+    squared = np.square(depth * np.exp(-depth))
+    below = kappa * (1.0 + decay**2) + 4.0 * squared + 2.0 * constant * decay
+    return np.asarray(above / below)
+
+
+def _sliding(depth: Array) -> Array:
+    above = np.square(np.expm1(-2.0 * depth))
+    below = -np.expm1(-4.0 * depth) + 4.0 * depth * np.exp(-2.0 * depth)
+    return np.asarray(above / below)
+
+
+def _scaled_excess_of_sinh(x: Array) -> Array:
+    """2 e^{−x} (sinh x − x), by its series where the difference would cancel."""
+    square = np.square(np.minimum(x, 1.0))
+    series = np.ones_like(square)
+    # sinh x − x = x³/6 (1 + x²/(4·5) (1 + x²/(6·7) (…))); the next factor is below 1e-16 for x ≤ 1
+    for n in (16.0, 14.0, 12.0, 10.0, 8.0, 6.0, 4.0):
+        series = 1.0 + square / (n * (n + 1.0)) * series
+    near = square * np.minimum(x, 1.0) / 3.0 * series * np.exp(-np.minimum(x, 1.0))
+    far = -np.expm1(-2.0 * x) - 2.0 * x * np.exp(-x)
+    return np.where(x < 1.0, near, far)

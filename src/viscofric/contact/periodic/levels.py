@@ -1,0 +1,262 @@
+"""Periodic contact on nested grids: a coarse likeness of the surface is solved first, then its finer ones.
+
+Everything here is dimensionless: depths in rms heights of the surface, compliances relative to the largest.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.periodic.operator import PeriodicOperator
+from viscofric.contact.periodic.splitting import split_steps
+from viscofric.contact.periodic.surface import interpolated
+from viscofric.errors import ConvergenceError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+logger = logging.getLogger(__name__)
+
+COARSEST = 32  # points along the longer edge of the coarsest grid, about
+COARSE_TOLERANCE = 1e-2  # a coarser surface is another one: more would be wasted on it
+
+_PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
+_FEW_DIRECTIONS, _MANY_DIRECTIONS = 8, 40  # kept by the linear solver; the first are enough for most contacts
+_FIRST_STEPS = 20  # of the splitting on each grid of a viscoelastic solid
+_STIFFNESSES = (0.2, 1.0)  # ρ of the splitting, in turn; the first suits most contacts
+_GROWTH = 2.0  # of the splitting's steps from round to round
+_MOST_COARSE_PRODUCTS = 2000  # on a grid that only gives the next one its start
+
+
+@dataclass(frozen=True)
+class Stage:
+    """The contact problem on one of the nested grids.
+
+    Attributes
+    ----------
+    height : (nx, ny) array
+        Above the lowest point.
+    transfer : (nx, ny//2 + 1) array
+    """
+
+    height: Array
+    transfer: NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Work:
+    """What the finest grid took, and all of them together.
+
+    Attributes
+    ----------
+    products, ffts, single_ffts : int
+        On the finest grid: products with the influence matrix, two-dimensional real FFTs, and how many of these in
+        single precision.
+    splitting_steps : int
+        On the finest grid.
+    set_changes, linear_iterations : int
+        On the finest grid.
+    grids : tuple of (int, int, int)
+        Points along x and y, and FFTs, of every grid, coarsest first.
+    """
+
+    products: int
+    ffts: int
+    single_ffts: int
+    splitting_steps: int
+    set_changes: int
+    linear_iterations: int
+    grids: tuple[tuple[int, int, int], ...]
+
+
+def coarser_shapes(shape: tuple[int, int]) -> list[tuple[int, int]]:
+    """Return the shapes of the grids below one, finest first: half as many points along each longer edge."""
+    found = []
+    while max(shape) >= 2 * COARSEST:
+        shape = tuple(max(points // 2, min(points, COARSEST)) for points in shape)  # type: ignore[assignment]
+        found.append(shape)
+    return found
+
+
+def solve_on_levels(
+    stages: Iterable[Stage],
+    *,
+    mean_pressure: float | None,
+    offset: float | None,
+    tolerance: float,
+    most_products: int,
+) -> tuple[ComplementaritySolution, Work]:
+    """Solve the contact on each grid in turn, coarsest first.
+
+    Parameters
+    ----------
+    stages : iterable of Stage
+    mean_pressure : float or None
+    offset : float or None
+        Mean gap, where no pressure is given.
+    tolerance : float
+        Of the complementarity on the finest grid, relative to the rms height.
+    most_products : int
+        On each grid.
+
+    Raises
+    ------
+    ConvergenceError
+        If the finest grid does not converge.
+    """
+    pressure: Array | None = None
+    grids: list[tuple[int, int, int]] = []
+    queue = list(stages)
+    while True:
+        stage = queue.pop(0)
+        if queue:
+            level = _Level(stage, mean_pressure, offset, COARSE_TOLERANCE, min(most_products, _MOST_COARSE_PRODUCTS))
+        else:
+            level = _Level(stage, mean_pressure, offset, tolerance, most_products)
+        result = level.solve(pressure)
+        ffts = level.exact.ffts + level.single.ffts
+        grids.append((*level.shape, ffts))
+        logger.debug("%s points: %s FFTs, residual %.1e", level.shape, ffts, result.complementarity)
+        if queue:
+            pressure = interpolated(result.pressure, queue[0].height.shape)
+            continue
+        if not result.converged:
+            raise ConvergenceError(
+                f"the contact did not converge on a grid of {level.shape[0]} x {level.shape[1]} points: a gap of "
+                f"{result.complementarity:.2g} rms heights was left where {tolerance:.2g} was asked for; allow more "
+                "products (most_products=)."
+            )
+        return result, Work(
+            products=level.products,
+            ffts=ffts,
+            single_ffts=level.single.ffts,
+            splitting_steps=level.splitting_steps,
+            set_changes=level.set_changes,
+            linear_iterations=level.linear_iterations,
+            grids=tuple(grids),
+        )
+
+
+class _Level:
+    """One grid: its operators, and the work that they have done."""
+
+    def __init__(
+        self, stage: Stage, mean_pressure: float | None, gap: float | None, tolerance: float, most_products: int
+    ) -> None:
+        self.height = stage.height
+        self.shape: tuple[int, int] = stage.height.shape
+        self.exact = PeriodicOperator(stage.transfer, self.shape)
+        self.single = self.exact.in_precision(np.float32)
+        self.elastic = not np.iscomplexobj(stage.transfer)
+        self.load = None if mean_pressure is None else mean_pressure * stage.height.size
+        self.indentation = None if gap is None else float(stage.height.mean()) - gap
+        self.tolerance = tolerance
+        self.most_products = most_products
+        self.splitting_steps = self.set_changes = self.linear_iterations = 0
+
+    def solve(self, pressure: Array | None) -> ComplementaritySolution:
+        """Solve from the coarser grid's pressure, or from nothing."""
+        full = self._full_contact() if pressure is None or self._nearly_full(pressure) else None
+        if full is not None:
+            return full
+        if pressure is None or not np.any(pressure > 0.0):
+            pressure = self._first_guess()
+        if not self.elastic:
+            pressure = self._split(self.single, pressure, _FIRST_STEPS, _STIFFNESSES[0])
+        result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS, self.most_products)
+        if not result.converged and self.products < self.most_products:
+            # A little more of the cheap kind brings most of those that remain near enough.
+            pressure = self._split(self.single, pressure, 2 * _FIRST_STEPS, _STIFFNESSES[0])
+            result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS, self.most_products)
+        steps, turn = 4 * _FIRST_STEPS, 0
+        while not result.converged and self.products < self.most_products:
+            # Not from where the active set went: only its own steps bring the splitting nearer and nearer.
+            turn += 1
+            allowed = min(steps, self.most_products - self.products)
+            pressure = self._split(self.exact, pressure, allowed, _STIFFNESSES[turn % 2], accelerated=True)
+            # The active set gets as much to spend as the splitting, which may well be the one to converge.
+            result = self._active_set(pressure, _PATIENCE, _MANY_DIRECTIONS, allowed)
+            steps = int(_GROWTH * steps)
+        return result
+
+    @property
+    def products(self) -> int:
+        """Products with the transfer function so far."""
+        return self.exact.products + self.single.products
+
+    def _active_set(self, pressure: Array, patience: int, directions: int, most: int) -> ComplementaritySolution:
+        result = solve_complementarity(
+            self.exact,
+            self.height,
+            self.load,
+            pressure,
+            indentation=self.indentation,
+            tolerance=self.tolerance,
+            most_products=max(min(most, self.most_products - self.products), 1),
+            depth=1.0,
+            inner=self.single,
+            patience=patience,
+            tighten="near the end",
+            directions=directions,
+        )
+        self.set_changes += result.set_changes
+        self.linear_iterations += result.linear_iterations
+        return result
+
+    def _split(
+        self, operator: PeriodicOperator, pressure: Array, steps: int, stiffness: float, accelerated: bool = False
+    ) -> Array:
+        self.splitting_steps += steps
+        found = split_steps(
+            operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
+            stiffness=stiffness, accelerated=accelerated,
+        )  # fmt: skip
+        return found if np.any(found > 0.0) else pressure
+
+    def _nearly_full(self, pressure: Array) -> bool:
+        return bool(np.count_nonzero(pressure > 0.0) > 0.9 * pressure.size)
+
+    def _full_contact(self) -> ComplementaritySolution | None:
+        """Return the linear solution if it needs no tension anywhere."""
+        if self.load is None:
+            return None  # a given mean gap above zero
+        mean = self.load / self.height.size
+        level = float(self.height.mean()) - self.height
+        pressure = self.exact.precondition(level)
+        pressure += mean - pressure.mean()
+        if pressure.min() < 0.0:
+            return None
+        displacement = self.exact(pressure)
+        error = float(np.abs(displacement - level).max())
+        return ComplementaritySolution(
+            pressure=pressure,
+            displacement=displacement,
+            indentation=float(self.height.mean()),
+            converged=error <= self.tolerance,
+            complementarity=error,
+            load=abs(float(pressure.mean()) / mean - 1.0),
+            set_changes=1,
+            linear_iterations=0,
+            products=1,
+        )
+
+    def _first_guess(self) -> Array:
+        """Return the pressure of full contact less what makes it meet the load (or less its mean, for a given gap)."""
+        pressure: Array = self.exact.precondition(float(self.height.mean()) - self.height)
+        if self.load is None:
+            return np.maximum(pressure, 0.0)
+        mean = self.load / self.height.size
+        low, high = float(pressure.min()) - mean, float(pressure.max())
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if np.maximum(pressure - middle, 0.0).mean() > mean else (low, middle)
+        return np.maximum(pressure - low, 0.0)

@@ -1,0 +1,135 @@
+"""What a periodic contact gives back: fields, numbers, and how far they can be trusted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    import numpy as np
+    import xarray
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PeriodicDiagnostics:
+    """How a periodic contact was solved, and what is known of its errors.
+
+    Attributes
+    ----------
+    complementarity : float
+        Largest gap under pressure or overlap without it, over the rms height of the surface.
+    load : float
+        Relative error of the mean pressure, or of the mean gap, whichever was given.
+    linear : float
+        Residual of the last linear problem on the contact, relative to its right-hand side.
+    energy : float
+        Energy balance: friction from the pressure on the slopes less that from the dissipated energy, over the larger
+        of them (or over 1e-3 times 2π rms heights per period, a slope).
+    full_contact : bool
+        Whether everything is in contact; then the problem is linear and solved directly.
+    products, ffts, single_ffts : int
+        On the finest grid: products with the transfer function, two-dimensional real FFTs in all, and how many of
+        them in single precision (corrections only: residuals are formed in double precision).
+    splitting_steps, set_changes, linear_iterations : int
+        On the finest grid: steps of the operator splitting, looks at the contact set, steps of the linear solver.
+    grids : tuple of (int, int, int)
+        Points along x and y, and FFTs, of every nested grid, coarsest first.
+    """
+
+    complementarity: float
+    load: float
+    linear: float
+    energy: float
+    full_contact: bool
+    products: int
+    ffts: int
+    single_ffts: int
+    splitting_steps: int
+    set_changes: int
+    linear_iterations: int
+    grids: tuple[tuple[int, int, int], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodicSolution:
+    """Steady contact of a periodic rough surface that slides over a viscoelastic half-space or layer.
+
+    All in SI units.
+
+    Attributes
+    ----------
+    speed : float
+        m/s, as asked.
+    direction : (float, float)
+        Unit vector of the motion of the surface.
+    temperature : float or None
+        K, as asked.
+    mean_pressure : float
+        Pa.
+    mean_gap : float
+        Mean distance between the surfaces, m.
+    indentation : float
+        δ, m: how far the surface has moved towards the solid since their first touch.  A half-space's mean displacement
+        is without meaning and counted as zero; that of a layer is contained.
+    friction_coefficient : float
+        μ = F_t/F_N along the motion, with the sign of the speed, from the energy that the solid dissipates.
+    pressure_friction_coefficient : float
+        The same from the pressure on the slopes of the surface; how far it differs shows how well the grid resolves
+        the edges of the contact.
+    contact_area_fraction : float
+        Points under pressure over all.
+    max_pressure : float
+        Pa.
+    x, y : (nx,) and (ny,) array
+        Positions of the points, m.
+    pressure, displacement, gap : (nx, ny) array
+        Pa; m into the solid (for a layer with its mean compression); m.
+    diagnostics : PeriodicDiagnostics
+    """
+
+    speed: float
+    direction: tuple[float, float]
+    temperature: float | None
+    mean_pressure: float
+    mean_gap: float
+    indentation: float
+    friction_coefficient: float
+    pressure_friction_coefficient: float
+    contact_area_fraction: float
+    max_pressure: float
+    x: Array
+    y: Array
+    pressure: Array
+    displacement: Array
+    gap: Array
+    diagnostics: PeriodicDiagnostics
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return pressure, displacement and gap as a labelled data set with units in its attributes."""
+        import xarray
+
+        def field(values: Array, name: str, unit: str) -> tuple[tuple[str, str], Array, dict[str, str]]:
+            return ("x", "y"), values, {"units": unit, "long_name": name}
+
+        return xarray.Dataset(
+            {
+                "pressure": field(self.pressure, "contact pressure", "Pa"),
+                "displacement": field(self.displacement, "displacement into the solid", "m"),
+                "gap": field(self.gap, "gap", "m"),
+            },
+            coords={
+                "x": ("x", self.x, {"units": "m", "long_name": "position along x"}),
+                "y": ("y", self.y, {"units": "m", "long_name": "position along y"}),
+            },
+            attrs={
+                "speed": self.speed,
+                "direction": self.direction,
+                "mean_pressure": self.mean_pressure,
+                "mean_gap": self.mean_gap,
+                "friction_coefficient": self.friction_coefficient,
+                "contact_area_fraction": self.contact_area_fraction,
+            },
+        )

@@ -1,0 +1,252 @@
+"""The verb: solve the steady contact of a periodic rough surface with a viscoelastic half-space or layer."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.periodic.layers import Layer
+from viscofric.contact.periodic.levels import Stage, coarser_shapes, solve_on_levels
+from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
+from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
+from viscofric.errors import InputError
+from viscofric.threads import one_blas_thread
+from viscofric.units import Quantity, positive, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.contact.complementarity import ComplementaritySolution
+    from viscofric.contact.periodic.levels import Work
+    from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.rheology.material import Material
+
+    Array: TypeAlias = NDArray[np.float64]
+
+TIGHTEST, LOOSEST = 1e-12, 1e-2  # of the complementarity, in rms heights
+#: Friction is resolved relative to its own value, but not below this fraction of the slope of the longest wave.
+FRICTION_FLOOR = 1e-3
+
+
+@one_blas_thread
+def solve_periodic(
+    material: Material,
+    surface: PeriodicSurface,
+    *,
+    speed: Quantity,
+    pressure: Quantity | None = None,
+    gap: Quantity | None = None,
+    temperature: Quantity | None = None,
+    direction: Sequence[float] = (1.0, 0.0),
+    layer: Layer | None = None,
+    indenter_modulus: Quantity | None = None,
+    indenter_poisson_ratio: float = 0.3,
+    tolerance: float = 1e-8,
+    most_products: int = 10_000,
+) -> PeriodicSolution:
+    """Solve the steady contact of a rough surface that slides over a viscoelastic half-space or layer.
+
+    Parameters
+    ----------
+    material : Material
+        Its spectrum may be a table of moduli as well.
+    surface : PeriodicSurface
+    speed : float, str or pint.Quantity
+        Velocity of the surface along `direction`, m/s; zero is the elastic contact at E0.  With an infinite one
+        (``math.inf``), waves answer with E_inf but for those that lie across the motion and are at rest at any speed.
+    pressure : float, str or pint.Quantity, optional
+        Mean pressure, Pa; either it or the gap is given.
+    gap : float, str or pint.Quantity, optional
+        Mean gap, m, below that at the first touch (highest summit less mean height).
+    temperature : float, str or pint.Quantity, optional
+        K if a plain number.  May be left out for a material without a shift law.
+    direction : (float, float)
+        Of the motion in the plane; its length does not matter.
+    layer : Layer, optional
+        Thickness and base of the rubber; a half-space without.
+    indenter_modulus : float, str or pint.Quantity, optional
+        Young's modulus of the rough body, Pa, whose compliance is added; rigid without.
+    indenter_poisson_ratio : float
+        −1 to 0.5.
+    tolerance : float
+        Of the complementarity: largest gap under pressure or overlap without it over the rms height of the surface.
+    most_products : int
+        Products with the transfer function on the finest grid after which the solver gives up.
+
+    Returns
+    -------
+    PeriodicSolution
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    ConvergenceError
+        If the solver fails.
+
+    Notes
+    -----
+    û = 2(1−ν²) S(−q·v) p̂/|q| holds exactly for each wave, so that a table of moduli needs no modes.  The surface
+    repeats itself and so does the pressure: an isolated contact is better solved by `solve_steady`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
+    >>> solution = vf.solve_periodic(rubber, wave, speed="0.2 m/s", pressure="100 kPa")
+    >>> solution.diagnostics.full_contact, round(solution.friction_coefficient, 7)
+    (True, 0.0001465)
+    """
+    velocity, toward = _motion(speed, direction)
+    if (pressure is None) == (gap is None):
+        raise InputError("either the mean pressure or the mean gap must be given, and not both: pressure= or gap=.")
+    if not TIGHTEST <= tolerance <= LOOSEST:
+        raise InputError(f"tolerance = {tolerance!r}: must lie between {TIGHTEST:g} and {LOOSEST:g}.")
+    if not (layer is None or isinstance(layer, Layer)):
+        raise InputError(f"layer must be a Layer(thickness=…), not {type(layer).__name__}.")
+    kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
+    solid = SlidingSolid(
+        material.at(kelvin),
+        material.poisson_ratio,
+        (_component(velocity, toward[0]), _component(velocity, toward[1])),
+        layer,
+        _indenter_compliance(indenter_modulus, indenter_poisson_ratio),
+    )
+    given = _Given.of(surface, pressure, gap)
+    depth = surface.rms_height
+    finest = solid.transfer(surface.shape, surface.spacing)
+    # The unit of compliance, m/Pa: that of the wave which yields most.
+    unit = float(np.abs(finest).max())
+    finest /= unit
+    stages = [_stage(surface, solid, depth, unit, shape) for shape in reversed(coarser_shapes(surface.shape))]
+    stages.append(Stage((surface.z.max() - surface.z) / depth, finest))
+    result, work = solve_on_levels(
+        stages,
+        mean_pressure=None if given.pressure is None else given.pressure * unit / depth,
+        offset=None if given.gap is None else given.gap / depth,
+        tolerance=tolerance,
+        most_products=most_products,
+    )
+    return _assemble(surface, solid, result, work, given, _Units(depth, unit), (velocity, toward, kelvin), finest)
+
+
+class _Given(NamedTuple):
+    """Mean pressure (Pa) or mean gap (m)."""
+
+    pressure: float | None
+    gap: float | None
+
+    @classmethod
+    def of(cls, surface: PeriodicSurface, pressure: Quantity | None, gap: Quantity | None) -> _Given:
+        if gap is None:
+            return cls(positive(pressure, "Pa", "pressure"), None)  # type: ignore[arg-type]
+        distance, first = positive(gap, "m", "gap"), float(surface.z.max() - surface.z.mean())
+        if distance >= first:
+            raise InputError(
+                f"gap = {gap!r}: the surfaces do not touch; right would be a mean gap below that at the first touch, "
+                f"{first:.4g} m."
+            )
+        return cls(None, distance)
+
+
+class _Units(NamedTuple):
+    """Depth (m) and compliance of a wave (m/Pa)."""
+
+    depth: float
+    compliance: float
+
+
+def _motion(speed: Quantity, direction: Sequence[float]) -> tuple[float, tuple[float, float]]:
+    infinite = isinstance(speed, float) and math.isinf(speed)
+    velocity = float(speed) if infinite else to_si(speed, "m/s", "speed")
+    try:
+        x, y = (float(one) for one in direction)
+        length = math.hypot(x, y)
+    except (TypeError, ValueError):
+        length = math.nan
+    if not (math.isfinite(length) and length > 0.0):
+        raise InputError(f"direction = {direction!r}: must be two numbers, not both zero, such as (1.0, 0.0).")
+    return velocity, (x / length, y / length)
+
+
+def _component(velocity: float, part: float) -> float:
+    return velocity * part if part != 0.0 and velocity != 0.0 else 0.0
+
+
+def _indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
+    if modulus is None:
+        return 0.0
+    if not -1.0 < poisson_ratio <= 0.5:
+        raise InputError(f"indenter_poisson_ratio = {poisson_ratio!r}: must lie between −1 and 0.5.")
+    return (1.0 - poisson_ratio**2) / positive(modulus, "Pa", "indenter_modulus")
+
+
+def _stage(surface: PeriodicSurface, solid: SlidingSolid, depth: float, unit: float, shape: tuple[int, int]) -> Stage:
+    z, spacing = surface.coarser(shape)
+    return Stage((z.max() - z) / depth, solid.transfer(shape, spacing) / unit)
+
+
+def _assemble(
+    surface: PeriodicSurface,
+    solid: SlidingSolid,
+    result: ComplementaritySolution,
+    work: Work,
+    given: _Given,
+    units: _Units,
+    motion: tuple[float, tuple[float, float], float | None],
+    transfer: NDArray[np.complex128] | Array,
+) -> PeriodicSolution:
+    """Return to SI units, and balance the energy."""
+    velocity, toward, kelvin = motion
+    pressure = (units.depth / units.compliance) * result.pressure
+    mean_pressure = float(pressure.mean())
+    compression = solid.mean_compression() * mean_pressure
+    gap = result.displacement + (surface.z.max() - surface.z) / units.depth - result.indentation
+    gap *= units.depth
+    # Heights fall where the indenter's surface rises towards the rubber: ∂h/∂x = −∂z/∂x.
+    slope = surface.slope(toward)
+    slope *= -1.0
+    by_pressure = float(np.vdot(pressure, slope)) / pressure.size
+    waves = scipy.fft.rfft2(pressure)
+    by_energy = units.compliance * dissipation(transfer, surface.shape, surface.spacing, toward, waves)
+    floor = FRICTION_FLOOR * mean_pressure * 2.0 * math.pi * units.depth / max(surface.period)
+    mean_gap = float(gap.mean())
+    asked, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
+    return PeriodicSolution(
+        speed=velocity,
+        direction=toward,
+        temperature=kelvin,
+        mean_pressure=mean_pressure,
+        mean_gap=mean_gap,
+        indentation=units.depth * result.indentation + compression,
+        friction_coefficient=by_energy / mean_pressure,
+        pressure_friction_coefficient=by_pressure / mean_pressure,
+        contact_area_fraction=float(np.count_nonzero(pressure > 0.0)) / pressure.size,
+        max_pressure=float(pressure.max()),
+        x=surface.x,
+        y=surface.y,
+        pressure=pressure,
+        displacement=units.depth * result.displacement + compression,
+        gap=gap,
+        diagnostics=PeriodicDiagnostics(
+            complementarity=result.complementarity,
+            load=abs(found / asked - 1.0),  # type: ignore[operator]
+            linear=result.linear,
+            energy=(by_pressure - by_energy) / max(abs(by_pressure), abs(by_energy), floor),
+            full_contact=bool(np.all(pressure > 0.0)),
+            products=work.products,
+            ffts=work.ffts,
+            single_ffts=work.single_ffts,
+            splitting_steps=work.splitting_steps,
+            set_changes=work.set_changes,
+            linear_iterations=work.linear_iterations,
+            grids=work.grids,
+        ),
+    )

@@ -1,0 +1,127 @@
+"""Rough surfaces that repeat themselves along both axes, and their coarser likenesses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.periodic.waves import wave_number, without_nyquist
+from viscofric.errors import InputError
+from viscofric.units import Quantity, positive
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodicSurface:
+    """A rigid surface given by its heights on a grid that repeats itself along both axes.
+
+    Parameters
+    ----------
+    z : (nx, ny) or (nx,) array
+        Heights above any level, m, positive towards the rubber: summits touch first.  A row stands for a profile that
+        is the same everywhere along y (plane strain).
+    spacing : float, str, pint.Quantity, or two of them
+        Distance between neighbouring points, m; of x and y where they differ.
+
+    Raises
+    ------
+    InputError
+        If a height is not finite, there are fewer than two points, all heights are equal, or the spacing is no length
+        above zero.
+
+    Notes
+    -----
+    The value that follows the last one is the first: the period is ``nx * spacing``, not ``(nx - 1) * spacing``.
+    """
+
+    z: Array
+    spacing: tuple[float, float]
+
+    def __init__(self, z: ArrayLike, spacing: Quantity | tuple[Quantity, Quantity]) -> None:
+        heights = np.array(z, dtype=float)
+        if heights.ndim == 1:
+            heights = heights[:, None]
+        if heights.ndim != 2 or heights.size < 2:
+            raise InputError(
+                f"z of a periodic surface must be heights on (nx, ny) points or on a row of them, two at least; it has "
+                f"the shape {np.shape(z)}."
+            )
+        if not np.all(np.isfinite(heights)):
+            wrong = int(np.count_nonzero(~np.isfinite(heights)))
+            raise InputError(f"z of a periodic surface must be finite: {wrong} of its {heights.size} heights are not.")
+        if np.ptp(heights) == 0.0:
+            raise InputError("z of a periodic surface is flat: all its heights are equal; a contact needs roughness.")
+        heights.flags.writeable = False
+        object.__setattr__(self, "z", heights)
+        steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
+        if len(steps) != 2:
+            raise InputError(f"spacing = {spacing!r}: must be one length or two, those of x and y.")
+        object.__setattr__(self, "spacing", tuple(positive(step, "m", "spacing") for step in steps))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of points along x and y."""
+        return self.z.shape[0], self.z.shape[1]
+
+    @property
+    def period(self) -> tuple[float, float]:
+        """Lengths after which the surface repeats itself, m."""
+        return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
+
+    @property
+    def x(self) -> Array:
+        """Positions of the points along x, m."""
+        return np.asarray(self.spacing[0] * np.arange(self.shape[0]), dtype=np.float64)
+
+    @property
+    def y(self) -> Array:
+        """Positions of the points along y, m."""
+        return np.asarray(self.spacing[1] * np.arange(self.shape[1]), dtype=np.float64)
+
+    @property
+    def rms_height(self) -> float:
+        """Root mean square of the heights about their mean, m."""
+        return float(self.z.std())
+
+    def slope(self, direction: tuple[float, float]) -> Array:
+        """Return the derivative of the heights along a unit vector, by their Fourier series; (nx, ny) array."""
+        qx, qy = (
+            without_nyquist(one, size)
+            for one, size in zip(wave_number(self.shape, self.spacing), self.shape, strict=True)
+        )
+        spectrum = 1j * (direction[0] * qx + direction[1] * qy) * scipy.fft.rfft2(self.z)
+        return np.asarray(scipy.fft.irfft2(spectrum, self.shape))
+
+    def coarser(self, shape: tuple[int, int]) -> tuple[Array, tuple[float, float]]:
+        """Return heights of the same period on fewer points, their shortest waves left out, and their spacing."""
+        (nx, ny), (mx, my) = self.shape, shape
+        fine = scipy.fft.rfft2(self.z)
+        coarse = np.zeros((mx, my // 2 + 1), complex)
+        # The Nyquist waves of the coarse grid, which have no direction, are left out as well.
+        ahead, behind, across = (mx + 1) // 2, (mx - 1) // 2, (my + 1) // 2
+        coarse[:ahead, :across] = fine[:ahead, :across]
+        if behind:
+            coarse[-behind:, :across] = fine[-behind:, :across]
+        z = scipy.fft.irfft2(coarse * (mx * my / (nx * ny)), shape)
+        return z, (self.period[0] / mx, self.period[1] / my)
+
+
+def interpolated(values: Array, shape: tuple[int, int]) -> Array:
+    """Carry values to a grid of other points in the same period, linearly along each axis."""
+    for axis, points in enumerate(shape):
+        given = values.shape[axis]
+        if given == points:
+            continue
+        place = np.arange(points) * (given / points)
+        before = np.floor(place).astype(int)
+        part = (place - before).reshape((-1, 1) if axis == 0 else (1, -1))
+        after = np.take(values, (before + 1) % given, axis)
+        values = (1.0 - part) * np.take(values, before, axis) + part * after
+    return values

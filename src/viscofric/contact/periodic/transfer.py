@@ -1,0 +1,146 @@
+"""What a solid answers to each wave of a steadily sliding pressure: the transfer function of the periodic contact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.periodic.waves import hermitian_factor, wave_number, without_nyquist
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.contact.periodic.layers import Layer
+
+    Array: TypeAlias = NDArray[np.float64]
+    ComplexArray: TypeAlias = NDArray[np.complex128]
+
+
+class Compliant(Protocol):
+    """A rubber at one temperature, given by modes or as a table."""
+
+    @property
+    def E_inf(self) -> float:
+        """Glass modulus, Pa."""
+
+    def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
+        """S(ω) = 1/E(ω), 1/Pa."""
+
+
+@dataclass(frozen=True)
+class SlidingSolid:
+    """A viscoelastic half-space or layer over which pressures slide at a constant velocity.
+
+    Parameters
+    ----------
+    spectrum : Compliant
+        The rubber at its temperature: a RetardationSpectrum or a ModulusTable.
+    poisson_ratio : float
+    velocity : (float, float)
+        Of the pressure along x and y, m/s; where it is infinite, the limit is taken.
+    layer : Layer, optional
+        Thickness and base; a half-space without.
+    indenter_compliance : float
+        (1−ν²)/E of an elastic indenter, 1/Pa.
+    """
+
+    spectrum: Compliant
+    poisson_ratio: float
+    velocity: tuple[float, float]
+    layer: Layer | None = None
+    indenter_compliance: float = 0.0
+
+    @property
+    def is_elastic(self) -> bool:
+        """Whether nothing depends on the velocity, as at rest."""
+        return self.velocity == (0.0, 0.0)
+
+    def transfer(self, shape: tuple[int, int], spacing: tuple[float, float]) -> ComplexArray | Array:
+        """Return û/p̂ for each wave of a grid, m/Pa, in the order of `scipy.fft.rfft2`; zero for the mean.
+
+        û = 2 [(1−ν²) S(−q·v) Θ(qH) + (1−ν_i²)/E_i] p̂/|q|.  A Nyquist wave stands for two that run opposite ways, and
+        gets the mean of their answers, so that the displacement of a real pressure is real.  At rest the array
+        is real, since the contact is elastic.
+        """
+        qx, qy = wave_number(shape, spacing)
+        magnitude = np.hypot(qx, qy)
+        magnitude[0, 0] = 1.0
+        ratio = self.poisson_ratio
+        relaxed = (1.0 - ratio**2) * self._compliance(qx, qy, shape)
+        if self.layer is not None:
+            relaxed = relaxed * self.layer.yielding(magnitude, ratio)
+        found = np.asarray(2.0 * (relaxed + self.indenter_compliance) / magnitude)
+        found[0, 0] = 0.0
+        return found.real.copy() if self.is_elastic else found
+
+    def mean_compression(self) -> float:
+        """Return the displacement under a uniform pressure over that pressure, m/Pa.
+
+        Zero for a half-space, whose displacements are counted from their mean.
+        """
+        if self.layer is None:
+            return 0.0
+        thickness = self.layer.mean_compression(self.poisson_ratio)
+        return thickness * float(self.spectrum.compliance(0.0).real) if thickness else 0.0
+
+    def _compliance(self, qx: Array, qy: Array, shape: tuple[int, int]) -> ComplexArray:
+        """S(−q·v), averaged over the two senses of a Nyquist wave, in a shape that broadcasts to the grid's."""
+        (nx, ny), (vx, vy) = shape, self.velocity
+        # The grid is not filled where the compliance varies along one axis only.
+        still = np.zeros((1, 1))
+        ahead = still if vx == 0.0 else _product(qx, vx)
+        across = still if vy == 0.0 else _product(qy, vy)
+        found = self._response(ahead + across, (nx, qy.shape[1]))
+        if nx % 2 == 0 and vx != 0.0:
+            row = self._response(across - ahead[nx // 2])[0]
+            found[nx // 2] = 0.5 * (found[nx // 2] + row)
+        if ny % 2 == 0 and vy != 0.0:
+            column = self._response(ahead - across[:, -1:])[:, 0]
+            if nx % 2 == 0 and vx != 0.0:
+                # All four senses of the corner: two pairs of conjugates.
+                found[nx // 2, -1] = column[nx // 2] = found[nx // 2, -1].real
+            found[:, -1] = 0.5 * (found[:, -1] + column)
+        return found
+
+    def _response(self, frequency: Array, grid: tuple[int, int] | None = None) -> ComplexArray:
+        """Return S(−ω), where ω is given for each wave of a grid if it has that grid's shape."""
+        if self.is_elastic:
+            relaxed = float(self.spectrum.compliance(0.0).real)
+            return np.full((1, 1), relaxed, complex)
+        infinite = np.isinf(frequency)
+        if infinite.any():
+            found = np.full(frequency.shape, 1.0 / self.spectrum.E_inf, complex)
+            if not infinite.all():
+                found[~infinite] = self.spectrum.compliance(frequency[~infinite]).conj()
+            return found
+        if frequency.shape == grid and frequency.size > 1:
+            # The mean needs no compliance, which a table may not have at rest.
+            frequency.flat[0] = frequency.flat[-1]
+        return np.conj(self.spectrum.compliance(frequency))
+
+
+def _product(wave_numbers: Array, velocity: float) -> Array:
+    """Return q v, with 0 · ∞ = 0: waves across the motion are at rest at any speed."""
+    if not math.isinf(velocity):
+        return wave_numbers * velocity
+    return np.where(wave_numbers == 0.0, 0.0, np.copysign(np.inf, wave_numbers * np.sign(velocity)))
+
+
+def dissipation(
+    transfer: ComplexArray | Array,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    direction: tuple[float, float],
+    pressure_waves: ComplexArray,
+) -> float:
+    """Friction force per area from the energy that the solid dissipates, along a unit vector.
+
+    F_t/A = Σ_q 2(1−ν²)/|q| (q·n) (−Im S(−q·v)) |p̂_q|², over the waves of both signs; p̂_q are Fourier coefficients.
+    """
+    qx, qy = (without_nyquist(one, size) for one, size in zip(wave_number(shape, spacing), shape, strict=True))
+    along = direction[0] * qx + direction[1] * qy
+    work = along * np.imag(transfer) * np.square(np.abs(pressure_waves))
+    return float((work * hermitian_factor(shape[1])).sum()) / float(shape[0] * shape[1]) ** 2

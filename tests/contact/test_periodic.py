@@ -1,0 +1,466 @@
+"""Periodic rough contact: closed forms, a dense solver of its own, energy balance, invariances, robustness."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from contact.dense_reference import solve_dense_contact
+from contact.made_surfaces import self_affine
+from viscofric.contact.periodic.layers import Layer
+from viscofric.contact.periodic.operator import PeriodicOperator
+from viscofric.contact.periodic.solve import solve_periodic
+from viscofric.contact.periodic.splitting import split_steps
+from viscofric.contact.periodic.surface import PeriodicSurface, interpolated
+from viscofric.contact.periodic.transfer import SlidingSolid
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+POISSON_RATIO = 0.4
+
+
+def standard(modulus_ratio: float = 100.0, tau: float = 1.0) -> vf.Material:
+    return vf.Material.standard_linear_solid(1.0, modulus_ratio, tau, POISSON_RATIO)
+
+
+def broad(modes: int = 20, modulus_ratio: float = 100.0) -> vf.Material:
+    C = np.full(modes, (1.0 - 1.0 / modulus_ratio) / modes)
+    return vf.Material(
+        vf.RetardationSpectrum(1.0, modulus_ratio, C, np.logspace(-4, 1, modes)), poisson_ratio=POISSON_RATIO
+    )
+
+
+def table(frequencies: tuple[float, float] = (1e-3, 1e5)) -> vf.Material:
+    omega = np.logspace(*np.log10(frequencies), 200)
+    modulus = broad().complex_modulus(omega)
+    return vf.Material(
+        vf.ModulusTable(omega, modulus.real, modulus.imag, extrapolate="plateau"), poisson_ratio=POISSON_RATIO
+    )
+
+
+def rough(points: int, *, seed: int = 0, shortest: float = 8.0) -> PeriodicSurface:
+    return PeriodicSurface(self_affine(points, seed=seed, points_per_shortest_wave=shortest), 1.0 / points)
+
+
+def reduced(modulus: float = 1.0) -> float:
+    return modulus / (1.0 - POISSON_RATIO**2)
+
+
+@pytest.mark.parametrize("half_width", [0.1, 0.25, 0.4])
+def test_sinusoid_in_partial_contact_is_westergaards(half_width: float) -> None:
+    """K. L. Johnson, Contact Mechanics (1985), Eqs. 13.7 and 13.8."""
+    points, amplitude = 2048, 1e-3
+    x = np.arange(points) / points - 0.5
+    surface = PeriodicSurface(amplitude * np.cos(2.0 * np.pi * x), 1.0 / points)
+    full = np.pi * reduced() * amplitude
+    sine = math.sin(np.pi * half_width)
+    mean = full * sine**2
+    solution = solve_periodic(standard(), surface, speed=0.0, pressure=mean)
+    inside = np.abs(x) < half_width
+    expected = np.zeros(points)
+    under = np.sqrt(sine**2 - np.sin(np.pi * x[inside]) ** 2)
+    expected[inside] = 2.0 * mean * np.cos(np.pi * x[inside]) / sine**2 * under
+    # Errors of the order of the cell over the contact's width, from the edges, where the slope is infinite.
+    assert solution.contact_area_fraction == pytest.approx(2.0 * half_width, abs=2.0 / points)
+    assert np.abs(solution.pressure[:, 0] - expected).max() < 0.03 * expected.max()
+    central = np.abs(x) < 0.8 * half_width
+    np.testing.assert_allclose(solution.pressure[central, 0], expected[central], rtol=2e-3)
+    assert abs(solution.friction_coefficient) < 1e-12
+
+
+def test_wavy_surface_closes_at_the_pressure_of_johnson_greenwood_and_higginson() -> None:
+    """K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383: p* = √2 π E* Δ/λ."""
+    points, amplitude = 64, 1e-3
+    wave = np.cos(2.0 * np.pi * np.arange(points) / points)
+    surface = PeriodicSurface(amplitude * np.outer(wave, wave), 1.0 / points)
+    closing = math.sqrt(2.0) * np.pi * reduced() * amplitude
+    closed = solve_periodic(standard(), surface, speed=0.0, pressure=1.0001 * closing)
+    open_ = solve_periodic(standard(), surface, speed=0.0, pressure=0.999 * closing)
+    assert closed.diagnostics.full_contact
+    assert not open_.diagnostics.full_contact
+    assert open_.contact_area_fraction > 0.95  # their asymptote: 1 − area = (3/2π)(1 − p/p*), and whole cells
+    # Linear in full contact: round-off.
+    np.testing.assert_allclose(closed.pressure, 1.0001 * closing + closing * np.outer(wave, wave), atol=1e-12 * closing)
+
+
+def test_wavy_surface_touches_as_hertz_at_light_load() -> None:
+    """A summit of cos cos has the radius λ²/(4π²Δ) along both axes; Hertz holds while the contact is small."""
+    points, amplitude = 512, 1e-3
+    wave = np.cos(2.0 * np.pi * np.arange(points) / points)
+    surface = PeriodicSurface(amplitude * np.outer(wave, wave), 1.0 / points)
+    mean = 0.005 * math.sqrt(2.0) * np.pi * reduced() * amplitude
+    solution = solve_periodic(standard(), surface, speed=0.0, pressure=mean)
+    radius = 1.0 / (4.0 * np.pi**2 * amplitude)
+    # Two summits in a period (the second at half a period along both axes), each with half of the load.
+    contact = (3.0 * 0.5 * mean * radius / (4.0 * reduced())) ** (1.0 / 3.0)
+    # The boundary is counted in cells (21 to a radius), and the contact is not infinitely small.
+    assert solution.contact_area_fraction == pytest.approx(2.0 * np.pi * contact**2, rel=0.04)
+    assert solution.max_pressure == pytest.approx(1.5 * 0.5 * mean / (np.pi * contact**2), rel=0.02)
+
+
+@pytest.mark.parametrize("speed", [1e-6, 1e-3, 0.1, 3.0, 1e4, -0.1])
+@pytest.mark.parametrize("material", [standard(), broad(), table()], ids=["one mode", "20 modes", "table"])
+def test_sinusoid_in_full_contact_has_its_closed_form(material: vf.Material, speed: float) -> None:
+    """μ p̄ = (qA)² Im E(qv)/(4(1−ν²)), at any speed."""
+    points, amplitude = 32, 1e-4
+    z = amplitude * np.cos(2.0 * np.pi * np.arange(points) / points)
+    solution = solve_periodic(material, PeriodicSurface(z, 1.0 / points), speed=speed, pressure=1.0)
+    q = 2.0 * np.pi
+    loss = complex(material.complex_modulus(np.array([q * speed]))[0]).imag
+    expected = (q * amplitude) ** 2 * loss / (4.0 * (1.0 - POISSON_RATIO**2))
+    assert solution.diagnostics.full_contact
+    # Round-off of pressures of order one in a sum of order qA times smaller ones.
+    assert solution.friction_coefficient == pytest.approx(expected, rel=1e-9, abs=1e-15)
+    assert solution.pressure_friction_coefficient == pytest.approx(expected, rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.parametrize("shape", [(32, 32), (27, 32), (32, 25), (15, 17)])
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.0, 1.0), (1.0, -2.0)])
+def test_energy_balances_in_full_contact(shape: tuple[int, int], direction: tuple[float, float]) -> None:
+    """On any grid, Nyquist waves included: the heights are white noise."""
+    z = 1e-6 * np.random.default_rng(1).standard_normal(shape)
+    solution = solve_periodic(broad(), PeriodicSurface(z, (0.01, 0.02)), speed=0.3, pressure=5.0, direction=direction)
+    assert solution.diagnostics.full_contact
+    assert solution.friction_coefficient > 0.0
+    assert abs(solution.diagnostics.energy) < 1e-8
+
+
+def test_energy_balance_improves_with_the_grid() -> None:
+    """In partial contact the two frictions differ by what the grid leaves of the edges: first order, or better."""
+    coarse = self_affine(32, points_per_shortest_wave=8.0)
+    errors = []
+    for points in (64, 256):
+        surface = PeriodicSurface(_refined(coarse, points), 1.0 / points)
+        solution = solve_periodic(broad(), surface, speed=1.0, pressure=0.1)
+        assert solution.contact_area_fraction < 0.5
+        errors.append(abs(solution.diagnostics.energy))
+    assert errors[1] < 0.25 * errors[0]
+    assert errors[1] < 3e-3
+
+
+def _refined(z: Array, points: int) -> Array:
+    """Return the same surface on more points, by its Fourier series."""
+    waves = np.fft.fft2(z)
+    k = np.fft.fftfreq(len(z), 1.0 / len(z)).astype(int)
+    found = np.zeros((points, points), complex)
+    found[np.ix_(k, k)] = waves
+    return np.fft.ifft2(found).real * (points / len(z)) ** 2
+
+
+def dense_matrix(points: int, material: vf.Material, velocity: tuple[float, float]) -> Array:
+    """Displacement matrix summed wave by wave over both senses of each, without any FFT; plus one for the mean."""
+    half = points // 2
+    k = np.arange(-half, half + 1)
+    weight = np.where(np.abs(k) == half, 0.5, 1.0)
+    position = np.arange(points) / points
+    row = np.ones((points, points), complex)
+    for kx, wx in zip(k, weight, strict=True):
+        for ky, wy in zip(k, weight, strict=True):
+            if kx == 0 == ky:
+                continue
+            qx, qy = 2.0 * np.pi * kx, 2.0 * np.pi * ky
+            modulus = complex(material.complex_modulus(np.array([-(qx * velocity[0] + qy * velocity[1])]))[0])
+            answer = 2.0 * (1.0 - POISSON_RATIO**2) / (modulus * math.hypot(qx, qy))
+            row += wx * wy * answer * np.exp(1j * (qx * position[:, None] + qy * position))
+    assert np.abs(row.imag).max() < 1e-12
+    influence = row.real / points**2
+    index = np.arange(points)
+    difference = (index[:, None] - index) % points
+    return influence[difference[:, None, :, None], difference[None, :, None, :]].reshape(points**2, points**2)
+
+
+@pytest.mark.parametrize("velocity", [(0.0, 0.0), (1.0, 0.0), (-0.3, 0.5)])
+@pytest.mark.parametrize("pressure", [0.005, 0.1, 2.0])
+def test_pressures_are_those_of_dense_pivoting(velocity: tuple[float, float], pressure: float) -> None:
+    points, material = 16, broad(3)
+    surface = rough(points, seed=3, shortest=3.0)
+    speed = math.hypot(*velocity)
+    solution = solve_periodic(
+        material, surface, speed=speed, pressure=pressure, direction=velocity if speed else (1.0, 0.0), tolerance=1e-11
+    )
+    height = surface.z.max() - surface.z
+    matrix = dense_matrix(points, material, velocity)
+    dense = solve_dense_contact(matrix, height.ravel(), pressure * points**2)
+    # A gap of 1e-11 rms heights takes a pressure of 1e-11 times the stiffness of the shortest wave: some 1e-9.
+    np.testing.assert_allclose(solution.pressure.ravel(), dense.pressure, rtol=0.0, atol=1e-7 * dense.pressure.max())
+    assert solution.mean_pressure == pytest.approx(pressure, rel=1e-12)
+
+
+@pytest.mark.parametrize("material", [standard(2.0, 1.0), broad()], ids=["one mode", "20 modes"])
+def test_solution_keeps_its_conditions(material: vf.Material) -> None:
+    surface = rough(128)
+    solution = solve_periodic(material, surface, speed=0.5, pressure=0.05)
+    scale = surface.rms_height
+    assert solution.pressure.min() >= 0.0
+    assert solution.gap.min() >= -1.01e-8 * scale
+    assert np.abs(solution.gap[solution.pressure > 0.0]).max() <= 1.01e-8 * scale
+    assert solution.diagnostics.complementarity <= 1e-8
+    assert solution.diagnostics.load < 1e-12
+    assert solution.friction_coefficient > 0.0
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.7])
+def test_gap_and_pressure_control_agree(speed: float) -> None:
+    surface = rough(64)
+    given = solve_periodic(broad(), surface, speed=speed, pressure=0.05, tolerance=1e-10)
+    found = solve_periodic(broad(), surface, speed=speed, gap=given.mean_gap, tolerance=1e-10)
+    # The gap is right to 1e-10 rms heights, a pressure to that times the stiffness of short waves over the mean.
+    assert found.mean_pressure == pytest.approx(0.05, rel=1e-6)
+    np.testing.assert_allclose(found.pressure, given.pressure, atol=1e-6 * given.max_pressure)
+    assert found.mean_gap == pytest.approx(given.mean_gap, rel=1e-8)
+    assert found.friction_coefficient == pytest.approx(given.friction_coefficient, abs=1e-7)
+
+
+def test_reversed_motion_over_the_mirrored_surface_mirrors_the_contact() -> None:
+    surface = rough(64)
+    mirrored = PeriodicSurface(surface.z[::-1], surface.spacing)
+    one = solve_periodic(broad(), surface, speed=0.5, pressure=0.05)
+    other = solve_periodic(broad(), mirrored, speed=-0.5, pressure=0.05)
+    np.testing.assert_allclose(other.pressure, one.pressure[::-1], atol=1e-5 * one.max_pressure)  # the tolerance
+    assert other.friction_coefficient == pytest.approx(-one.friction_coefficient, rel=1e-6)
+
+
+def test_direction_turns_with_the_surface() -> None:
+    surface = rough(48, shortest=6.0)
+    turned = PeriodicSurface(surface.z.T, surface.spacing)
+    one = solve_periodic(broad(), surface, speed=0.5, pressure=0.05, direction=(2.0, 1.0))
+    other = solve_periodic(broad(), turned, speed=0.5, pressure=0.05, direction=(1.0, 2.0))
+    backward = solve_periodic(broad(), surface, speed=-0.5, pressure=0.05, direction=(-2.0, -1.0))
+    np.testing.assert_allclose(other.pressure, one.pressure.T, atol=1e-5 * one.max_pressure)
+    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-6)
+    np.testing.assert_allclose(backward.pressure, one.pressure, atol=1e-5 * one.max_pressure)
+    assert backward.friction_coefficient == pytest.approx(-one.friction_coefficient, rel=1e-6)
+
+
+def test_ridges_along_the_motion_have_no_friction() -> None:
+    ridges = np.tile(1e-3 * np.cos(2.0 * np.pi * np.arange(32) / 32), (16, 1))
+    surface = PeriodicSurface(ridges, 1.0 / 32)
+    along = solve_periodic(broad(), surface, speed=1.0, pressure=1e-3)
+    at_rest = solve_periodic(broad(), surface, speed=0.0, pressure=1e-3)
+    assert abs(along.friction_coefficient) < 1e-12
+    np.testing.assert_allclose(along.pressure, at_rest.pressure, atol=1e-6 * at_rest.max_pressure)
+    across = solve_periodic(broad(), surface, speed=1.0, pressure=1e-3, direction=(0.0, 1.0))
+    line = solve_periodic(broad(), PeriodicSurface(ridges[0], 1.0 / 32), speed=1.0, pressure=1e-3)
+    assert across.friction_coefficient == pytest.approx(line.friction_coefficient, rel=1e-6)
+
+
+def test_units_do_not_matter() -> None:
+    """Moduli a million times larger, lengths a thousandth, times a billion: the same contact."""
+    stiffer, longer, later = 1e6, 1e-3, 1e9
+    surface, material = rough(64), broad()
+    spectrum = material.spectrum
+    assert isinstance(spectrum, vf.RetardationSpectrum)
+    scaled = vf.Material(
+        vf.RetardationSpectrum(
+            stiffer * spectrum.E0, stiffer * spectrum.E_inf, spectrum.C / stiffer, later * spectrum.tau
+        ),
+        poisson_ratio=POISSON_RATIO,
+    )
+    one = solve_periodic(material, surface, speed=0.5, pressure=0.05)
+    other = solve_periodic(
+        scaled,
+        PeriodicSurface(longer * surface.z, longer / 64),
+        speed=0.5 * longer / later,
+        pressure=0.05 * stiffer,
+    )
+    np.testing.assert_allclose(other.pressure / stiffer, one.pressure, atol=1e-6 * one.max_pressure)
+    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-7)
+    assert other.indentation == pytest.approx(longer * one.indentation, rel=1e-7)
+
+
+def test_speed_limits_are_elastic() -> None:
+    surface = rough(64)
+    z = surface.z[:, 5]
+    profile = PeriodicSurface(z, 1.0 / 64)
+    soft, hard = vf.Material.standard_linear_solid(1.0, 1.0001, 1.0, 0.4), 100.0
+    rest = solve_periodic(broad(), profile, speed=0.0, pressure=0.02)
+    slow = solve_periodic(broad(), profile, speed=1e-9, pressure=0.02)
+    np.testing.assert_allclose(slow.pressure, rest.pressure, atol=1e-5 * rest.max_pressure)
+    # At infinite speed a profile meets the glass, E_inf/E0 times as stiff.
+    fast = solve_periodic(broad(), profile, speed=math.inf, pressure=0.02 * hard)
+    np.testing.assert_allclose(fast.pressure / hard, rest.pressure, atol=1e-5 * rest.max_pressure)
+    nearly = solve_periodic(broad(), profile, speed=1e9, pressure=0.02 * hard)
+    np.testing.assert_allclose(nearly.pressure, fast.pressure, atol=1e-5 * fast.max_pressure)
+    elastic = solve_periodic(soft, surface, speed=1.0, pressure=0.02)
+    assert abs(elastic.friction_coefficient) < 1e-4
+    # On a surface, infinite speed is the limit of high ones too: the waves across the motion stay relaxed.
+    limit = solve_periodic(broad(), surface, speed=math.inf, pressure=0.5)
+    high = solve_periodic(broad(), surface, speed=1e8, pressure=0.5)
+    np.testing.assert_allclose(high.pressure, limit.pressure, atol=1e-4 * limit.max_pressure)
+
+
+def test_elastic_indenter_adds_its_compliance() -> None:
+    """As stiff as a relaxed rubber of the same Poisson ratio, it halves the contact's modulus at rest."""
+    surface = rough(64)
+    both = solve_periodic(
+        standard(), surface, speed=0.0, pressure=0.01, indenter_modulus=1.0, indenter_poisson_ratio=POISSON_RATIO
+    )
+    softer = vf.Material.standard_linear_solid(0.5, 10.0, 1.0, POISSON_RATIO)
+    np.testing.assert_allclose(
+        both.pressure, solve_periodic(softer, surface, speed=0.0, pressure=0.01).pressure, atol=1e-6 * both.max_pressure
+    )
+
+
+def test_table_is_asked_only_for_frequencies_that_there_are() -> None:
+    """A profile has no wave at rest; a surface has those across the motion, which only a plateau can answer."""
+    omega = np.logspace(-1, 3, 50)
+    modulus = broad().complex_modulus(omega)
+    short = vf.Material(vf.ModulusTable(omega, modulus.real, modulus.imag), poisson_ratio=POISSON_RATIO)
+    surface = rough(32)
+    profile = PeriodicSurface(surface.z[:, 3], 1.0 / 32)
+    found = solve_periodic(short, profile, speed=1.0, pressure=0.05)
+    expected = solve_periodic(broad(), profile, speed=1.0, pressure=0.05)
+    assert found.friction_coefficient == pytest.approx(expected.friction_coefficient, rel=1e-3)  # interpolation
+    with pytest.raises(vf.InputError, match="outside the table"):
+        solve_periodic(short, surface, speed=1.0, pressure=0.05)
+
+
+@pytest.mark.parametrize("shape", [(8, 8), (7, 8), (8, 7), (8, 1)])
+@pytest.mark.parametrize("velocity", [(1.0, 0.0), (0.0, 1.0), (0.6, -0.8), (math.inf, 0.0)])
+def test_transfer_function_makes_real_displacements(shape: tuple[int, int], velocity: tuple[float, float]) -> None:
+    """What a wave gets is the conjugate of what its opposite gets, and the mean where it is its own opposite."""
+    solid = SlidingSolid(broad().at(), POISSON_RATIO, velocity)
+    transfer = solid.transfer(shape, (0.1, 0.2))
+    nx, ny = shape
+    assert transfer.shape == (nx, ny // 2 + 1)
+    own_opposite = [0] + ([ny // 2] if ny % 2 == 0 else [])
+    for column in own_opposite:
+        np.testing.assert_allclose(transfer[1:, column], transfer[:0:-1, column].conj(), rtol=1e-12)
+    assert np.all(transfer.real.ravel()[1:] > 0.0)
+
+
+def test_more_speed_opens_the_contact() -> None:
+    surface = rough(64)
+    areas = [
+        solve_periodic(broad(), surface, speed=v, pressure=0.1).contact_area_fraction for v in (0.0, 0.01, 1.0, 100.0)
+    ]
+    assert areas == sorted(areas, reverse=True)
+    assert areas[0] > 2.0 * areas[-1]
+
+
+@pytest.mark.parametrize("pressure", [1e-6, 0.02, 0.5, 5.0, 50.0])
+@pytest.mark.parametrize(
+    ("modulus_ratio", "tau"), [(1.1, 1.0), (10.0, 1e-6), (1e3, 0.1), (1e3, 1.0), (1e4, 10.0), (1e4, 1e6)]
+)
+def test_one_retardation_time_converges_everywhere(modulus_ratio: float, tau: float, pressure: float) -> None:
+    """Also where the discrete operator is almost skew, and from a few points of contact to all of them."""
+    surface = rough(32, shortest=4.0)
+    solution = solve_periodic(standard(modulus_ratio, tau), surface, speed=1.0, pressure=pressure)
+    assert solution.diagnostics.complementarity <= 1e-8
+    assert solution.friction_coefficient >= 0.0
+
+
+@pytest.mark.parametrize("layer", [Layer(0.02), Layer(1.0, bonded=False)])
+def test_layers_converge(layer: Layer) -> None:
+    solution = solve_periodic(broad(), rough(64), speed=1.0, pressure=0.1, layer=layer)
+    assert solution.diagnostics.complementarity <= 1e-8
+    assert abs(solution.diagnostics.energy) < 0.05  # grid, see above
+
+
+@pytest.mark.parametrize("accelerated", [False, True])
+@pytest.mark.parametrize("control", ["load", "indentation"])
+def test_splitting_converges_alone_and_from_anywhere(accelerated: bool, control: str) -> None:
+    surface, material = rough(32, shortest=4.0), broad()
+    solution = solve_periodic(material, surface, speed=1.0, pressure=0.1, tolerance=1e-11)
+    solid = SlidingSolid(material.at(), POISSON_RATIO, (1.0, 0.0))
+    transfer = solid.transfer(surface.shape, surface.spacing)
+    unit = np.abs(transfer).max()
+    operator = PeriodicOperator(transfer / unit, surface.shape)
+    spike = np.zeros(surface.shape)
+    spike[3, 29] = 1.0
+    load, indentation = (0.1 * 32**2 * unit, None) if control == "load" else (None, solution.indentation)
+    found = split_steps(
+        operator, surface.z.max() - surface.z, spike, load=load, indentation=indentation, steps=1500, stiffness=1.0,
+        accelerated=accelerated,
+    )  # fmt: skip
+    # Linear convergence: 1500 steps were seen to reach 1e-7 of the largest pressure or better.
+    np.testing.assert_allclose(found / unit, solution.pressure, atol=1e-6 * solution.max_pressure)
+
+
+@pytest.mark.parametrize("pressure", [3e-4, 300.0])
+def test_few_points_and_all_but_few_touch(pressure: float) -> None:
+    solution = solve_periodic(broad(), rough(256), speed=0.1, pressure=pressure)
+    assert solution.diagnostics.complementarity <= 1e-8
+    area = solution.contact_area_fraction
+    assert area < 1e-3 if pressure < 1.0 else area > 0.999
+
+
+def test_benchmark_measures_what_it_says(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = Path(__file__).parents[2] / "benchmarks" / "contact" / "rough.py"
+    specification = importlib.util.spec_from_file_location("rough_benchmark", path)
+    assert specification is not None
+    assert specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    module.main(["--sizes", "64", "--json", str(tmp_path / "rough.json"), "--peers", str(tmp_path / "nowhere")])
+    rows = json.loads((tmp_path / "rough.json").read_text(encoding="utf-8"))
+    assert [row["tool"] for row in rows] == ["viscofric", "viscofric, viscoelastic", "contact_mechanics", "tamaas"]
+    assert all(row["residual"] <= 1e-8 for row in rows[:2])
+    assert all("error" in row for row in rows[2:])
+    assert "ratio" in capsys.readouterr().out
+    # The measure that peers are held against, on our own answer
+    _, surface, solution = module.own(64, viscoelastic=False)
+    assert module.residual(solution.pressure, surface) == pytest.approx(solution.diagnostics.complementarity, rel=0.1)
+
+
+def test_work_does_not_grow_with_the_grid() -> None:
+    counts = []
+    for points in (128, 256, 512):
+        solution = solve_periodic(standard(), rough(points), speed=0.0, pressure=0.05 * reduced())
+        counts.append(solution.diagnostics.ffts)
+    # 90 to 150 were seen, two in each of the steps; conjugate gradients without nested grids double theirs.
+    assert max(counts) < 200
+
+
+def test_failure_is_an_error() -> None:
+    with pytest.raises(vf.ConvergenceError, match="64 x 64"):
+        solve_periodic(broad(), rough(64), speed=1.0, pressure=0.1, most_products=2)
+
+
+def test_interpolation_keeps_the_points_it_has() -> None:
+    values = np.random.default_rng(0).random((6, 5))
+    finer = interpolated(values, (12, 10))
+    np.testing.assert_allclose(finer[::2, ::2], values)
+    np.testing.assert_allclose(finer[1::2, ::2], 0.5 * (values + np.roll(values, -1, 0)))
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({}, "either"),
+        ({"pressure": 1.0, "gap": 1.0}, "either"),
+        ({"pressure": -1.0}, "pressure"),
+        ({"gap": 10.0}, "do not touch"),
+        ({"pressure": 1.0, "direction": (0.0, 0.0)}, "direction"),
+        ({"pressure": 1.0, "direction": (1.0,)}, "direction"),
+        ({"pressure": 1.0, "tolerance": 0.5}, "tolerance"),
+        ({"pressure": 1.0, "layer": 0.1}, "layer"),
+        ({"pressure": 1.0, "indenter_modulus": 1.0, "indenter_poisson_ratio": 0.6}, "indenter_poisson_ratio"),
+    ],
+)
+def test_wrong_values_are_refused(settings: dict[str, object], message: str) -> None:
+    with pytest.raises(vf.InputError, match=message):
+        solve_periodic(broad(), rough(16), speed=1.0, **settings)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("z", [[[1.0, np.nan]], [1.0], np.zeros((4, 4)), np.zeros((2, 2, 2))])
+def test_wrong_surfaces_are_refused(z: object) -> None:
+    with pytest.raises(vf.InputError, match="z of a periodic surface"):
+        PeriodicSurface(z, 1.0)  # type: ignore[arg-type]
+
+
+def test_solution_becomes_a_labelled_data_set() -> None:
+    solution = solve_periodic(broad(), rough(16, shortest=4.0), speed=1.0, pressure=0.1)
+    data = solution.to_dataset()
+    assert data["pressure"].attrs["units"] == "Pa"
+    assert data["gap"].shape == (16, 16)
