@@ -9,9 +9,10 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts import law_fitting
+from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
-from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
+from viscofric.units import celsius, kelvin_hint, positive, to_si
 
 if TYPE_CHECKING:
     import os
@@ -67,15 +68,7 @@ class ShiftFactors(ShiftLaw):
         covariance: Any = None,
         notes: Iterable[str] = (),
     ) -> None:
-        kelvin = to_si_array(temperatures, "K", "temperatures")
-        values = np.array(log10_values, dtype=float)
-        if kelvin.size < 2 or values.shape != kelvin.shape or not np.all(np.isfinite(values)):
-            raise InputError("shift factors need at least two temperatures, and one finite value for each.")
-        if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
-            raise InputError("temperatures of shift factors must ascend without repeats, above absolute zero.")
-        spread = np.zeros((kelvin.size, kelvin.size)) if covariance is None else np.array(covariance, dtype=float)
-        if spread.shape != (kelvin.size, kelvin.size) or not np.all(np.isfinite(spread)):
-            raise InputError("covariance of shift factors must be square, one row per temperature, and finite.")
+        kelvin, values, spread = checked_columns("shift factors", temperatures, log10_values, covariance)
         object.__setattr__(self, "temperatures", kelvin)
         object.__setattr__(self, "reference", positive(reference, "K", "reference"))
         object.__setattr__(self, "log10_values", values)

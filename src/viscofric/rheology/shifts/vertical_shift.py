@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
 
@@ -145,15 +146,7 @@ class VerticalShiftFactors(VerticalShift):
     def __init__(
         self, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any = None
     ) -> None:
-        kelvin = to_si_array(temperatures, "K", "temperatures")
-        values = np.array(log10_values, dtype=float)
-        if kelvin.size < 2 or values.shape != kelvin.shape or not np.all(np.isfinite(values)):
-            raise InputError("vertical shifts need at least two temperatures, and one finite value for each.")
-        if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
-            raise InputError("temperatures of vertical shifts must ascend without repeats, above absolute zero.")
-        spread = np.zeros((kelvin.size, kelvin.size)) if covariance is None else np.array(covariance, dtype=float)
-        if spread.shape != (kelvin.size, kelvin.size) or not np.all(np.isfinite(spread)):
-            raise InputError("covariance of vertical shifts must be square, one row per temperature, and finite.")
+        kelvin, values, spread = checked_columns("vertical shifts", temperatures, log10_values, covariance)
         object.__setattr__(self, "temperatures", kelvin)
         object.__setattr__(self, "reference", positive(reference, "K", "reference"))
         self._refuse(np.array([self.reference]))

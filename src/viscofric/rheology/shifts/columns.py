@@ -1,0 +1,50 @@
+"""Columns of a table of shifts, horizontal or vertical: checked alike."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.units import to_si_array
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.units import Quantities
+
+    Array = NDArray[np.float64]
+
+
+def checked_columns(
+    what: str, temperatures: Quantities, log10_values: Any, covariance: Any
+) -> tuple[Array, Array, Array]:
+    """Return temperatures (n,) in K, values (n,) and their covariance (n, n), zero if none is given.
+
+    Parameters
+    ----------
+    what : str
+        What the values are, in the plural, for errors.
+    temperatures : (n,) array or quantities
+        Ascending, at least two.
+    log10_values : (n,) array
+        Finite.
+    covariance : (n, n) array or None
+        Of the values.
+
+    Raises
+    ------
+    InputError
+        If the columns do not fit each other, are not finite, or the temperatures do not ascend.
+    """
+    kelvin = to_si_array(temperatures, "K", "temperatures")
+    values = np.array(log10_values, dtype=float)
+    if kelvin.size < 2 or values.shape != kelvin.shape or not np.all(np.isfinite(values)):
+        raise InputError(f"{what} need at least two temperatures, and one finite value for each.")
+    if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
+        raise InputError(f"temperatures of {what} must ascend without repeats, above absolute zero.")
+    spread = np.zeros((kelvin.size, kelvin.size)) if covariance is None else np.array(covariance, dtype=float)
+    if spread.shape != (kelvin.size, kelvin.size) or not np.all(np.isfinite(spread)):
+        raise InputError(f"covariance of {what} must be square, one row per temperature, and finite.")
+    return kelvin, values, spread
