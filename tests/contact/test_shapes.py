@@ -382,3 +382,15 @@ def test_steep_indenters_are_a_warning(indenter: Indenter, arguments: dict[str, 
 def test_gentle_indenters_are_none() -> None:
     assert solve_steady(RUBBER, CONE, speed=0.0, load=LOAD).warnings == ()
     assert solve_steady(RUBBER, VISCOELASTIC["height map"], speed=0.0, load=LOAD).warnings == ()
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.3 * SPEED, SPEED])
+def test_what_was_given_comes_back_to_the_last_digit(speed: float) -> None:
+    # Tables group cases by their load: the rounding of a sum of pressures would make many loads of one.
+    ball = Ball(BALL_RADIUS)
+    under_load = solve_steady(RUBBER, ball, speed=speed, load=LOAD, accuracy=0.05)
+    assert under_load.load == LOAD
+    pressed = solve_steady(RUBBER, ball, speed=speed, indentation=under_load.indentation, accuracy=0.05)
+    assert pressed.indentation == under_load.indentation
+    # The same contact, found from its load and from its depth; both to the accuracy of coarse grids.
+    assert pressed.load == pytest.approx(LOAD, rel=0.05)

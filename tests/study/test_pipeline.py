@@ -111,6 +111,11 @@ def test_temperatures_fall_on_one_friction_master_curve(results: StudyResults) -
     assert np.sqrt(np.mean(error**2)) < 0.02
 
 
+def test_one_load_is_one_load_in_every_table(results: StudyResults) -> None:
+    for name in ("prediction", "prediction_master"):
+        assert set(results.tree[name]["load"].values.tolist()) == {25.0}
+
+
 def test_results_are_labelled_with_units_and_provenance(results: StudyResults) -> None:
     stored = open_results(results.folder)
     assert stored.tree.attrs["data_origin"] == "synthetic"

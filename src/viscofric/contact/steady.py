@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -119,7 +119,7 @@ def solve_steady(
     counterface = _indenter_compliance(indenter_modulus, indenter_poisson_ratio)
     plane_strain = 1.0 - material.poisson_ratio**2
     compliance = plane_strain / spectrum.E0 + counterface
-    scale, control, held = _held(indenter, 1.0 / compliance, load, indentation)
+    scale, control, given, held = _held(indenter, 1.0 / compliance, load, indentation)
     solid = _steady_material(
         spectrum, abs(velocity) / scale.length, plane_strain / compliance, counterface / compliance
     )
@@ -128,7 +128,8 @@ def solve_steady(
     first = find_window(problem, problem.first_size)
     indenter.check(scale.extent(first.extent), held)
     stages = refine(first, accuracy, finest)
-    solution = assemble(stages, scale, velocity, kelvin)
+    # What was given comes back as it was given, free of the rounding of sums and units.
+    solution = replace(assemble(stages, scale, velocity, kelvin), **given)
     return _with_doubts(solution, indenter, scale, stages[-1])
 
 
@@ -152,8 +153,8 @@ def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
 
 def _held(
     indenter: Indenter, stiffness: float, load: Quantity | None, indentation: Quantity | None
-) -> tuple[Scale, Control, str]:
-    """Return the units, what is given in them, and what is given in words."""
+) -> tuple[Scale, Control, dict[str, Any], str]:
+    """Return the units, what is given in them, in SI, and in words."""
     geometry = indenter.geometry
     if (load is None) == (indentation is None):
         both = "neither" if load is None else "both"
@@ -161,14 +162,15 @@ def _held(
     if load is not None:
         force = positive(load, geometry.load_unit, "load")
         scale = Scale.for_load(indenter, stiffness, force)
-        return scale, GivenLoad(geometry.parabolic_load), f"under {force:g} {geometry.load_unit}"
+        return scale, GivenLoad(geometry.parabolic_load), {"load": force}, f"under {force:g} {geometry.load_unit}"
     if not geometry.has_far_field:
         raise InputError(
             f"indentation = {indentation!r}: has no meaning in plane strain, where the surface far away is infinitely "
             f"high above the contact; give the load ({geometry.load_unit})."
         )
     depth = positive(indentation, "m", "indentation")  # type: ignore[arg-type]
-    return Scale.for_indentation(indenter, stiffness, depth), GivenIndentation(1.0), f"{1e3 * depth:g} mm deep"
+    scale = Scale.for_indentation(indenter, stiffness, depth)
+    return scale, GivenIndentation(1.0), {"indentation": depth}, f"{1e3 * depth:g} mm deep"
 
 
 def _indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
