@@ -9,6 +9,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from viscofric.contact.backend import Backend as Backend
     from viscofric.contact.fields import highest_von_mises as highest_von_mises
     from viscofric.contact.fields import line_stress as line_stress
     from viscofric.contact.fields import stress_at as stress_at
@@ -95,6 +96,7 @@ __version__: str
 
 # public name -> the module that defines it
 _HOME = {
+    "Backend": "viscofric.contact.backend",
     "highest_von_mises": "viscofric.contact.fields",
     "line_stress": "viscofric.contact.fields",
     "stress_at": "viscofric.contact.fields",

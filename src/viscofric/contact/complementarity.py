@@ -21,17 +21,12 @@ on a wrong set make all the spots overshoot.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
-
-import numpy as np
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
-    RealArray: TypeAlias = NDArray[np.floating[Any]]
-    Indices: TypeAlias = NDArray[np.intp]
+    from viscofric.contact.backend import AnyArray, Backend, Cells
 
 # How far a linear residual is reduced while more than the given part of the contact's cells is wrongly classified.
 _REDUCTIONS = ((0.02, 0.3), (0.001, 0.1), (0.0, 1e-4))
@@ -44,12 +39,17 @@ _LINEAR_ITERATIONS = 100  # between two looks at the contact set
 class ContactOperator(Protocol):
     """What the solver asks of an influence operator."""
 
+    backend: Backend
     products: int
 
-    def __call__(self, pressure: Array) -> Array:
+    @property
+    def dtype(self) -> Any:
+        """Precision of the arrays that it returns."""
+
+    def __call__(self, pressure: AnyArray) -> AnyArray:
         """Displacement under a pressure."""
 
-    def precondition(self, residual: Array) -> Array:
+    def precondition(self, residual: AnyArray) -> AnyArray:
         """Approximate inverse of the operator."""
 
 
@@ -60,6 +60,7 @@ class ComplementaritySolution:
     Attributes
     ----------
     pressure, displacement : (nx, ny) array
+        Of the operator's backend.
     indentation : float
     converged : bool
         Whether `complementarity` came below the tolerance.
@@ -73,8 +74,8 @@ class ComplementaritySolution:
         Residual of the last linear problem, relative to its right-hand side.
     """
 
-    pressure: Array
-    displacement: Array
+    pressure: AnyArray
+    displacement: AnyArray
     indentation: float
     converged: bool
     complementarity: float
@@ -84,12 +85,16 @@ class ComplementaritySolution:
     products: int
     linear: float = 0.0
 
+    def on_numpy(self, backend: Backend) -> ComplementaritySolution:
+        """Return the same with NumPy's arrays."""
+        return replace(self, pressure=backend.to_numpy(self.pressure), displacement=backend.to_numpy(self.displacement))
+
 
 def solve_complementarity(
     operator: ContactOperator,
-    height: Array,
+    height: AnyArray,
     load: float | None,
-    guess: Array,
+    guess: AnyArray,
     *,
     indentation: float | None = None,
     tolerance: float = 1e-8,
@@ -121,8 +126,8 @@ def solve_complementarity(
     depth : float, optional
         What the gap conditions are measured in; the indentation by default.
     inner : ContactOperator, optional
-        What linear problems are solved with, in the precision of the arrays that it returns; the operator itself by
-        default.  Single precision costs half and no digits: residuals are formed with `operator`.
+        What linear problems are solved with, in its precision; the operator itself by default.  Single precision
+        costs half and no digits: residuals are formed with `operator`.
     patience : int, optional
         Looks at the contact set without a smaller residual after which the solver gives up.
     tighten : {"without headway", "near the end"}
@@ -137,7 +142,9 @@ def solve_complementarity(
     """
     inner = operator if inner is None else inner
     start, inner_start = operator.products, inner.products
-    pressure = _loaded_to(np.maximum(guess, 0.0), load)
+    backend = operator.backend
+    xp, height = backend.xp, backend.asarray(height)
+    pressure = _loaded_to(xp, xp.clip(backend.asarray(guess), min=0.0), load)
     displacement = operator(pressure)
     best: ComplementaritySolution | None = None
     set_changes = linear_iterations = since_best = 0
@@ -147,9 +154,11 @@ def solve_complementarity(
     while True:
         set_changes += 1
         products = operator.products - start + (0 if inner is operator else inner.products - inner_start)
-        state, gap, overlapping = _look(pressure, displacement, height, load, indentation, depth)
+        state, gap, overlapping = _look(backend, pressure, displacement + height, load, indentation, depth)
         state_now = ComplementaritySolution(
             **state,
+            pressure=pressure,
+            displacement=displacement,
             converged=state["complementarity"] <= tolerance,
             set_changes=set_changes,
             linear_iterations=linear_iterations,
@@ -160,21 +169,20 @@ def solve_complementarity(
         if best is None or state_now.complementarity < best.complementarity:
             best, since_best = state_now, 0
         spent = products >= most_products or (patience is not None and since_best >= patience)
-        if state_now.converged or spent or not np.isfinite(state_now.complementarity):
+        if state_now.converged or spent or not math.isfinite(state_now.complementarity):
             return best
-        contact = np.flatnonzero((pressure > 0.0) | overlapping)
+        contact = backend.cells((pressure > 0.0) | overlapping)
         unit = abs(state_now.indentation) if depth is None else depth
         correction, steps, linear = _solve_on_contact(
             inner, gap, contact, reduction, 0.5 * tolerance * unit, directions, fixed_load=load is not None
         )
         linear_iterations += steps
-        pressure = pressure.copy()
-        pressure.flat[contact] += correction
+        pressure = pressure + contact.scattered(correction)
         negative = pressure < 0.0
         pressure[negative] = 0.0
-        pressure = _loaded_to(pressure, load)
+        wrong = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(negative))
+        pressure = _loaded_to(xp, pressure, load)
         displacement = operator(pressure)
-        wrong = int(np.count_nonzero(overlapping)) + int(np.count_nonzero(negative))
         if near_end:
             reduction = next(each for part, each in _REDUCTIONS if wrong > part * len(contact) or part == 0.0)
         elif wrong_before is not None and wrong > 0.5 * wrong_before:
@@ -182,90 +190,89 @@ def solve_complementarity(
         wrong_before = wrong
 
 
-def _loaded_to(pressure: Array, load: float | None) -> Array:
+def _loaded_to(xp: Any, pressure: AnyArray, load: float | None) -> AnyArray:
     if load is not None:
-        pressure *= load / pressure.sum()
+        pressure *= load / float(xp.sum(pressure))
     return pressure
 
 
 def _look(
-    pressure: Array,
-    displacement: Array,
-    height: Array,
+    backend: Backend,
+    pressure: AnyArray,
+    gap: AnyArray,
     load: float | None,
     indentation: float | None,
     depth: float | None,
-) -> tuple[dict[str, Any], Array, NDArray[np.bool_]]:
-    """Return what a pressure comes to, its gap, and the free cells that overlap."""
+) -> tuple[dict[str, float], AnyArray, AnyArray]:
+    """Return what a pressure comes to, its gap, and the free cells that overlap.
+
+    `gap` is counted from the indenter's lowest point at zero, and is overwritten.
+    """
+    xp = backend.xp
     loaded = pressure > 0.0
-    gap = displacement + height
+    under = gap[loaded]
     if indentation is None:
-        indentation = float(gap[loaded].mean())
+        indentation = float(xp.mean(under))
     gap -= indentation
     overlapping = ~loaded & (gap < 0.0)
-    worst = max(float(np.abs(gap[loaded]).max(initial=0.0)), -float(gap.min()))
+    least, total = backend.floats(xp.min(gap), xp.sum(pressure))
+    worst = -least
+    if under.shape[0]:
+        worst = max(worst, float(xp.max(xp.abs(under - indentation))))
     state = {
-        "pressure": pressure,
-        "displacement": displacement,
         "indentation": indentation,
         "complementarity": worst / (abs(indentation) if depth is None else depth),
-        "load": 0.0 if load is None else abs(float(pressure.sum()) / load - 1.0),
+        "load": 0.0 if load is None else abs(total / load - 1.0),
     }
     return state, gap, overlapping
 
 
 def _solve_on_contact(
     operator: ContactOperator,
-    gap: Array,
-    contact: Indices,
+    gap: AnyArray,
+    contact: Cells,
     reduction: float,
     floor: float,
     most: int,
     *,
     fixed_load: bool,
-) -> tuple[RealArray, int, float]:
+) -> tuple[AnyArray, int, float]:
     """Correct the pressures on a fixed contact set until its gap is closed, or level for a fixed load.
 
     Keeps `most` search directions.  Returns the corrections at the cells of the set, the number of steps and the
     relative residual.
     """
-    unit = float(np.abs(gap.ravel()[contact]).max())
-    if unit == 0.0:
-        return np.zeros(len(contact)), 0, 0.0
-    field: Any = None
+    backend, xp = operator.backend, operator.backend.xp
 
-    def scattered(values: RealArray) -> Any:
-        nonlocal field
-        if field is None:
-            field = np.zeros(gap.shape, values.dtype)
-        field.ravel()[contact] = values
-        return field
-
-    def gathered(values: RealArray) -> RealArray:
-        found = values.ravel()[contact]
+    def projected(field: AnyArray) -> AnyArray:
+        found = contact.gathered(field)
         if fixed_load:
-            found -= found.mean()
+            found -= xp.mean(found)
         return found
 
-    precision = getattr(operator, "precision", np.float64)
-    residual = gathered((gap / -unit).astype(precision, copy=False))
-    first = float(np.linalg.norm(residual))
+    residual = contact.gathered(gap)
+    unit = float(xp.max(xp.abs(residual)))
+    if unit == 0.0:
+        return residual, 0, 0.0
+    residual = xp.astype(residual / -unit, operator.dtype, copy=False)
+    if fixed_load:
+        residual -= xp.mean(residual)
+    first, largest = _sizes(backend, residual)
+    left = first
     target, floor = reduction * first, floor / unit
-    correction = np.zeros_like(residual)
+    correction = xp.zeros_like(residual)
     # Directions z and their images A z, orthonormal among themselves, in a ring that forgets the oldest.
-    directions: list[RealArray] = []
-    images: list[RealArray] = []
+    directions: list[AnyArray] = []
+    images: list[AnyArray] = []
     steps = 0
-    while steps == 0 or (
-        steps < _LINEAR_ITERATIONS and np.linalg.norm(residual) > target and np.abs(residual).max() > floor
-    ):
-        direction = gathered(operator.precondition(scattered(residual)))
-        image = gathered(operator(scattered(direction)))
+    while steps == 0 or (steps < _LINEAR_ITERATIONS and left > target and largest > floor):
+        direction = projected(operator.precondition(contact.scattered(residual)))
+        image = projected(operator(contact.scattered(direction)))
         overlaps = [other @ image for other in images]
         for overlap, other, its_direction in zip(overlaps, images, directions, strict=True):
             image -= overlap * other
             direction -= overlap * its_direction
-        length = np.linalg.norm(image)
+        length = math.sqrt(float(image @ image))
         if length == 0.0:
             break
         image /= length
@@ -273,10 +280,17 @@ def _solve_on_contact(
         step = image @ residual
         correction += step * direction
         residual -= step * image
+        left, largest = _sizes(backend, residual)
         if len(images) == most:
             images[steps % most], directions[steps % most] = image, direction
         else:
             images.append(image)
             directions.append(direction)
         steps += 1
-    return unit * correction, steps, float(np.linalg.norm(residual)) / first if first else 0.0
+    return unit * correction, steps, left / first if first else 0.0
+
+
+def _sizes(backend: Backend, values: AnyArray) -> tuple[float, float]:
+    """Euclidean norm and largest modulus, brought from the device at once."""
+    square, largest = backend.floats(values @ values, backend.xp.max(backend.xp.abs(values)))
+    return math.sqrt(square), largest

@@ -41,7 +41,8 @@ class GivenLoad:
     ) -> ComplementaritySolution:
         """Solve on one grid from a guess of the pressure."""
         load = self.load / operator.window.cell_area
-        return solve_complementarity(operator, height, load, guess, tolerance=tolerance)
+        found = solve_complementarity(operator, height, load, guess, tolerance=tolerance)
+        return found.on_numpy(operator.backend)
 
 
 @dataclass(frozen=True)
@@ -59,4 +60,5 @@ class GivenIndentation:
         self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float
     ) -> ComplementaritySolution:
         """Solve on one grid from a guess of the pressure."""
-        return solve_complementarity(operator, height, None, guess, indentation=self.indentation, tolerance=tolerance)
+        found = solve_complementarity(operator, height, None, guess, indentation=self.indentation, tolerance=tolerance)
+        return found.on_numpy(operator.backend)

@@ -139,7 +139,7 @@ def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
     def attempt(glassy: float, start: Array) -> Stage:
         material = replace(solid, glassy=glassy)
         shift = collocation_shift(material, window.spacing)
-        operator = geometry.operator(window, material, shift)
+        operator = geometry.operator(window, material, shift, problem.backend)
         x = window.x - shift * window.spacing
         height = problem.shape.height(x[:, None], window.y)
         below = np.where(np.isfinite(height), start, 0.0)  # no pressure beyond the indenter's walls

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import scipy.fft
 
+from viscofric.contact.backend import Backend
 from viscofric.contact.influence import cell_potential, cell_potential_xx, memory_influence
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from viscofric.contact.backend import AnyArray
     from viscofric.contact.grids import Grid
 
     Array: TypeAlias = NDArray[np.float64]
@@ -64,6 +66,8 @@ class ConvolutionOperator(ABC):
     material : SteadyMaterial
     shift : float, optional
         How far behind the cell centres the displacement is taken, in cells (0 to 0.5); see `collocation_shift`.
+    backend : Backend, optional
+        Where it is applied.
 
     Attributes
     ----------
@@ -74,10 +78,11 @@ class ConvolutionOperator(ABC):
     window: Grid
     material: SteadyMaterial
     shift: float = 0.0
+    backend: Backend = field(default_factory=Backend)
     products: int = field(default=0, init=False)
-    _transfer: ComplexArray = field(init=False, repr=False)
-    _dissipation: ComplexArray = field(init=False, repr=False)
-    _inverse_symbol: ComplexArray = field(init=False, repr=False)
+    _transfer: AnyArray = field(init=False, repr=False)
+    _dissipation: AnyArray = field(init=False, repr=False)
+    _inverse_symbol: AnyArray = field(init=False, repr=False)
     _padded: tuple[int, int] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -89,7 +94,7 @@ class ConvolutionOperator(ABC):
         displacement, dissipation = self._influence()
         self._transfer = self._spectrum(displacement)
         self._dissipation = self._spectrum(dissipation)
-        self._inverse_symbol = _optimal_circulant_inverse(displacement)
+        self._inverse_symbol = self.backend.asarray(_optimal_circulant_inverse(displacement))
 
     @abstractmethod
     def _influence(self) -> tuple[Array, Array]:
@@ -98,7 +103,12 @@ class ConvolutionOperator(ABC):
         Both (2 nx − 1, ny), at x = −(nx−1) … nx−1 and y = 0 … ny−1 cells from the loaded one, even in y.
         """
 
-    def _spectrum(self, influence: Array) -> ComplexArray:
+    @property
+    def dtype(self) -> Any:
+        """Of the arrays that it returns."""
+        return self.backend.xp.float64
+
+    def _spectrum(self, influence: Array) -> AnyArray:
         nx, ny = self.window.shape
         px, py = self._padded
         circulant = np.zeros(self._padded)
@@ -106,25 +116,23 @@ class ConvolutionOperator(ABC):
         circulant[rows, :ny] = influence
         if ny > 1:
             circulant[rows, py - ny + 1 :] = influence[:, :0:-1]
-        return np.asarray(scipy.fft.rfft2(circulant))
+        return self.backend.transforms.forward(self.backend.asarray(circulant))
 
-    def __call__(self, pressure: Array) -> Array:
+    def __call__(self, pressure: AnyArray) -> AnyArray:
         """Displacement (positive into the solid) at the cell centres under a pressure, both (nx, ny)."""
         self.products += 1
-        return self._convolve(self._transfer, pressure)
+        return self._convolve(self._transfer, self.backend.asarray(pressure))
 
-    def _convolve(self, spectrum: ComplexArray, values: Array) -> Array:
-        # One axis at a time: the padding's empty lines need not be transformed along y.
-        nx, ny = self.window.shape
-        px, py = self._padded
-        lines = scipy.fft.fft(scipy.fft.rfft(values, py, axis=1), px, axis=0, overwrite_x=True)
-        lines *= spectrum
-        lines = scipy.fft.ifft(lines, axis=0, overwrite_x=True)[:nx]
-        return np.asarray(scipy.fft.irfft(lines, py, axis=1)[:, :ny])
+    def _convolve(self, spectrum: AnyArray, values: AnyArray) -> AnyArray:
+        waves = self.backend.transforms.forward_padded(values, self._padded)
+        waves *= spectrum
+        return self.backend.transforms.inverse_cropped(waves, self._padded, self.window.shape)
 
-    def precondition(self, residual: Array) -> Array:
+    def precondition(self, residual: AnyArray) -> AnyArray:
         """Pressure that would cause a displacement, nearly: the inverse of the nearest periodic operator."""
-        return np.asarray(scipy.fft.irfft2(self._inverse_symbol * scipy.fft.rfft2(residual), residual.shape))
+        waves = self.backend.transforms.forward(residual)
+        waves *= self._inverse_symbol
+        return self.backend.transforms.inverse(waves, self.window.shape)
 
     def dissipated_force(self, pressure: Array) -> float:
         """Friction force from the energy that the material dissipates, per unit of distance slid.
@@ -132,7 +140,7 @@ class ConvolutionOperator(ABC):
         F_t = −∫ p ∂u/∂x dA, in which only the memory does work; in Fourier space the integral over q of
         2 q_x |p̂|² (−Im S)/|q| (see the theory page).
         """
-        slope = self._convolve(self._dissipation, pressure)
+        slope = self.backend.to_numpy(self._convolve(self._dissipation, self.backend.asarray(pressure)))
         return -self.window.cell_area * float(np.vdot(pressure, slope))
 
 

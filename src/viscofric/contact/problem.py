@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
+from viscofric.contact.backend import Backend
 from viscofric.contact.control import GivenLoad
 from viscofric.contact.footprint import Footprint
 
@@ -51,6 +52,8 @@ class Problem:
         Given load or given indentation.
     tolerance : float
         How exactly the contact conditions hold.
+    backend : Backend
+        Where it is solved.
     """
 
     geometry: Geometry
@@ -58,6 +61,7 @@ class Problem:
     shape: Shape
     control: Control
     tolerance: float
+    backend: Backend = field(default_factory=Backend)
 
     @property
     def first_size(self) -> float:
@@ -128,7 +132,7 @@ class Stage:
     @property
     def displacement(self) -> Array:
         """Displacement at the cell centres, wherever the gap was looked at, from the level."""
-        displacement = self.result.displacement
+        displacement: Array = self.result.displacement
         if self.operator.shift > 0.0:
             centred = self.problem.geometry.operator(self.window, self.operator.material)
             displacement = centred(self.result.pressure)

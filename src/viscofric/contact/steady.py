@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.contact.assembly import assemble
+from viscofric.contact.backend import Backend
 from viscofric.contact.control import GivenIndentation, GivenLoad
 from viscofric.contact.estimates import FEWEST_GRIDS
 from viscofric.contact.indenters import SMALL_STRAIN, Indenter
@@ -51,6 +52,7 @@ def solve_steady(
     finest: int | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
+    backend: Backend | str = "scipy",
 ) -> ContactSolution:
     """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space.
 
@@ -81,6 +83,8 @@ def solve_steady(
         Young's modulus of an elastic indenter, Pa; rigid without it.
     indenter_poisson_ratio : float
         Of an elastic indenter.
+    backend : Backend or str
+        Arrays and FFTs to solve with, such as "ducc0" or "torch:cuda"; see `Backend`.
 
     Returns
     -------
@@ -124,7 +128,7 @@ def solve_steady(
         spectrum, abs(velocity) / scale.length, plane_strain / compliance, counterface / compliance
     )
     shape = ScaledIndenter(indenter, scale, math.copysign(1.0, velocity))
-    problem = Problem(geometry, solid, shape, control, tolerance)
+    problem = Problem(geometry, solid, shape, control, tolerance, Backend.of(backend))
     first = find_window(problem, problem.first_size)
     indenter.check(scale.extent(first.extent), held)
     stages = refine(first, accuracy, finest)

@@ -6,6 +6,7 @@ Everything here is dimensionless: depths in rms heights of the surface, complian
 from __future__ import annotations
 
 import logging
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import NDArray
+
+    from viscofric.contact.backend import AnyArray, Backend
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -94,6 +97,7 @@ def solve_on_levels(
     offset: float | None,
     tolerance: float,
     most_products: int,
+    backend: Backend,
 ) -> tuple[ComplementaritySolution, Work]:
     """Solve the contact on each grid in turn, coarsest first.
 
@@ -107,6 +111,8 @@ def solve_on_levels(
         Of the complementarity on the finest grid, relative to the rms height.
     most_products : int
         On each grid.
+    backend : Backend
+        Where it is solved; what goes in and comes out is NumPy's.
 
     Raises
     ------
@@ -119,10 +125,11 @@ def solve_on_levels(
     while True:
         stage = queue.pop(0)
         if queue:
-            level = _Level(stage, mean_pressure, offset, COARSE_TOLERANCE, min(most_products, _MOST_COARSE_PRODUCTS))
+            wanted, most = COARSE_TOLERANCE, min(most_products, _MOST_COARSE_PRODUCTS)
         else:
-            level = _Level(stage, mean_pressure, offset, tolerance, most_products)
-        result = level.solve(pressure)
+            wanted, most = tolerance, most_products
+        level = _Level(stage, mean_pressure, offset, wanted, most, backend)
+        result = level.solve(None if pressure is None else backend.asarray(pressure)).on_numpy(backend)
         ffts = level.exact.ffts + level.single.ffts
         grids.append((*level.shape, ffts))
         logger.debug("%s points: %s FFTs, residual %.1e", level.shape, ffts, result.complementarity)
@@ -138,7 +145,7 @@ def solve_on_levels(
         return result, Work(
             products=level.products,
             ffts=ffts,
-            single_ffts=level.single.ffts,
+            single_ffts=level.single.ffts if level.single.precision is np.float32 else 0,
             splitting_steps=level.splitting_steps,
             set_changes=level.set_changes,
             linear_iterations=level.linear_iterations,
@@ -150,25 +157,34 @@ class _Level:
     """One grid: its operators, and the work that they have done."""
 
     def __init__(
-        self, stage: Stage, mean_pressure: float | None, gap: float | None, tolerance: float, most_products: int
+        self,
+        stage: Stage,
+        mean_pressure: float | None,
+        gap: float | None,
+        tolerance: float,
+        most_products: int,
+        backend: Backend,
     ) -> None:
-        self.height = stage.height
+        self.backend = backend
+        self.height = backend.asarray(stage.height)
+        self.mean_height = float(stage.height.mean())
         self.shape: tuple[int, int] = stage.height.shape
-        self.exact = PeriodicOperator(stage.transfer, self.shape)
-        self.single = self.exact.in_precision(np.float32)
+        self.cells = math.prod(self.shape)
+        self.exact = PeriodicOperator(stage.transfer, self.shape, backend=backend)
+        self.single = self.exact.for_corrections()
         self.elastic = not np.iscomplexobj(stage.transfer)
-        self.load = None if mean_pressure is None else mean_pressure * stage.height.size
-        self.indentation = None if gap is None else float(stage.height.mean()) - gap
+        self.load = None if mean_pressure is None else mean_pressure * self.cells
+        self.indentation = None if gap is None else self.mean_height - gap
         self.tolerance = tolerance
         self.most_products = most_products
         self.splitting_steps = self.set_changes = self.linear_iterations = 0
 
-    def solve(self, pressure: Array | None) -> ComplementaritySolution:
+    def solve(self, pressure: AnyArray | None) -> ComplementaritySolution:
         """Solve from the coarser grid's pressure, or from nothing."""
         full = self._full_contact() if pressure is None or self._nearly_full(pressure) else None
         if full is not None:
             return full
-        if pressure is None or not np.any(pressure > 0.0):
+        if pressure is None or not self._loaded(pressure):
             pressure = self._first_guess()
         if not self.elastic:
             pressure = self._split(self.single, pressure, _FIRST_STEPS, _STIFFNESSES[0])
@@ -193,7 +209,7 @@ class _Level:
         """Products with the transfer function so far."""
         return self.exact.products + self.single.products
 
-    def _active_set(self, pressure: Array, patience: int, directions: int, most: int) -> ComplementaritySolution:
+    def _active_set(self, pressure: AnyArray, patience: int, directions: int, most: int) -> ComplementaritySolution:
         result = solve_complementarity(
             self.exact,
             self.height,
@@ -213,50 +229,55 @@ class _Level:
         return result
 
     def _split(
-        self, operator: PeriodicOperator, pressure: Array, steps: int, stiffness: float, accelerated: bool = False
-    ) -> Array:
+        self, operator: PeriodicOperator, pressure: AnyArray, steps: int, stiffness: float, accelerated: bool = False
+    ) -> AnyArray:
         self.splitting_steps += steps
         found = split_steps(
             operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
             stiffness=stiffness, accelerated=accelerated,
         )  # fmt: skip
-        return found if np.any(found > 0.0) else pressure
+        return found if self._loaded(found) else pressure
 
-    def _nearly_full(self, pressure: Array) -> bool:
-        return bool(np.count_nonzero(pressure > 0.0) > 0.9 * pressure.size)
+    def _nearly_full(self, pressure: AnyArray) -> bool:
+        return self._loaded(pressure) > 0.9 * self.cells
+
+    def _loaded(self, pressure: AnyArray) -> int:
+        return int(self.backend.xp.count_nonzero(pressure > 0.0))
 
     def _full_contact(self) -> ComplementaritySolution | None:
         """Return the linear solution if it needs no tension anywhere."""
         if self.load is None:
             return None  # a given mean gap above zero
-        mean = self.load / self.height.size
-        level = float(self.height.mean()) - self.height
+        xp, mean = self.backend.xp, self.load / self.cells
+        level = self.mean_height - self.height
         pressure = self.exact.precondition(level)
-        pressure += mean - pressure.mean()
-        if pressure.min() < 0.0:
+        pressure += mean - xp.mean(pressure)
+        if float(xp.min(pressure)) < 0.0:
             return None
         displacement = self.exact(pressure)
-        error = float(np.abs(displacement - level).max())
+        error = float(xp.max(xp.abs(displacement - level)))
         return ComplementaritySolution(
             pressure=pressure,
             displacement=displacement,
-            indentation=float(self.height.mean()),
+            indentation=self.mean_height,
             converged=error <= self.tolerance,
             complementarity=error,
-            load=abs(float(pressure.mean()) / mean - 1.0),
+            load=abs(float(xp.mean(pressure)) / mean - 1.0),
             set_changes=1,
             linear_iterations=0,
             products=1,
         )
 
-    def _first_guess(self) -> Array:
+    def _first_guess(self) -> AnyArray:
         """Return the pressure of full contact less what makes it meet the load (or less its mean, for a given gap)."""
-        pressure: Array = self.exact.precondition(float(self.height.mean()) - self.height)
+        xp = self.backend.xp
+        pressure = self.exact.precondition(self.mean_height - self.height)
         if self.load is None:
-            return np.maximum(pressure, 0.0)
-        mean = self.load / self.height.size
-        low, high = float(pressure.min()) - mean, float(pressure.max())
+            return self.backend.positive_part(pressure)
+        mean = self.load / self.cells
+        low, high = float(xp.min(pressure)) - mean, float(xp.max(pressure))
         for _ in range(60):
             middle = 0.5 * (low + high)
-            low, high = (middle, high) if np.maximum(pressure - middle, 0.0).mean() > mean else (low, middle)
-        return np.maximum(pressure - low, 0.0)
+            enough = float(xp.mean(self.backend.positive_part(pressure - middle))) <= mean
+            low, high = (low, middle) if enough else (middle, high)
+        return self.backend.positive_part(pressure - low)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.fft
+
+from viscofric.contact.backend import Backend
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
-    AnyArray: TypeAlias = NDArray[Any]
+    from viscofric.contact.backend import AnyArray
 
 
 @dataclass
@@ -29,7 +27,9 @@ class PeriodicOperator:
     shape : (int, int)
         Points along x and y.
     precision : type
-        `numpy.float64`, or `numpy.float32` for corrections.
+        `numpy.float64`, or `numpy.float32` for corrections, where the backend has them.
+    backend : Backend, optional
+        Where it is applied.
 
     Attributes
     ----------
@@ -40,32 +40,40 @@ class PeriodicOperator:
     transfer: AnyArray
     shape: tuple[int, int]
     precision: Any = np.float64
+    backend: Backend = field(default_factory=Backend)
     products: int = field(default=0, init=False)
     ffts: int = field(default=0, init=False)
 
     def __post_init__(self) -> None:
-        kind = np.result_type(self.precision, np.complex64) if np.iscomplexobj(self.transfer) else self.precision
-        self.transfer = self.transfer.astype(kind, copy=False)
+        if isinstance(self.transfer, np.ndarray):
+            kind = np.result_type(self.precision, np.complex64) if np.iscomplexobj(self.transfer) else self.precision
+            self.transfer = self.backend.asarray(self.transfer.astype(kind, copy=False))
 
-    def in_precision(self, precision: Any) -> PeriodicOperator:
-        """Return the same operator in another precision."""
-        return PeriodicOperator(self.transfer, self.shape, precision)
+    @property
+    def dtype(self) -> Any:
+        """Of the arrays that it returns."""
+        return getattr(self.backend.xp, np.dtype(self.precision).name)
 
-    def __call__(self, pressure: AnyArray) -> Any:
+    def for_corrections(self) -> PeriodicOperator:
+        """Return the same operator in the precision that is enough for corrections."""
+        precision = np.float32 if self.backend.is_numpy else np.float64
+        return PeriodicOperator(self.transfer, self.shape, precision, self.backend)
+
+    def __call__(self, pressure: AnyArray) -> AnyArray:
         """Displacement under a pressure."""
         self.products += 1
-        return self.filtered(self.transfer, pressure)
+        return self.filtered(self.transfer, self.backend.asarray(pressure))
 
-    def precondition(self, residual: AnyArray) -> Any:
+    def precondition(self, residual: AnyArray) -> AnyArray:
         """Pressure that causes a displacement: the exact inverse where everything is in contact."""
         return self.filtered(self.inverse, residual)
 
-    def filtered(self, factor: AnyArray, values: AnyArray) -> Any:
+    def filtered(self, factor: AnyArray, values: AnyArray) -> AnyArray:
         """Multiply each wave of a field by its factor."""
         self.ffts += 2
-        waves = scipy.fft.rfft2(values)
+        waves = self.backend.transforms.forward(values)
         waves *= factor
-        return scipy.fft.irfft2(waves, self.shape, overwrite_x=True)
+        return self.backend.transforms.inverse(waves, self.shape)
 
     @cached_property
     def inverse(self) -> AnyArray:
@@ -74,13 +82,15 @@ class PeriodicOperator:
         A uniform pressure, which moves nothing, is answered like the most compliant wave: where the load is given that
         makes no difference, where the indentation is, it must not be zero.
         """
-        found = self.transfer.copy()
-        found[0, 0] = np.abs(found).max()
-        np.divide(1.0, found, out=found)
-        return found
+        xp = self.backend.xp
+        found = xp.asarray(self.transfer, copy=True)
+        found[0, 0] = xp.max(xp.abs(found))
+        return self.backend.reciprocal(found)
 
     @cached_property
     def compliance_range(self) -> tuple[float, float]:
         """Smallest and largest modulus of the transfer function, the mean left out."""
-        magnitude = np.abs(self.transfer).ravel()[1:]
-        return float(magnitude.min()), float(magnitude.max())
+        xp = self.backend.xp
+        magnitude = xp.reshape(xp.abs(self.transfer), (-1,))[1:]
+        least, largest = self.backend.floats(xp.min(magnitude), xp.max(magnitude))
+        return least, largest

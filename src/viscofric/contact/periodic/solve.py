@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.contact.backend import Backend
 from viscofric.contact.periodic.layers import Layer
 from viscofric.contact.periodic.levels import Stage, coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
@@ -48,6 +49,7 @@ def solve_periodic(
     indenter_poisson_ratio: float = 0.3,
     tolerance: float = 1e-8,
     most_products: int = 10_000,
+    backend: Backend | str = "scipy",
 ) -> PeriodicSolution:
     """Solve the steady contact of a rough surface that slides over a viscoelastic half-space or layer.
 
@@ -77,6 +79,8 @@ def solve_periodic(
         Of the complementarity: largest gap under pressure or overlap without it over the rms height of the surface.
     most_products : int
         Products with the transfer function on the finest grid after which the solver gives up.
+    backend : Backend or str
+        Arrays and FFTs to solve with, such as "ducc0" or "torch:cuda"; see `Backend`.
 
     Returns
     -------
@@ -111,6 +115,7 @@ def solve_periodic(
         raise InputError(f"tolerance = {tolerance!r}: must lie between {TIGHTEST:g} and {LOOSEST:g}.")
     if not (layer is None or isinstance(layer, Layer)):
         raise InputError(f"layer must be a Layer(thickness=…), not {type(layer).__name__}.")
+    where = Backend.of(backend)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
     solid = SlidingSolid(
         material.at(kelvin),
@@ -133,6 +138,7 @@ def solve_periodic(
         offset=None if given.gap is None else given.gap / depth,
         tolerance=tolerance,
         most_products=most_products,
+        backend=where,
     )
     return _assemble(surface, solid, result, work, given, _Units(depth, unit), (velocity, toward, kelvin), finest)
 

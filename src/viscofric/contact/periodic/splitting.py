@@ -18,17 +18,13 @@ largest |K̂| makes bearable.  The active set is much faster once its set is nea
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy.fft
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.contact.backend import AnyArray, Backend
     from viscofric.contact.periodic.operator import PeriodicOperator
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 _MEMORY = 8  # earlier steps that the acceleration looks back on
@@ -37,16 +33,16 @@ _GROWTH = 2.0  # of the best residual, at which the acceleration goes back to it
 
 def split_steps(
     operator: PeriodicOperator,
-    height: Array,
-    guess: Array,
+    height: AnyArray,
+    guess: AnyArray,
     *,
     load: float | None,
     indentation: float | None,
     steps: int,
     stiffness: float,
     accelerated: bool = False,
-) -> Array:
-    """Take some steps of the splitting from a guess, and return pressures that are not negative.
+) -> AnyArray:
+    """Take some steps of the splitting from a guess, and return pressures that are not negative, in double precision.
 
     Parameters
     ----------
@@ -64,28 +60,28 @@ def split_steps(
     accelerated : bool
         Whether to extrapolate from earlier steps (Anderson), which pays where many are needed.
     """
-    rho = operator.precision(stiffness * math.sqrt(math.prod(operator.compliance_range)))
-    resolvent = operator.transfer + rho
-    np.divide(1.0, resolvent, out=resolvent)
-    pressure = guess.astype(operator.precision)
-    offset = float(height.mean()) if indentation is None else indentation
-    surface = (height - offset).astype(operator.precision)
+    backend, xp = operator.backend, operator.backend.xp
+    height = backend.asarray(height)
+    rho = stiffness * math.sqrt(math.prod(operator.compliance_range))
+    resolvent = backend.reciprocal(operator.transfer + rho)
+    pressure = xp.astype(backend.asarray(guess), operator.dtype)
+    offset = float(xp.mean(height)) if indentation is None else indentation
+    surface = xp.astype(height - offset, operator.dtype, copy=False)
     gap = operator(pressure) + surface
-    loaded = pressure > 0.0
     if indentation is None:
-        gap -= gap[loaded].mean()
-    state = pressure + np.maximum(gap, 0.0) / rho
-    acceleration = Acceleration() if accelerated else None
+        gap -= xp.mean(gap[pressure > 0.0])
+    state = pressure + backend.positive_part(gap) / rho
+    acceleration = Acceleration(backend) if accelerated else None
     result = pressure
     for _ in range(steps):
-        waves = scipy.fft.rfft2(rho * state - surface)
+        waves = backend.transforms.forward(rho * state - surface)
         waves *= resolvent
         if load is not None:
             waves[0, 0] = load
-        flat = scipy.fft.irfft2(waves, operator.shape, overwrite_x=True)
+        flat = backend.transforms.inverse(waves, operator.shape)
         result = 2.0 * flat
         result -= state
-        np.maximum(result, 0.0, out=result)
+        result = backend.positive_part(result)
         if acceleration is None:
             state += result
             state -= flat
@@ -93,8 +89,7 @@ def split_steps(
             state = acceleration.next(state, result - flat)
     operator.ffts += 2 * steps
     operator.products += steps
-    found: Array = result.astype(np.float64)
-    return found
+    return xp.astype(result, xp.float64, copy=False)
 
 
 class Acceleration:
@@ -102,17 +97,24 @@ class Acceleration:
 
     D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305: the next point is the combination of the latest
     ones whose residuals f cancel best.
+
+    Parameters
+    ----------
+    backend : Backend
     """
 
-    def __init__(self) -> None:
-        self.states: list[Array] = []
-        self.residuals: list[Array] = []
+    def __init__(self, backend: Backend) -> None:
+        self.backend = backend
+        self.states: list[AnyArray] = []
+        self.residuals: list[AnyArray] = []
         self.best = math.inf
-        self.best_next: Array | None = None
+        self.best_next: AnyArray | None = None
 
-    def next(self, state: Array, residual: Array) -> Array:
+    def next(self, state: AnyArray, residual: AnyArray) -> AnyArray:
         """Return the point after `state`, given its residual."""
-        size = float(np.linalg.norm(residual))
+        xp = self.backend.xp
+        flat = xp.reshape(residual, (-1,))
+        size = math.sqrt(float(flat @ flat))
         if size > _GROWTH * self.best and self.best_next is not None:
             self.states, self.residuals = [], []
             found, self.best_next, self.best = self.best_next, None, math.inf
@@ -123,13 +125,15 @@ class Acceleration:
         self.states = [*self.states[-_MEMORY:], plain]
         self.residuals = [*self.residuals[-_MEMORY:], residual]
         if len(self.residuals) == 1:
-            return plain.copy()
-        changes = [(later - residual).ravel() for later in self.residuals[:-1]]
-        gram = np.array([[one @ other for other in changes] for one in changes])
+            return xp.asarray(plain, copy=True)
+        changes = [xp.reshape(later - residual, (-1,)) for later in self.residuals[:-1]]
+        products = self.backend.floats(*(one @ other for one in changes for other in [*changes, flat]))
+        table = np.array(products).reshape(len(changes), -1)
+        gram = table[:, :-1].copy()
         gram.flat[:: len(gram) + 1] *= 1.0 + 1e-10
         gram.flat[:: len(gram) + 1] += np.finfo(float).tiny
-        weights = np.linalg.solve(gram, np.array([-(one @ residual.ravel()) for one in changes]))
-        found = plain.copy()
-        for weight, earlier in zip(weights, self.states[:-1], strict=True):
+        weights = np.linalg.solve(gram, -table[:, -1])
+        found = xp.asarray(plain, copy=True)
+        for weight, earlier in zip(weights.tolist(), self.states[:-1], strict=True):
             found += weight * (earlier - plain)
         return found

@@ -1,0 +1,264 @@
+"""Where a contact is solved: arrays of NumPy, PyTorch or CuPy through the array standard, and their FFTs.
+
+The solvers are written once, against the array standard [1]_.  What it leaves out stands here: FFTs that pad and
+overwrite, and gathering and scattering on the cells in contact.  All that comes from and goes to the user is NumPy's.
+
+.. [1] Python array API standard, https://data-apis.org/array-api/.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.transforms import DuccTransforms, ScipyTransforms, StandardTransforms
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    #: An array of whichever library the backend has.
+    AnyArray: TypeAlias = Any
+
+#: Environment variable with the number of threads of FFTs on NumPy arrays.
+THREADS_VARIABLE = "VISCOFRIC_FFT_THREADS"
+
+_ON_NUMPY = ("scipy", "ducc0", "pyfftw")
+_OTHERS = ("torch", "cupy", "array_api_strict")
+_HOW_TO_INSTALL = {
+    "ducc0": "python -m pip install ducc0",
+    "pyfftw": "python -m pip install pyfftw",
+    "torch": "PyTorch as https://pytorch.org/get-started tells for your machine",
+    "cupy": "CuPy as https://docs.cupy.dev/en/stable/install.html tells for your CUDA",
+    "array_api_strict": "python -m pip install array-api-strict",
+}
+_KNOWN = "'scipy', 'ducc0', 'pyfftw', 'cupy', or 'torch', which may name a device, as in 'torch:cuda'"
+
+
+@dataclass(frozen=True)
+class Backend:
+    """Arrays and FFTs with which contacts are solved.
+
+    Parameters
+    ----------
+    name : str
+        On NumPy arrays, with the FFTs of that library: "scipy", "ducc0" or "pyfftw".  On arrays of the library, and of
+        its FFTs: "cupy", or "torch", if need be with a device, as in "torch:cuda"; all in double precision.
+        "array_api_strict" shows that the array standard is kept to, slowly.
+    threads : int, optional
+        Of the FFTs on NumPy arrays; that of the environment variable VISCOFRIC_FFT_THREADS if not given, otherwise one.
+
+    Raises
+    ------
+    InputError
+        If there is no such library or device, or the number of threads cannot be used.
+
+    Notes
+    -----
+    The CPU threads of PyTorch are PyTorch's to set (``torch.set_num_threads``).
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> vf.Backend("scipy", threads=2)
+    Backend(name='scipy', threads=2)
+    """
+
+    name: str = "scipy"
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        if self._library not in (*_ON_NUMPY, *_OTHERS):
+            raise InputError(f"backend = {self.name!r}: not known; right would be {_KNOWN}.")
+        if ":" in self.name and self._library != "torch":
+            raise InputError(f"backend = {self.name!r}: {self._library} takes no device; give {self._library!r}.")
+        if self.threads is not None and self._library not in _ON_NUMPY:
+            raise InputError(f"threads = {self.threads!r}: is for FFTs on NumPy arrays, not for {self._library}.")
+        if self._library in _ON_NUMPY:
+            object.__setattr__(self, "threads", _threads(self.threads))
+        _ = self.xp, self.transforms, self.device  # now rather than in the middle of a solve
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Backend, (self.name, self.threads)
+
+    @classmethod
+    def of(cls, backend: Backend | str) -> Backend:
+        """Return the backend of a name, or the backend itself."""
+        return backend if isinstance(backend, Backend) else cls(backend)
+
+    @property
+    def _library(self) -> str:
+        return str(self.name).partition(":")[0]
+
+    @property
+    def _is_strict(self) -> bool:
+        return self._library == "array_api_strict"
+
+    @property
+    def _device_name(self) -> str:
+        return self.name.partition(":")[2]
+
+    @cached_property
+    def xp(self) -> Any:
+        """Namespace of the array standard."""
+        if self._library in _ON_NUMPY:
+            return importlib.import_module("array_api_compat.numpy")
+        module = self._imported(self._library)
+        return (
+            module
+            if self._library == "array_api_strict"
+            else importlib.import_module(f"array_api_compat.{self._library}")
+        )
+
+    @cached_property
+    def transforms(self) -> Any:
+        """FFTs of these arrays."""
+        if self._library == "scipy":
+            return ScipyTransforms(self._imported("scipy.fft"), self.threads or 1)
+        if self._library == "ducc0":
+            return DuccTransforms(self._imported("ducc0.fft"), self.threads or 1)
+        if self._library == "pyfftw":
+            # Measured plans are remembered by the library (its wisdom): only the first FFT of a size takes long.
+            fft = self._imported("pyfftw.interfaces.scipy_fft")
+            return ScipyTransforms(fft, self.threads or 1, planner_effort="FFTW_MEASURE")
+        return StandardTransforms(self.xp.fft)
+
+    @cached_property
+    def device(self) -> Any:
+        """Device of the arrays, as their library names it; None on NumPy."""
+        return _torch_device(self._imported("torch"), self._device_name) if self._library == "torch" else None
+
+    def _imported(self, module: str) -> Any:
+        try:
+            return importlib.import_module(module)
+        except ImportError as error:
+            raise InputError(
+                f"backend = {self.name!r}: {self._library} cannot be imported; install it: "
+                f"{_HOW_TO_INSTALL[self._library]}."
+            ) from error
+
+    @property
+    def is_numpy(self) -> bool:
+        """Whether arrays are NumPy's; corrections are in single precision then."""
+        return self._library in _ON_NUMPY
+
+    def asarray(self, values: Any) -> AnyArray:
+        """Move an array here, if it is not here yet; of NumPy's it may be a view."""
+        if not isinstance(values, np.ndarray):
+            return values
+        values = np.ascontiguousarray(values)
+        if self.is_numpy:
+            return values
+        if not values.flags.writeable:
+            values = values.copy()
+        return self.xp.asarray(values, device=self.device)
+
+    def to_numpy(self, values: AnyArray) -> NDArray[Any]:
+        """Move an array back to NumPy."""
+        if isinstance(values, np.ndarray):
+            return values
+        if self._library == "torch":
+            return values.cpu().numpy()  # type: ignore[no-any-return]
+        if self._library == "cupy":
+            return values.get()  # type: ignore[no-any-return]
+        return np.from_dlpack(values)
+
+    def floats(self, *values: Any) -> list[float]:
+        """Numbers on the device as Python's, all in one transfer."""
+        if self.is_numpy or self._is_strict:
+            return [float(value) for value in values]
+        return self.xp.stack(values).tolist()  # type: ignore[no-any-return]
+
+    def positive_part(self, values: AnyArray) -> AnyArray:
+        """max(x, 0) in place where the library can."""
+        if self.is_numpy:
+            return np.maximum(values, 0.0, out=values)
+        return self.xp.clip(values, min=0.0)
+
+    def reciprocal(self, values: AnyArray) -> AnyArray:
+        """1/x in place where the library can."""
+        return np.divide(1.0, values, out=values) if self.is_numpy else 1.0 / values
+
+    def cells(self, chosen: AnyArray) -> Cells:
+        """Cells at which an array of truth values is true."""
+        (indices,) = self.xp.nonzero(self.xp.reshape(chosen, (-1,)))
+        return (
+            Cells(self, chosen, indices) if self._library != "array_api_strict" else MaskedCells(self, chosen, indices)
+        )
+
+
+class Cells:
+    """Some of the cells of a grid: values on them are gathered from fields, and scattered into fields.
+
+    Parameters
+    ----------
+    backend : Backend
+    chosen : (nx, ny) array of bool
+    indices : (n,) array of int
+        Of the chosen cells among all.
+    """
+
+    def __init__(self, backend: Backend, chosen: AnyArray, indices: AnyArray) -> None:
+        self.backend, self.chosen, self.indices = backend, chosen, indices
+        self._field: AnyArray = None
+
+    def __len__(self) -> int:
+        return int(self.indices.shape[0])
+
+    def gathered(self, field: AnyArray) -> AnyArray:
+        """Values (n,) of a field at the cells."""
+        return self.backend.xp.reshape(field, (-1,))[self.indices]
+
+    def scattered(self, values: AnyArray) -> AnyArray:
+        """Field of the values at the cells and of zeros elsewhere; the next call overwrites it."""
+        xp = self.backend.xp
+        if self._field is None or self._field.dtype != values.dtype:
+            self._field = xp.zeros(self.chosen.shape, dtype=values.dtype, device=self.backend.device)
+        xp.reshape(self._field, (-1,))[self.indices] = values
+        return self._field
+
+
+class MaskedCells(Cells):
+    """The same where arrays take no arrays of indices, which the standard does not ask for."""
+
+    def gathered(self, field: AnyArray) -> AnyArray:
+        """Values (n,) of a field at the cells."""
+        xp = self.backend.xp
+        return xp.take(xp.reshape(field, (-1,)), self.indices)
+
+    def scattered(self, values: AnyArray) -> AnyArray:
+        """Field of the values at the cells and of zeros elsewhere."""
+        xp = self.backend.xp
+        # Where each cell stands among the chosen ones; the others take any value.
+        order = xp.cumulative_sum(xp.astype(xp.reshape(self.chosen, (-1,)), xp.int64)) - 1
+        field = xp.reshape(xp.take(values, xp.clip(order, min=0)), self.chosen.shape)
+        return xp.where(self.chosen, field, xp.zeros_like(field))
+
+
+def _threads(given: int | None) -> int:
+    field, threads = "threads", given
+    if threads is None:
+        field, text = THREADS_VARIABLE, os.environ.get(THREADS_VARIABLE, "1")
+        threads = int(text) if re.fullmatch(r"\d{1,6}", text.strip()) else 0
+        given = text  # type: ignore[assignment]
+    if type(threads) is not int or threads < 1:
+        raise InputError(f"{field} = {given!r}: must be a whole number from 1, such as 2.")
+    return threads
+
+
+def _torch_device(torch: Any, name: str) -> Any:
+    try:
+        # Without a name, the one that PyTorch takes by itself.
+        return torch.zeros(1, dtype=torch.float64, device=name or None).device
+    except (RuntimeError, TypeError, AssertionError) as error:
+        # A device that is not there, and one (such as mps) without double precision.
+        raise InputError(
+            f"backend = 'torch:{name}': PyTorch computes in double precision on no such device here; choose another, "
+            "such as 'torch:cpu', or install PyTorch for it (https://pytorch.org/get-started)."
+        ) from error

@@ -1,0 +1,120 @@
+"""Real two-dimensional FFTs of several libraries behind one face, zero-padded ones without their empty lines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    AnyArray: TypeAlias = NDArray[Any]
+
+Shape: TypeAlias = tuple[int, int]
+
+
+class StandardTransforms:
+    """FFTs of the array standard's ``fft`` namespace: PyTorch, CuPy and whatever else has one.
+
+    Spectra are (nx, ny//2 + 1).  What is transformed back may be overwritten.
+
+    Parameters
+    ----------
+    fft : namespace
+    """
+
+    def __init__(self, fft: Any) -> None:
+        self._fft = fft
+
+    def forward(self, values: Any) -> Any:
+        """Spectrum of real values."""
+        return self._fft.rfftn(values, axes=(0, 1))
+
+    def inverse(self, spectrum: Any, shape: Shape) -> Any:
+        """Real values of the given shape."""
+        return self._fft.irfftn(spectrum, s=shape, axes=(0, 1))
+
+    def forward_padded(self, values: Any, padded: Shape) -> Any:
+        """Spectrum of real values with zeros behind them up to a shape; zeros are not transformed along y."""
+        return self._fft.fft(self._fft.rfft(values, n=padded[1], axis=1), n=padded[0], axis=0)
+
+    def inverse_cropped(self, spectrum: Any, padded: Shape, shape: Shape) -> Any:
+        """First `shape` of the real values whose spectrum, of the padded shape, is given."""
+        lines = self._fft.ifft(spectrum, axis=0)[: shape[0], :]
+        return self._fft.irfft(lines, n=padded[1], axis=1)[:, : shape[1]]
+
+
+class ScipyTransforms:
+    """SciPy's FFTs, or of a library that offers the same functions.
+
+    Parameters
+    ----------
+    fft : module
+    threads : int
+    settings : dict
+        Further keywords of every call.
+    """
+
+    def __init__(self, fft: Any, threads: int, **settings: Any) -> None:
+        self._fft = fft
+        self._settings = {"workers": threads, **settings}
+
+    def forward(self, values: AnyArray) -> AnyArray:
+        """Spectrum of real values."""
+        return self._fft.rfft2(values, **self._settings)  # type: ignore[no-any-return]
+
+    def inverse(self, spectrum: AnyArray, shape: Shape) -> AnyArray:
+        """Real values of the given shape."""
+        return self._fft.irfft2(spectrum, shape, overwrite_x=True, **self._settings)  # type: ignore[no-any-return]
+
+    def forward_padded(self, values: AnyArray, padded: Shape) -> AnyArray:
+        """Spectrum of real values with zeros behind them up to a shape."""
+        lines = self._fft.rfft(values, padded[1], axis=1, **self._settings)
+        return self._fft.fft(lines, padded[0], axis=0, overwrite_x=True, **self._settings)  # type: ignore[no-any-return]
+
+    def inverse_cropped(self, spectrum: AnyArray, padded: Shape, shape: Shape) -> AnyArray:
+        """First `shape` of the real values whose spectrum, of the padded shape, is given."""
+        lines = self._fft.ifft(spectrum, axis=0, overwrite_x=True, **self._settings)[: shape[0]]
+        return self._fft.irfft(lines, padded[1], axis=1, **self._settings)[:, : shape[1]]  # type: ignore[no-any-return]
+
+
+class DuccTransforms:
+    """FFTs of ducc0, which pad nothing by themselves but write wherever they are told to.
+
+    Parameters
+    ----------
+    fft : module
+    threads : int
+    """
+
+    def __init__(self, fft: Any, threads: int) -> None:
+        self._fft, self._threads = fft, threads
+
+    def forward(self, values: AnyArray) -> AnyArray:
+        """Spectrum of real values."""
+        return self._fft.r2c(values, axes=(0, 1), nthreads=self._threads)  # type: ignore[no-any-return]
+
+    def inverse(self, spectrum: AnyArray, shape: Shape) -> AnyArray:
+        """Real values of the given shape."""
+        return self._fft.c2r(  # type: ignore[no-any-return]
+            spectrum, axes=(0, 1), lastsize=shape[1], forward=False, inorm=2, nthreads=self._threads,
+            allow_overwriting_input=True,
+        )  # fmt: skip
+
+    def forward_padded(self, values: AnyArray, padded: Shape) -> AnyArray:
+        """Spectrum of real values with zeros behind them up to a shape."""
+        nx, ny = values.shape
+        lines = np.zeros((nx, padded[1]), values.dtype)
+        lines[:, :ny] = values
+        spectrum = np.zeros((padded[0], padded[1] // 2 + 1), np.result_type(values.dtype, np.complex64))
+        self._fft.r2c(lines, axes=(1,), nthreads=self._threads, out=spectrum[:nx])
+        return self._fft.c2c(spectrum, axes=(0,), nthreads=self._threads, out=spectrum)  # type: ignore[no-any-return]
+
+    def inverse_cropped(self, spectrum: AnyArray, padded: Shape, shape: Shape) -> AnyArray:
+        """First `shape` of the real values whose spectrum, of the padded shape, is given."""
+        self._fft.c2c(spectrum, axes=(0,), forward=False, inorm=2, nthreads=self._threads, out=spectrum)
+        values = self._fft.c2r(
+            spectrum[: shape[0]], axes=(1,), lastsize=padded[1], forward=False, inorm=2, nthreads=self._threads
+        )
+        return values[:, : shape[1]]  # type: ignore[no-any-return]

@@ -1,0 +1,246 @@
+"""One contact, whatever arrays and FFTs it is solved with; requests for others are refused in one sentence."""
+
+from __future__ import annotations
+
+import pickle
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from contact.made_surfaces import self_affine
+from viscofric.contact.backend import THREADS_VARIABLE, Backend
+from viscofric.contact.complementarity import solve_complementarity
+from viscofric.contact.grids import Window
+from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.periodic.operator import PeriodicOperator
+from viscofric.contact.periodic.splitting import split_steps
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+OTHERS = ("array_api_strict", "ducc0", "pyfftw", "torch:cpu", "torch:cuda", "cupy")
+# The solver's own error at this tolerance, which another rounding may shift; pressures are well conditioned here.
+TOLERANCE, SAME = 1e-12, 1e-10
+
+
+def available(name: str) -> Backend:
+    try:
+        return Backend(name)
+    except InputError as missing:
+        pytest.skip(str(missing))
+
+
+@pytest.fixture(params=OTHERS)
+def backend(request: pytest.FixtureRequest) -> Backend:
+    return available(request.param)
+
+
+def ball(backend: Backend | str) -> vf.ContactSolution:
+    rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    return vf.solve_steady(
+        rubber, vf.Ball(radius=0.01), speed=1.0, load=1.0, accuracy=0.02, tolerance=TOLERANCE, backend=backend
+    )
+
+
+def roller(backend: Backend | str) -> vf.ContactSolution:
+    rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    return vf.solve_steady(
+        rubber, vf.Cylinder(radius=0.01), speed=1.0, load=100.0, accuracy=0.02, tolerance=TOLERANCE, backend=backend
+    )
+
+
+def rough(backend: Backend | str, *, speed: float, **given: float) -> vf.PeriodicSolution:
+    modes = vf.RetardationSpectrum(1.0, 100.0, np.full(20, 0.99 / 20), np.logspace(-4, 1, 20))
+    surface = vf.PeriodicSurface(self_affine(64), 1.0 / 64)
+    return vf.solve_periodic(
+        vf.Material(modes), surface, speed=speed, tolerance=TOLERANCE, backend=backend, **given or {"pressure": 0.1}
+    )
+
+
+CONTACTS = {
+    "ball": ball,
+    "roller": roller,
+    "rough, elastic": lambda backend: rough(backend, speed=0.0),
+    "rough, viscoelastic": lambda backend: rough(backend, speed=1.0),
+    "rough, given gap": lambda backend: rough(backend, speed=1.0, gap=0.1),
+    "rough, full contact": lambda backend: rough(backend, speed=1.0, pressure=20.0),
+}
+
+
+@cache
+def by_scipy(name: str) -> vf.ContactSolution | vf.PeriodicSolution:
+    return CONTACTS[name]("scipy")
+
+
+def assert_same(found: NDArray[np.float64], expected: NDArray[np.float64]) -> None:
+    assert isinstance(found, np.ndarray)
+    assert found.dtype == np.float64
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=SAME * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", CONTACTS)
+def test_contact_is_the_same_with_any_arrays_and_ffts(name: str, backend: Backend) -> None:
+    expected = by_scipy(name)
+    found = CONTACTS[name](backend)
+    assert np.all(expected.pressure > 0.0) == (name == "rough, full contact")
+    assert_same(found.pressure, expected.pressure)
+    assert_same(found.displacement, expected.displacement)
+    assert found.friction_coefficient == pytest.approx(expected.friction_coefficient, rel=SAME, abs=SAME)
+    assert found.indentation == pytest.approx(expected.indentation, rel=SAME)
+
+
+@pytest.mark.parametrize("precision", [np.float64, np.float32])
+def test_accelerated_splitting_is_the_same_with_any_arrays_and_ffts(precision: type, backend: Backend) -> None:
+    """In single precision where arrays are NumPy's: elsewhere all is in double precision."""
+    if precision is np.float32 and not backend.is_numpy:
+        pytest.skip("corrections are in double precision here")
+    q = np.hypot(np.fft.fftfreq(32)[:, None], np.fft.rfftfreq(32))
+    q[0, 0] = np.inf
+    transfer = (1.0 + 0.5j * np.sign(np.fft.fftfreq(32))[:, None]) / q
+    transfer[16] = np.abs(transfer[16])  # the shortest wave is real
+    height = self_affine(32)
+    height -= height.min()
+
+    def pressures(where: Backend) -> NDArray[np.float64]:
+        operator = PeriodicOperator(transfer, (32, 32), precision, where)
+        guess = np.ones((32, 32))
+        found = split_steps(
+            operator, height, guess, load=10.0, indentation=None, steps=12, stiffness=0.5, accelerated=True
+        )
+        return where.to_numpy(found)
+
+    expected = pressures(Backend())
+    # Twelve steps of an extrapolation that amplifies the rounding of single precision some tenfold each.
+    tolerance = 1e-10 if precision is np.float64 else 1e-3
+    np.testing.assert_allclose(pressures(backend), expected, rtol=0.0, atol=tolerance * expected.max())
+
+
+def test_padded_transforms_are_plain_convolutions(backend: Backend) -> None:
+    rng = np.random.default_rng(5)
+    influence, values = rng.standard_normal((13, 9)), rng.standard_normal((7, 5))
+    padded = (15, 9)
+    transforms = backend.transforms
+    spectrum = transforms.forward_padded(backend.asarray(influence), padded)
+    waves = transforms.forward_padded(backend.asarray(values), padded)
+    waves *= spectrum
+    found = backend.to_numpy(transforms.inverse_cropped(waves, padded, (7, 5)))
+    expected = np.zeros((7, 5))
+    for i, j in np.ndindex(7, 5):
+        for k, m in np.ndindex(i + 1, j + 1):
+            expected[i, j] += influence[k, m] * values[i - k, j - m]
+    # The cyclic convolution agrees with the plain one where nothing wraps around: from the first cells on that
+    # neither axis has wrapped, 13 + 7 - 1 - 15 = 4 and 9 + 5 - 1 - 9 = 4.
+    np.testing.assert_allclose(found[4:, 4:], expected[4:, 4:], rtol=0.0, atol=1e-13)
+
+
+def test_cells_are_gathered_and_scattered_in_order(backend: Backend) -> None:
+    field = np.arange(12.0).reshape(3, 4)
+    for chosen in (field % 3.0 == 1.0, field == 11.0, field >= 0.0):
+        cells = backend.cells(backend.asarray(chosen))
+        values = cells.gathered(backend.asarray(field))
+        assert len(cells) == np.count_nonzero(chosen)
+        np.testing.assert_array_equal(backend.to_numpy(values), field[chosen])
+        np.testing.assert_array_equal(backend.to_numpy(cells.scattered(values)), np.where(chosen, field, 0.0))
+
+
+def test_readonly_and_mirrored_arrays_are_taken(backend: Backend) -> None:
+    values = np.arange(6.0).reshape(2, 3)[::-1]
+    values.flags.writeable = False
+    np.testing.assert_array_equal(backend.to_numpy(backend.asarray(values)), values)
+
+
+def test_solver_leaves_what_it_is_given(backend: Backend) -> None:
+    window = Window.around(1.0, 1.0, 1.0, 16)
+    operator = HalfSpaceOperator(window, SteadyMaterial(1.0, np.empty(0), np.empty(0)), backend=backend)
+    height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    guess = np.ones(window.shape)
+    before = height.copy(), guess.copy()
+    assert solve_complementarity(operator, height, 1.0, guess).converged
+    np.testing.assert_array_equal(height, before[0])
+    np.testing.assert_array_equal(guess, before[1])
+
+
+# --- choice -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("jax", "not known; right would be 'scipy'"),
+        ("", "not known"),
+        (None, "not known"),
+        (3, "not known"),
+        ("scipy:cuda", "takes no device; give 'scipy'"),
+        ("ducc0:", "takes no device; give 'ducc0'"),
+    ],
+)
+def test_unknown_backends_are_refused(name: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        ball(name)
+    with pytest.raises(InputError, match=words):
+        rough(name, speed=0.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("ducc0", "pip install ducc0"),
+        ("pyfftw", "pip install pyfftw"),
+        ("torch", "pytorch.org"),
+        ("torch:cuda", "pytorch.org"),
+        ("cupy", "docs.cupy.dev"),
+        ("array_api_strict", "pip install array-api-strict"),
+    ],
+)
+def test_missing_libraries_are_named_with_their_installation(
+    name: str, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library = name.partition(":")[0]
+    # An entry of None makes an import fail as if nothing were installed.
+    for module in (library, f"{library}.fft", f"{library}.interfaces.scipy_fft"):
+        monkeypatch.setitem(__import__("sys").modules, module, None)
+    with pytest.raises(InputError, match=rf"^backend = '{name}': .*install.*{words}[^\n]*$"):
+        Backend(name)
+
+
+def test_unknown_device_is_refused() -> None:
+    pytest.importorskip("torch")
+    with pytest.raises(InputError, match="no such device"):
+        Backend("torch:abacus")
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, True, "2"])
+def test_threads_are_whole_numbers(threads: int) -> None:
+    with pytest.raises(InputError, match=r"^threads = .*: must be a whole number from 1"):
+        Backend("scipy", threads=threads)
+
+
+def test_ffts_have_one_thread_unless_told_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(THREADS_VARIABLE, raising=False)
+    assert Backend().threads == 1
+    monkeypatch.setenv(THREADS_VARIABLE, "2")
+    assert Backend().threads == 2
+    assert Backend("scipy", threads=3).threads == 3
+    monkeypatch.setenv(THREADS_VARIABLE, "many")
+    with pytest.raises(InputError, match=rf"{THREADS_VARIABLE} = 'many'"):
+        Backend()
+    with pytest.raises(InputError, match="FFTs on NumPy arrays"):
+        Backend("array_api_strict", threads=2)
+
+
+def test_threads_change_no_digit() -> None:
+    expected = by_scipy("rough, viscoelastic")
+    found = rough(Backend("scipy", threads=2), speed=1.0)
+    np.testing.assert_array_equal(found.pressure, expected.pressure)
+
+
+def test_backends_are_values() -> None:
+    backend = Backend("scipy", threads=2)
+    assert pickle.loads(pickle.dumps(backend)) == backend
+    assert hash(backend) == hash(Backend("scipy", threads=2))
+    assert backend != Backend("scipy", threads=1)
+    assert Backend.of(backend) is backend
