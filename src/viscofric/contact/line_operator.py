@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.contact.line_influence import line_memory_influence, strip_potential
-from viscofric.contact.operator import ConvolutionOperator
+from viscofric.contact.operator import ConvolutionOperator, Influence, bent_share, second_difference
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,20 +25,31 @@ class LineOperator(ConvolutionOperator):
     keeps the operator positive definite.  Only differences of displacements mean something.
     """
 
-    def _influence(self) -> tuple[Array, Array]:
+    def _influence(self) -> Influence:
         (cells, _), h = self.window.shape, self.window.spacing
         x = np.arange(-(cells - 1.0), cells)
-        centred, dissipation = self._delayed(x)
-        displacement = centred if self.shift == 0.0 else self._delayed(x - self.shift)[0]
+        wider = np.arange(-float(cells), cells + 1.0)
+        lengths = self.material.memory_lengths / h
+        centred = self.material.glassy * strip_potential(x)
+        dissipation, bent_dissipation = np.zeros_like(x), np.zeros_like(x)
+        for compliance, length, bent in zip(self.material.compliances, lengths, bent_share(lengths), strict=True):
+            delayed, lost = line_memory_influence(wider, length)
+            centred += compliance * delayed[1:-1]
+            dissipation += compliance * lost[1:-1]
+            bent_dissipation += compliance * (bent * length * second_difference(delayed) + (1.0 - bent) * lost[1:-1])
+        displacement = centred if self.shift == 0.0 else self._delayed(x - self.shift)
         level = centred.min() - 0.1 * np.ptp(centred)
-        return (2.0 * h / np.pi) * (displacement - level)[:, None], (2.0 / np.pi) * dissipation[:, None]
+        unit = 2.0 / np.pi
+        return Influence(
+            unit * h * (displacement - level)[:, None],
+            unit * dissipation[:, None],
+            unit * bent_dissipation[:, None],
+        )
 
-    def _delayed(self, x: Array) -> tuple[Array, Array]:
-        """Influence at places x, in cells, and the part of its slope that dissipates."""
-        displacement, dissipation = self.material.glassy * strip_potential(x), np.zeros_like(x)
+    def _delayed(self, x: Array) -> Array:
+        """Influence at places x, in cells."""
+        displacement = self.material.glassy * strip_potential(x)
         lengths = self.material.memory_lengths / self.window.spacing
         for compliance, length in zip(self.material.compliances, lengths, strict=True):
-            delayed, lost = line_memory_influence(x, length)
-            displacement += compliance * delayed
-            dissipation += compliance * lost
-        return displacement, dissipation
+            displacement += compliance * line_memory_influence(x, length)[0]
+        return displacement

@@ -140,8 +140,7 @@ def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
         material = replace(solid, glassy=glassy)
         shift = collocation_shift(material, window.spacing)
         operator = geometry.operator(window, material, shift, problem.backend)
-        x = window.x - shift * window.spacing
-        height = problem.shape.height(x[:, None], window.y)
+        height = problem.height_on(window, shift)
         below = np.where(np.isfinite(height), start, 0.0)  # no pressure beyond the indenter's walls
         return Stage(problem, window, operator, problem.control.solve(operator, height, below, problem.tolerance))
 

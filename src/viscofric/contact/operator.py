@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import scipy.fft
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 # A mode with a memory shorter than this (in cells) dissipates by its leading term, λ² ∂²/∂x²: the next one
 # is λ² = 1e-6 smaller, while the difference of its two potentials would have lost that much to rounding.
 _SHORT_MEMORY = 1e-3
+# Memory length, in cells, from which on a mode's dissipation is rather found from slopes than from bends.
+_BEND_MEMORY = 10.0
 # Loss angle of waves four cells long from which displacements are looked at behind the cell centres.
 _TOLERATED_ANGLE = np.pi / 4.0
 
@@ -54,6 +56,25 @@ class SteadyMaterial:
         return result
 
 
+class Influence(NamedTuple):
+    """Influence coefficients, each (2 nx − 1, ny).
+
+    At x = −(nx−1) … nx−1 and y = 0 … ny−1 cells from the loaded one, even in y.
+
+    Attributes
+    ----------
+    displacement : array
+    dissipation : array
+        The part of its slope that dissipates.
+    bent_dissipation : array
+        Likewise, but of short memories from second differences; see `ConvolutionOperator.bent_dissipated_force`.
+    """
+
+    displacement: Array
+    dissipation: Array
+    bent_dissipation: Array
+
+
 @dataclass
 class ConvolutionOperator(ABC):
     """Displacement under pressures on the cells of a grid, each cell's influence the same wherever it lies.
@@ -81,7 +102,8 @@ class ConvolutionOperator(ABC):
     backend: Backend = field(default_factory=Backend)
     products: int = field(default=0, init=False)
     _transfer: AnyArray = field(init=False, repr=False)
-    _dissipation: AnyArray = field(init=False, repr=False)
+    _dissipation: Array = field(init=False, repr=False)
+    _bent_dissipation: Array = field(init=False, repr=False)
     _inverse_symbol: AnyArray = field(init=False, repr=False)
     _padded: tuple[int, int] = field(init=False, repr=False)
 
@@ -91,17 +113,14 @@ class ConvolutionOperator(ABC):
             scipy.fft.next_fast_len(2 * nx - 1, real=False),
             scipy.fft.next_fast_len(2 * ny - 1, real=True),
         )
-        displacement, dissipation = self._influence()
+        # The dissipation is asked for once, after the solve: its spectra are not kept.
+        displacement, self._dissipation, self._bent_dissipation = self._influence()
         self._transfer = self._spectrum(displacement)
-        self._dissipation = self._spectrum(dissipation)
         self._inverse_symbol = self.backend.asarray(_optimal_circulant_inverse(displacement))
 
     @abstractmethod
-    def _influence(self) -> tuple[Array, Array]:
-        """Influence coefficients of the displacement, and of the part of its slope that dissipates.
-
-        Both (2 nx − 1, ny), at x = −(nx−1) … nx−1 and y = 0 … ny−1 cells from the loaded one, even in y.
-        """
+    def _influence(self) -> Influence:
+        """Influence coefficients of the displacement and of what dissipates."""
 
     @property
     def dtype(self) -> Any:
@@ -140,15 +159,29 @@ class ConvolutionOperator(ABC):
         F_t = −∫ p ∂u/∂x dA, in which only the memory does work; in Fourier space the integral over q of
         2 q_x |p̂|² (−Im S)/|q| (see the theory page).
         """
-        slope = self.backend.to_numpy(self._convolve(self._dissipation, self.backend.asarray(pressure)))
-        return -self.window.cell_area * float(np.vdot(pressure, slope))
+        return self._resistance(self._dissipation, pressure)
+
+    def bent_dissipated_force(self, pressure: Array) -> float:
+        """Friction force from the dissipated energy, that of short memories from the bends of the surface.
+
+        The displacement of one mode, y_k − l_k ∂y_k/∂x = c_k L p, dissipates −∫ p ∂y_k/∂x dA = −l_k ∫ p ∂²y_k/∂x² dA,
+        since the slope of c_k L p does no work.  With second differences in place of ∂²/∂x² every part of the
+        displacement is dissipated as short waves bend it, and what cells leave out can be told from the bends of the
+        gap; see `viscofric.contact.balance`.  Modes whose memory is long against the cell keep the slope, which is
+        more accurate for them; `bent_share` says how much of each mode.
+        """
+        return self._resistance(self._bent_dissipation, pressure)
+
+    def _resistance(self, influence: Array, pressure: Array) -> float:
+        slope = self._convolve(self._spectrum(influence), self.backend.asarray(pressure))
+        return -self.window.cell_area * float(np.vdot(pressure, self.backend.to_numpy(slope)))
 
 
 @dataclass
 class HalfSpaceOperator(ConvolutionOperator):
     """Displacement of the free half-space under pressures on square cells (paper Eqs. 7 and 8)."""
 
-    def _influence(self) -> tuple[Array, Array]:
+    def _influence(self) -> Influence:
         nx, ny = self.window.shape
         h = self.window.spacing
         compliances = self.material.compliances
@@ -158,13 +191,29 @@ class HalfSpaceOperator(ConvolutionOperator):
         long = lengths > _SHORT_MEMORY
         rates = np.zeros_like(compliances)
         rates[long] = compliances[long] / lengths[long]
-        displacement, slope = memory_influence((nx, ny), np.stack([compliances, rates]), lengths)
+        bent = bent_share(lengths)
+        straight = (1.0 - bent) * compliances / lengths
+        mixtures = np.stack([compliances, rates, bent * compliances * lengths, straight])
+        displacement, slope, bend, straight_slope = memory_influence((nx + 1, ny), mixtures, lengths)
+        displacement, slope = displacement[1:-1], slope[1:-1]
         if self.shift > 0.0:
             (displacement,) = memory_influence((nx, ny), compliances[None], lengths, self.shift)
         displacement += self.material.glassy * cell_potential(x - self.shift, y)
-        slope -= rates.sum() * cell_potential(x, y)
+        instant = cell_potential(x, y)
+        slope -= rates.sum() * instant
         slope += (compliances[~long] * lengths[~long]).sum() * cell_potential_xx(x, y)
-        return displacement * h / np.pi, slope / np.pi
+        bent_slope = second_difference(bend) + straight_slope[1:-1] - straight.sum() * instant
+        return Influence(displacement * h / np.pi, slope / np.pi, bent_slope / np.pi)
+
+
+def bent_share(memory_lengths: Array) -> Array:
+    """How much of each mode's dissipation is found from the bends of the surface, for memories in cells."""
+    return np.asarray(1.0 / (1.0 + (memory_lengths / _BEND_MEMORY) ** 2))
+
+
+def second_difference(values: Array) -> Array:
+    """Second difference along the first axis, which it shortens by two."""
+    return np.asarray(values[2:] - 2.0 * values[1:-1] + values[:-2])
 
 
 def collocation_shift(material: SteadyMaterial, spacing: float) -> float:

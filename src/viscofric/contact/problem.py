@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 import numpy as np
 
 from viscofric.contact.backend import Backend
+from viscofric.contact.balance import CUTS, lag, opening
 from viscofric.contact.control import GivenLoad
+from viscofric.contact.estimates import Estimate
 from viscofric.contact.footprint import Footprint
 
 if TYPE_CHECKING:
@@ -77,6 +79,10 @@ class Problem:
                 size = compliance ** (1.0 / (self.geometry.dimension + 1.0))
         return size
 
+    def height_on(self, window: Grid, shift: float) -> Array:
+        """Height of the indenter where the gap is looked at: so many cells behind the cell centres."""
+        return self.shape.height((window.x - shift * window.spacing)[:, None], window.y)
+
 
 @dataclass(frozen=True, eq=False)
 class Stage:
@@ -102,6 +108,26 @@ class Stage:
     def energy_friction(self) -> float:
         """Friction coefficient from the dissipated energy."""
         return self.operator.dissipated_force(self.result.pressure) / self.load
+
+    @cached_property
+    def balanced_friction(self) -> Estimate:
+        """Friction coefficient from the dissipated energy, with what cells leave out of it.
+
+        Its error is how far that is uncertain, from the wave that is taken for the first one left out.  An indenter
+        with walls has no curvature to balance.
+        """
+        force = self.operator.bent_dissipated_force(self.result.pressure) / self.load
+        if self.problem.shape.has_walls:
+            return Estimate(force, 0.0)
+        lags = [lag(self.operator.material, self.window.spacing, cut) for cut in CUTS]
+        return Estimate(force + lags[1] * self.opening, (lags[0] - lags[2]) * self.opening)
+
+    @cached_property
+    def opening(self) -> float:
+        """What cells leave out of ∫ p ∂²h/∂x² dA, over the load."""
+        gap = self.result.displacement + self.problem.height_on(self.window, self.operator.shift)
+        gap -= self.result.indentation
+        return opening(self.window, self.result.pressure, gap) / self.load
 
     @cached_property
     def extent(self) -> Extent:

@@ -111,7 +111,7 @@ class ContactSolution:
         K, as asked.
     friction_coefficient : float
         μ = F_t/F_N, with the sign of the speed: of the two below the one that has settled better on the nested
-        grids (the second maybe extrapolated).
+        grids, the second with what the cells at the edge leave out (see `viscofric.contact.balance`).
     pressure_friction_coefficient : float
         From the lean of the pressure on the indenter's slope, on the finest grid.
     energy_friction_coefficient : float
