@@ -60,7 +60,7 @@ def memory_coefficients(nx: int, ny: int, memory_length: float) -> Array:
     rows = np.arange(float(ny))
     result = np.empty((2 * nx - 1, ny))
     for i, x in enumerate(np.arange(-(nx - 1.0), nx)):
-        edges = _panels(x, memory_length)
+        edges = memory_panels(x, memory_length)
         half = 0.5 * np.diff(edges)[:, None]
         s = (edges[:-1, None] + half * (1.0 + _GAUSS_POINTS)).ravel()
         weight = (half * _GAUSS_WEIGHTS).ravel() * np.exp(-s / memory_length) / memory_length
@@ -68,7 +68,7 @@ def memory_coefficients(nx: int, ny: int, memory_length: float) -> Array:
     return result
 
 
-def _panels(x: float, memory_length: float) -> Array:
+def memory_panels(x: float, memory_length: float) -> Array:
     """Break points in s = λz: dense at zero and at the loaded cell's edges, no longer than 3λ."""
     end = _FADED * memory_length
     graded = 0.5 * 1.8 ** np.arange(-40.0, np.log(2.0 * end + 2.0) / np.log(1.8) + 2.0)

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.special import gammainc
 
-from viscofric.contact.influence import cell_potential, cell_potential_xx, memory_influence
+from contact.dense_reference import memory_panels, square_potential
+from viscofric.contact.influence import memory_influence
+from viscofric.contact.memory_rules import lattice_interpolation, product_weights
+from viscofric.contact.potentials import cell_potential, cell_potential_xx
 
 WINDOW = (32, 24)
 # Where the loaded cell lies: under the point, just behind and ahead of it, beside it, near and far.
@@ -173,3 +178,81 @@ def test_recursion_from_cell_to_cell_loses_nothing_to_the_window() -> None:
     large = memory_influence((40, 30), np.ones((1, 1)), np.array([25.0]))[0]
     # Two starts of the recursion, six and forty cells ahead, each right to 1e-11.
     np.testing.assert_allclose(large[40 - 6 : 40 + 5, :5], small, rtol=1e-10)
+
+
+def test_wide_window_agrees_with_quadrature_by_panels() -> None:
+    """Rows and places on both sides of where the interpolation takes over from the finer rules, up to the corners."""
+    nx, ny = 80, 60
+    memory_lengths = np.array([1e-6, 0.1, 2.0, 70.0, 1e5])
+    found = memory_influence((nx, ny), np.eye(5), memory_lengths)
+    points, weights = np.polynomial.legendre.leggauss(12)
+    for m, memory_length in enumerate(memory_lengths):
+        for i, j in ((-79, 0), (-40, 3), (-26, 0), (-25, 23), (-25, 24), (0, 24), (24, 0), (26, 2), (79, 0), (79, 59)):
+            edges = memory_panels(float(i), memory_length)
+            half = 0.5 * np.diff(edges)[:, None]
+            s = (edges[:-1, None] + half * (1.0 + points)).ravel()
+            faded = (half * weights).ravel() * np.exp(-s / memory_length) / memory_length
+            expected = faded @ square_potential(i + s, np.full_like(s, j))
+            assert found[m, i + nx - 1, j] == pytest.approx(expected, rel=1e-9)  # as above
+
+
+def test_instant_displacement_joins_the_memory() -> None:
+    nx, ny = 30, 28
+    lengths, mixtures = np.array([0.3, 40.0]), np.array([[1.0, 2.0], [0.0, 0.5]])
+    elastic = cell_potential(np.arange(-(nx - 1.0), nx)[:, None] - 0.2, np.arange(float(ny)))
+    both = memory_influence((nx, ny), mixtures, lengths, 0.2, instant=np.array([3.0, -1.0]))
+    memory = memory_influence((nx, ny), mixtures, lengths, 0.2)
+    np.testing.assert_allclose(both[0], memory[0] + 3.0 * elastic, rtol=1e-13)
+    np.testing.assert_allclose(both[1], memory[1] - elastic, rtol=1e-12, atol=1e-14)
+    alone = memory_influence((nx, ny), np.zeros((1, 0)), np.zeros(0), 0.2, instant=np.ones(1))
+    np.testing.assert_allclose(alone[0], elastic, rtol=1e-13)
+
+
+@pytest.mark.parametrize("order", [7, 12, 16])
+def test_product_rule_integrates_fading_polynomials(order: int) -> None:
+    """∫_0^1 ε e^(−ε s) s^k ds = k!/ε^k P(k + 1, ε), on both sides of where the moments' formula changes."""
+    rates = np.array([1e-12, 1e-3, 0.7, 5.0, 31.9, 32.1, 1e3, 1e10])
+    points = 0.5 * (np.polynomial.legendre.leggauss(order)[0] + 1.0)
+    for k in range(order):
+        found = product_weights(order, rates) @ points**k
+        expected = math.factorial(k) / rates**k * gammainc(k + 1, rates)
+        # Round-off of sums of terms as large as the integral without s^k.
+        np.testing.assert_allclose(found, expected, rtol=1e-12, atol=3e-13 * rates.clip(max=1.0).max())
+
+
+def test_lattice_interpolation_is_exact_for_polynomials() -> None:
+    nodes, matrix = lattice_interpolation(12)
+    points = 0.5 * (np.polynomial.legendre.leggauss(12)[0] + 1.0)
+    polynomial = np.polynomial.Polynomial(np.random.default_rng(5).standard_normal(12) / 6.0 ** np.arange(12))
+    np.testing.assert_allclose(matrix @ polynomial(nodes), polynomial(points), rtol=1e-12)  # round-off
+
+
+@pytest.mark.parametrize("aspect", [0.2, 0.5, 3.0])
+def test_rectangle_is_a_row_of_smaller_ones(aspect: float) -> None:
+    x, y = (
+        np.array([0.0, 0.3, 1.0, 7.0, 40.0, -90.0, 3.0, 500.0]),
+        np.array([0.0, 0.4, 2.0, 30.0, -11.0, 90.0, 70.0, 0.0]),
+    )
+    thirds = [cell_potential(3.0 * x + side, 3.0 * y, 3.0 * aspect) / 3.0 for side in (-1.0, 0.0, 1.0)]
+    # Far away each is right to 1e-10.
+    np.testing.assert_allclose(cell_potential(x, y, aspect), sum(thirds), rtol=2e-10)
+    curvature = sum(3.0 * cell_potential_xx(3.0 * x + side, 3.0 * y, 3.0 * aspect) for side in (-1.0, 0.0, 1.0))
+    np.testing.assert_allclose(cell_potential_xx(x, y, aspect), curvature, rtol=3e-6)  # as promised
+
+
+@pytest.mark.parametrize("aspect", [0.2, 0.5, 3.0])
+def test_memory_on_rectangles_is_the_sum_of_that_on_smaller_cells(aspect: float) -> None:
+    """A cell of three by one thirds of itself, along the motion, and looked at in the middle of the middle one."""
+    coarse = memory_influence(
+        (8, 30), np.ones((1, 1)), np.array([1.7]), potential=partial(cell_potential, aspect=aspect), aspect=aspect
+    )[0]
+    fine = memory_influence(
+        (26, 30),
+        np.ones((1, 1)),
+        np.array([5.1]),
+        potential=partial(cell_potential, aspect=3.0 * aspect),
+        aspect=3.0 * aspect,
+    )[0]
+    places = 3 * np.arange(-7, 8) + 25
+    summed = (fine[places - 1] + fine[places] + fine[places + 1]) / 3.0
+    np.testing.assert_allclose(coarse, summed, rtol=1e-9)  # as for squares

@@ -1,27 +1,36 @@
-"""Influence coefficients of the free viscoelastic half-space under steady motion (paper, Eq. 8).
+"""Influence coefficients of the free viscoelastic solid under steady motion (paper, Eq. 8).
 
-The displacement that a uniform pressure on one square cell causes at the centre of another is Love's closed
-form for 1/r over a square, convolved along the direction of motion with the fading memory of each retardation
-mode.  Everything here is in units of the cell: one mode of memory length ``λ = v τ / h`` contributes ::
+The displacement that a uniform pressure on one rectangular cell causes at the centre of another is the cell's potential
+L, for a half-space Love's closed form of 1/r over a rectangle, convolved along the direction of motion with the fading
+memory of each retardation mode.  In units of the cell's length along the motion, one mode of memory length
+``λ = v τ / h`` contributes ::
 
-    K(x, y; λ) = ∫_0^∞ e^(−z) L(x + λ z, y) dz,      L(x, y) = ∫∫_cell dx' dy' / |r − r'|
+    K(x, y; λ) = ∫_0^∞ e^(−z) L(x + λ z, y) dz = ∫_0^∞ ε e^(−ε s) L(x + s, y) ds,      ε = 1/λ.
 
-which obeys a backward recursion from one cell to the next,
+Away from the loaded cell L is so smooth that within each cell it is interpolated from its values at whole numbers
+x, the exponential being integrated exactly.  K is then a sum over those values, with weights in which all modes are
+summed up beforehand ::
 
-    K(x) = ∫_0^1 ε e^(−ε s) L(x + s) ds + e^(−ε) K(x + 1),      ε = 1/λ.
+    Σ_m c_m K(i, y; λ_m) = Σ_n V(n) L(i + n, y),      V = Σ_m c_m V_m
 
-The integral over one cell is a product-integration rule: L is interpolated at Gauss points, the exponential is
-integrated exactly, so that the rule holds for any ε and its points are shared by all modes.
+one convolution along x, done by FFT whatever the number of modes.  Two corrections make it exact.  Near the loaded
+cell, where L is not smooth enough, finer rules take the interpolation's place; what they change is carried on from cell
+to cell by K(x) = ∫_0^1 ε e^(−ε s) L(x + s) ds + e^(−ε) K(x + 1).  And beyond the window the memory goes on.
 """
 
 from __future__ import annotations
 
-from functools import lru_cache
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from scipy.special import eval_legendre, ive
+import scipy.fft
+
+from viscofric.contact.memory_rules import lattice_interpolation, panel_points, panel_rule, product_weights
+from viscofric.contact.potentials import cell_potential
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,114 +38,47 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array: TypeAlias = NDArray[np.float64]
+    Potential: TypeAlias = Callable[[Array, Array], Array]
 
-# Beyond this distance (in cells) the multipole series of Love's form is right to 1e-10 and cheaper.
-_FAR = 20.0
 # Longest exponent that still leaves a trace in double precision.
 _FADED = 45.0
-# Rate ε from which three terms of the asymptotic series of the exponential's moments are right to 1e-11.
-_HUGE_RATE = 1e6
 
 
-def cell_potential(x: Array, y: Array) -> Array:
-    """Integral of 1/r over the unit square around the origin, seen from (x, y) in its plane.
-
-    Closed form: A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377; K. L. Johnson, Contact Mechanics
-    (1985), Eq. 3.25.  Far away: its multipole series up to the fourth moments of the square.
-    """
-    x, y = np.broadcast_arrays(x, y)
-    r2 = x * x + y * y
-    near = r2 < _FAR**2
-    inverse2 = 1.0 / np.where(near, _FAR**2, r2)
-    fourth = -7.0 / 1920.0 + (7.0 / 96.0) * (x * y * inverse2) ** 2
-    result = np.sqrt(inverse2) * (1.0 + inverse2 * (1.0 / 24.0 + inverse2 * fourth))
-    if near.any():
-        result[near] = _love(x[near], y[near])
-    return result
-
-
-def _love(x: Array, y: Array) -> Array:
-    def corner(a: Array, b: Array) -> Array:
-        # a asinh(b/|a|) + b asinh(a/|b|); each term goes to zero with its first factor.
-        with np.errstate(divide="ignore", invalid="ignore"):
-            first = np.where(a == 0.0, 0.0, a * np.arcsinh(b / np.abs(a)))
-            second = np.where(b == 0.0, 0.0, b * np.arcsinh(a / np.abs(b)))
-        return first + second
-
-    return _corner_sum(corner, x, y)
-
-
-def _corner_sum(corner: Callable[[Array, Array], Array], x: Array, y: Array) -> Array:
-    """Difference of an antiderivative over the four corners of the unit square."""
-    east, west, north, south = x + 0.5, x - 0.5, y + 0.5, y - 0.5
-    return corner(east, north) - corner(east, south) - corner(west, north) + corner(west, south)
-
-
-def cell_potential_xx(x: Array, y: Array) -> Array:
-    """Second derivative along x of `cell_potential` (not on the lines x = ±1/2 through the cell's edges)."""
-    x, y = np.broadcast_arrays(x, y)
-
-    def corner(a: Array, b: Array) -> Array:
-        return np.asarray(-b / (a * np.hypot(a, b)))
-
-    return _corner_sum(corner, x, y)
-
-
-@lru_cache(maxsize=16)
-def _gauss(order: int) -> tuple[Array, Array]:
-    """Gauss points on [0, 1] and the matrix that turns values there into Legendre coefficients."""
-    t, weight = np.polynomial.legendre.leggauss(order)
-    degree = np.arange(order)[:, None]
-    to_legendre = (degree + 0.5) * weight * eval_legendre(degree, t)
-    return 0.5 * (t + 1.0), to_legendre
-
-
-def _product_weights(order: int, rate: Array) -> Array:
-    """Weights w with ∫_0^1 ε e^(−ε s) f(s) ds = Σ_g w_g f(s_g), exact for polynomials of degree < order.
-
-    The Legendre moments of the exponential are modified spherical Bessel functions (DLMF 10.47.7, 10.54.1);
-    for huge rates the first terms of their asymptotic series (DLMF 10.49.8) take over.
-    """
-    n = np.arange(order)
-    rate = rate[:, None]
-    huge = rate > _HUGE_RATE
-    bounded = np.where(huge, _HUGE_RATE, rate)
-    moments = np.where(
-        huge,
-        1.0 - n * (n + 1) / rate * (1.0 - (n + 2) * (n - 1) / (2.0 * rate)),
-        np.sqrt(np.pi * bounded) * ive(n + 0.5, 0.5 * bounded),
-    )
-    return np.asarray(((-1.0) ** n * moments) @ _gauss(order)[1])
-
-
-def _panel_rule(edges: Array, order: int, rate: Array) -> tuple[Array, Array]:
-    """Composite product-integration rule on panels: points (n,) and weights (modes, n)."""
-    points, weights = [], []
-    for start, end in pairwise(edges):
-        points.append(start + (end - start) * _gauss(order)[0])
-        weights.append(np.exp(-rate * start)[:, None] * _product_weights(order, rate * (end - start)))
-    return np.concatenate(points), np.concatenate(weights, axis=1)
-
-
-# Rows of cells (distance across, in cells) that share a rule: the nearer the cell, the finer the rule.
-# With Gauss order n on a panel the error falls as ρ^(−n), ρ the Bernstein ellipse through the nearest
-# singularity, the edge of the loaded cell; the orders below leave less than 1e-11.
+# Points on the lattice through which L is interpolated.  The error falls as the product of their distances from the
+# middle of the cell, 2.6e4, over the twelfth power of the distance from the loaded cell: below 1e-12 from here on.
+_NODES = 12
+_SMOOTH = 24
+# Nearer rows (distance from the edge of the loaded cell, in cells) share a rule: the nearer, the finer.  With Gauss
+# order n on a panel the error falls as ρ^(−n), ρ the Bernstein ellipse through the nearest singularity, the edge of the
+# loaded cell; the orders below leave less than 1e-11.
 _WHOLE = np.array([0.0, 1.0])
 _HALVES = np.array([0.0, 0.5, 1.0])
-_ROW_RULES: tuple[tuple[int, Array, int], ...] = (
-    (0, _HALVES, 16),
-    (3, _WHOLE, 12),
-    (16, _WHOLE, 7),
-    (64, _WHOLE, 5),
+_ROW_RULES: tuple[tuple[float, Array, int], ...] = (
+    (-math.inf, _HALVES, 16),
+    (2.4, _WHOLE, 12),
+    (15.4, _WHOLE, 7),
+    (_SMOOTH - 0.6, _WHOLE, 0),
 )
-# Potentials evaluated in one go: enough to keep the interpreter idle, few enough for the cache.
-_BLOCK = 500_000
-# Panels that halve towards a point: 1/2 to 1e-12.
-_HALVINGS = 0.5 ** np.arange(1.0, 40.0)
+# Rows so near that the edge's logarithm needs panels that halve towards it: to a tenth of the shortest memory.
+_GRADED_ROWS = 0.4
+_HALVINGS = 0.5 ** np.arange(1.0, 31.0)
+# Rows that are transformed in one go: few enough for the cache.
+_ROWS_AT_ONCE = 48
+# Digits that are kept of what comes from beyond the window, as a function of y.
+_TAIL_ACCURACY = 1e-13
 
 
-def memory_influence(shape: tuple[int, int], mixtures: Array, memory_lengths: Array, shift: float = 0.0) -> Array:
-    """Delayed displacements around one loaded cell of the free half-space, for mixtures of modes.
+def memory_influence(
+    shape: tuple[int, int],
+    mixtures: Array,
+    memory_lengths: Array,
+    shift: float = 0.0,
+    *,
+    instant: Array | None = None,
+    potential: Potential = cell_potential,
+    aspect: float = 1.0,
+) -> Array:
+    """Delayed displacements around one loaded cell, for mixtures of modes.
 
     Parameters
     ----------
@@ -148,62 +90,208 @@ def memory_influence(shape: tuple[int, int], mixtures: Array, memory_lengths: Ar
         λ_m = v τ_m / h > 0, in cells, for motion towards +x.
     shift : float
         How far behind the cell centres the displacement is looked at, in cells (0 to 0.5).
+    instant : (k,) array, optional
+        What each mixture holds of the displacement without memory, L; nothing by default.
+    potential : callable
+        L(x, y), even in x, of a cell as long as the unit of length; that of the half-space under a square cell by
+        default.
+    aspect : float
+        Width of the cells across the motion over their length.
 
     Returns
     -------
     (k, 2 nx − 1, ny) array
-        ``Σ c_m K(x, y; λ_m)`` at x + shift = −(nx−1) … nx−1 and y = 0 … ny−1, in cells; K is even in y.  Right to
-        about 1e-11 of the largest value for memory lengths from 1e-8 to 1e10 cells.
+        ``instant L(x, y) + Σ c_m K(x, y; λ_m)`` at x + shift = −(nx−1) … nx−1 and y = 0 … ny−1, in cells; even in y.
+        Right to about 1e-11 of the largest value for memory lengths from 1e-8 to 1e10 cells.
 
     Notes
     -----
-    The cost hardly depends on the number of modes: the potential of the cell is evaluated once for all of
-    them, at 5 to 32 points a cell, the fewer the farther the row lies from the loaded cell.
+    The cost hardly depends on the number of modes, and is that of three FFTs along x, twice as long as the rows that
+    come out, for each row of cells and each two mixtures.
     """
     nx, ny = shape
-    offsets = np.arange(-(nx - 1.0), nx) - shift
+    around = _Around(potential, nx, shift)
     result = np.zeros((len(mixtures), 2 * nx - 1, ny))
-    if len(memory_lengths) == 0:
-        return result
-    rows = np.arange(float(ny))
-    rate = 1.0 / memory_lengths
-    decay = np.exp(-rate)[:, None]
-    starts = [start for start, _, _ in _ROW_RULES] + [ny]
-    for (start, edges, order), end in zip(_ROW_RULES, starts[1:], strict=True):
-        y = rows[start:end]
-        if len(y) == 0:
-            break
-        points, weights = _panel_rule(edges, order, rate)
-        memory = _tail(nx - shift, y, rate)
-        block = max(1, _BLOCK // (len(points) * len(y)))
-        for last in range(2 * nx - 2, -1, -block):
-            first = max(0, last + 1 - block)
-            potential = cell_potential(offsets[first : last + 1, None, None] + points[:, None], y)
-            for i in range(last, first - 1, -1):
-                memory = weights @ potential[i - first] + decay * memory
-                if start == 0 and -2.0 <= offsets[i] <= 1.0:
-                    memory[:, 0] += _singular_correction(offsets[i], points, weights, rate)
-                result[:, i, start : start + len(y)] = mixtures @ memory
+    modes = _Modes.of(memory_lengths, mixtures)
+    weights = modes.lattice_weights(2 * nx + 10)
+    if instant is not None:
+        weights[:, -_FIRST] += instant
+    length = scipy.fft.next_fast_len(4 * nx + 8, real=True)
+    spectra = np.conj(scipy.fft.rfft(weights, length, axis=1))
+    rows = aspect * np.arange(float(ny))
+    for start in range(0, ny, _ROWS_AT_ONCE):
+        piece = slice(start, min(start + _ROWS_AT_ONCE, ny))
+        lattice = scipy.fft.rfft(around.lattice(rows[piece]), length, axis=1)
+        for k, spectrum in enumerate(spectra):
+            result[k, :, piece] = scipy.fft.irfft(lattice * spectrum, length, axis=1)[:, : 2 * nx - 1].T
+    if len(memory_lengths):
+        _add_tail(result, around, modes, rows)
+        _correct_near(result, around, modes, rows, 0.5 * aspect)
     return result
 
 
-def _singular_correction(x: float, points: Array, weights: Array, rate: Array) -> Array:
-    """Return what the plain rule misses from x to x + 1 in the loaded row, near the loaded cell's own edge.
+_FIRST = int(lattice_interpolation(_NODES)[0][0])
+_LAST = int(lattice_interpolation(_NODES)[0][-1])
 
-    The edge, x = ±1/2, is a logarithmic singularity of the slope; panels halve towards it from both sides.
+
+@dataclass(frozen=True)
+class _Around:
+    """The potential around the loaded cell, at places along x that are looked at."""
+
+    potential: Potential
+    nx: int
+    shift: float
+
+    def at(self, x: Array, y: Array) -> Array:
+        """Values at places x, in cells from the loaded one, and rows y: (len(x), len(y))."""
+        return self.potential(x[:, None] - self.shift, y)
+
+    def lattice(self, y: Array) -> Array:
+        """Values at x = −(nx−1) + first … nx−1 + last node, for each row: (rows, 2 nx + 10)."""
+        end = self.nx + _LAST
+        if self.shift != 0.0:
+            return self.potential(np.arange(-(self.nx - 1.0) + _FIRST, end) - self.shift, y[:, None])
+        half = self.potential(np.arange(float(end)), y[:, None])
+        return np.concatenate([half[:, end - 2 : 0 : -1], half], axis=1)
+
+
+@dataclass(frozen=True)
+class _Modes:
+    """Rates at which modes fade per cell, in mixtures."""
+
+    rate: Array
+    mixtures: Array
+
+    @classmethod
+    def of(cls, memory_lengths: Array, mixtures: Array) -> _Modes:
+        return cls(1.0 / np.asarray(memory_lengths, dtype=float), np.asarray(mixtures, dtype=float))
+
+    @cached_property
+    def interpolated(self) -> Array:
+        """Weights (m, nodes) of the lattice points around a cell in the integral over that cell."""
+        return np.asarray(product_weights(_NODES, self.rate) @ lattice_interpolation(_NODES)[1])
+
+    def fading(self, cells: Array) -> Array:
+        """Return what is left of each mode so many cells ahead: (m, cells)."""
+        return np.asarray(np.exp(-self.rate[:, None] * cells))
+
+    def lattice_weights(self, count: int) -> Array:
+        """V(n) of each mixture from the first node on, for a memory without an end: (k, count)."""
+        # c_m w_(m, node), summed over modes cell by cell, then over the cells that use a lattice point.
+        cells = (self.mixtures[:, None] * self.interpolated.T) @ self.fading(np.arange(float(count)))
+        weights = np.zeros((len(self.mixtures), count))
+        for place in range(_NODES):
+            weights[:, place:] += cells[:, place, : count - place]
+        return weights
+
+
+def _add_tail(result: Array, around: _Around, modes: _Modes, rows: Array) -> None:
+    """Add what the memory keeps from beyond the window, in the place of the lattice's own end there.
+
+    As a function of y it is smooth, since its sources are at least a window away: it is found at few rows.
     """
-    edge = (0.5 - x) % 1.0
-    near = np.concatenate([[0.0, 1.0, edge], edge - _HALVINGS, edge + _HALVINGS, edge + 1.0 - _HALVINGS])
-    panels, graded = _panel_rule(np.unique(near[(near >= 0.0) & (near <= 1.0)]), 16, rate)
-    zero = np.zeros(1)
-    return np.asarray(graded @ cell_potential(x + panels, zero) - weights @ cell_potential(x + points, zero))
-
-
-def _tail(start: float, y: Array, rate: Array) -> Array:
-    """K(start, y; 1/rate) by itself, on panels that double in length until every mode has faded."""
-    end = _FADED / rate.min()
-    edges = [0.0, start]
+    nx = around.nx
+    nodes, interpolation = _smooth_rows(rows, nx + _FIRST - 1.0)
+    start = np.array([float(nx)])
+    end = _FADED / modes.rate.min()
+    edges = [0.0, float(nx)]
     while edges[-1] < end:
-        edges.append(2.0 * edges[-1] + start)
-    points, weights = _panel_rule(np.array(edges), 16, rate)
-    return np.asarray(weights @ cell_potential(start + points[:, None], y))
+        edges.append(2.0 * edges[-1] + nx)
+    points, weights = panel_rule(np.array(edges), 16, modes.rate)
+    tail = weights @ around.at(start + points, nodes)
+    # The convolution knows the lattice up to nx − 1 + last node, and interpolates there in a few cells of its own.
+    places = np.arange(nx + _FIRST, nx + _LAST)
+    spurious = np.zeros((len(modes.rate), len(places)))
+    for cell in range(nx, nx + _LAST - _FIRST):
+        known = (places >= cell + _FIRST) & (places <= cell + _LAST)
+        faded = np.exp(-modes.rate * (cell - nx))[:, None]
+        spurious[:, known] += faded * modes.interpolated[:, places[known] - cell - _FIRST]
+    tail -= spurious @ around.at(places.astype(float), nodes)
+    fading = modes.fading(np.arange(2.0 * nx - 1.0, 0.0, -1.0))
+    for mixture, found in zip(modes.mixtures, result, strict=True):
+        found += ((mixture[:, None] * fading).T @ tail) @ interpolation
+
+
+def _smooth_rows(rows: Array, distance: float) -> tuple[Array, Array]:
+    """Few rows and the matrix from them to all, for functions that are smooth on the scale of a distance."""
+    length = rows[-1]
+    if distance <= 0.0 or length == 0.0:
+        return rows, np.eye(len(rows))
+    singular = -1.0 + 2.0j * distance / length
+    ellipse = abs(singular - np.sqrt(singular**2 - 1.0))
+    count = math.ceil(-math.log(_TAIL_ACCURACY) / math.log(ellipse))
+    if count >= len(rows):
+        return rows, np.eye(len(rows))
+    nodes = np.polynomial.chebyshev.chebpts1(count)
+    to_coefficients = np.polynomial.chebyshev.chebvander(nodes, count - 1).T * (2.0 / count)
+    to_coefficients[0] *= 0.5
+    matrix = np.polynomial.chebyshev.chebvander(2.0 * rows / length - 1.0, count - 1) @ to_coefficients
+    return 0.5 * length * (nodes + 1.0), np.asarray(matrix.T)
+
+
+def _correct_near(result: Array, around: _Around, modes: _Modes, rows: Array, edge: float) -> None:
+    """Replace the interpolation near the loaded cell, whose edge lies so far out in y, by finer rules."""
+    nx = around.nx
+    first, last = max(-(nx - 1), -_SMOOTH - 1), min(nx - 1, _SMOOTH)
+    starts = np.searchsorted(rows - edge, [start for start, _, _ in _ROW_RULES])
+    graded = int(np.searchsorted(rows - edge, _GRADED_ROWS))
+    decay = np.exp(-modes.rate)[:, None]
+    before = modes.fading(np.arange(first + nx - 1.0, 0.0, -1.0))
+    for rule, (start, stop) in enumerate(pairwise(starts)):
+        if stop == start:
+            continue
+        y = tuple(rows[start:stop])
+        fine = panel_rule(*_ROW_RULES[rule][1:], modes.rate)[1]
+        lattice, potential = _near_potentials(around.potential, around.shift, first, last, y, rule)
+        singular = _missed_by_edge(around, modes.rate, fine, y[:graded]) if start == 0 else {}
+        memory = np.zeros((len(modes.rate), len(y)))
+        for i in range(last, first - 1, -1):
+            place = i - first
+            memory *= decay
+            memory += fine @ potential[place] - modes.interpolated @ lattice[place : place + _NODES]
+            if i in singular:
+                memory[:, :graded] += singular[i]
+            result[:, i + nx - 1, start:stop] += modes.mixtures @ memory
+        for mixture, found in zip(modes.mixtures, result, strict=True):
+            found[: first + nx - 1, start:stop] += (mixture[:, None] * before).T @ memory
+
+
+def _missed_by_edge(around: _Around, rate: Array, coarse: Array, y: tuple[float, ...]) -> dict[int, Array]:
+    """Return what the nearest rows' rule misses from a cell's centre to the next.
+
+    At the edges x = ±1/2 L has a logarithm in its slope; panels halve towards it from both sides.
+    """
+    fine = panel_rule(_graded_panels(around.shift), 16, rate)[1]
+    values = _edge_potentials(around.potential, around.shift, y)
+    return {cell: fine @ there - coarse @ here for cell, (there, here) in values.items()}
+
+
+# Potentials near the loaded cell do not depend on the memory: the speeds of a curve share them.
+@lru_cache(maxsize=32)
+def _near_potentials(
+    potential: Potential, shift: float, first: int, last: int, y: tuple[float, ...], rule: int
+) -> tuple[Array, Array]:
+    """On the lattice around the cells first … last, (cells + nodes − 1, rows), and at a rule's points in each of them.
+
+    The latter (cells, points, rows).
+    """
+    rows, cells = np.array(y), np.arange(first, last + 1.0)
+    points = panel_points(*_ROW_RULES[rule][1:])
+    lattice = potential(np.arange(first + _FIRST, last + _LAST + 1.0)[:, None] - shift, rows)
+    within = potential((cells[:, None] + points).reshape(-1, 1) - shift, rows)
+    return lattice, within.reshape(len(cells), len(points), len(rows))
+
+
+@lru_cache(maxsize=32)
+def _edge_potentials(potential: Potential, shift: float, y: tuple[float, ...]) -> dict[int, tuple[Array, Array]]:
+    """At the points of the graded rule and of the nearest rows' rule, in the cells around the loaded one's edges."""
+    rules = panel_points(_graded_panels(shift), 16), panel_points(*_ROW_RULES[0][1:])
+    rows = np.array(y)
+    cells = (-2, -1, 0, 1)
+    return {cell: tuple(potential((cell + points)[:, None] - shift, rows) for points in rules) for cell in cells}  # type: ignore[misc]
+
+
+def _graded_panels(shift: float) -> Array:
+    edge = (0.5 + shift) % 1.0
+    near = np.concatenate([[0.0, 1.0, edge], edge - _HALVINGS, edge + _HALVINGS, edge + 1.0 - _HALVINGS])
+    return np.unique(near[(near >= 0.0) & (near <= 1.0)])

@@ -10,7 +10,8 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.backend import Backend
-from viscofric.contact.influence import cell_potential, cell_potential_xx, memory_influence
+from viscofric.contact.influence import memory_influence
+from viscofric.contact.potentials import cell_potential_xx
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -186,7 +187,6 @@ class HalfSpaceOperator(ConvolutionOperator):
         h = self.window.spacing
         compliances = self.material.compliances
         lengths = self.material.memory_lengths / h
-        x, y = np.arange(-(nx - 1.0), nx)[:, None], np.arange(float(ny))
         # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
         long = lengths > _SHORT_MEMORY
         rates = np.zeros_like(compliances)
@@ -194,15 +194,19 @@ class HalfSpaceOperator(ConvolutionOperator):
         bent = bent_share(lengths)
         straight = (1.0 - bent) * compliances / lengths
         mixtures = np.stack([compliances, rates, bent * compliances * lengths, straight])
-        displacement, slope, bend, straight_slope = memory_influence((nx + 1, ny), mixtures, lengths)
+        instant = np.array([self.material.glassy, -rates.sum(), 0.0, -straight.sum()])
+        displacement, slope, bend, straight_slope = memory_influence((nx + 1, ny), mixtures, lengths, instant=instant)
         displacement, slope = displacement[1:-1], slope[1:-1]
         if self.shift > 0.0:
-            (displacement,) = memory_influence((nx, ny), compliances[None], lengths, self.shift)
-        displacement += self.material.glassy * cell_potential(x - self.shift, y)
-        instant = cell_potential(x, y)
-        slope -= rates.sum() * instant
-        slope += (compliances[~long] * lengths[~long]).sum() * cell_potential_xx(x, y)
-        bent_slope = second_difference(bend) + straight_slope[1:-1] - straight.sum() * instant
+            (displacement,) = memory_influence((nx, ny), mixtures[:1], lengths, self.shift, instant=instant[:1])
+        short = float((compliances[~long] * lengths[~long]).sum())
+        if short > 0.0:
+            for i in range(nx):
+                curvature = short * cell_potential_xx(np.array(float(i)), np.arange(float(ny)))
+                slope[nx - 1 + i] += curvature
+                if i > 0:
+                    slope[nx - 1 - i] += curvature
+        bent_slope = second_difference(bend) + straight_slope[1:-1]
         return Influence(displacement * h / np.pi, slope / np.pi, bent_slope / np.pi)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.fields._cells import on_cells, spacing
-from viscofric.contact.influence import cell_potential, memory_influence
+from viscofric.contact.influence import memory_influence
 from viscofric.contact.line_influence import line_memory_influence, strip_potential
 from viscofric.errors import InputError
 
@@ -147,8 +147,7 @@ class _Modes:
 def _influence(modes: _Modes, shape: tuple[int, ...]) -> Array:
     """Influence of the unit cell at offsets −(nx−1) … nx−1 and −(ny−1) … ny−1."""
     nx, ny = shape
-    half = modes.glassy * cell_potential(np.arange(-(nx - 1.0), nx)[:, None], np.arange(float(ny)))
-    half += memory_influence((nx, ny), modes.compliances[None], modes.lengths)[0]
+    (half,) = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=np.array([modes.glassy]))
     return np.concatenate([half[:, :0:-1], half], axis=1)
 
 

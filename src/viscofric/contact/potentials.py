@@ -1,0 +1,88 @@
+"""Potential of a uniformly loaded cell of a half-space: 1/r integrated over a rectangle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+# Beyond this distance (in the cell's longer side) the multipole series of Love's form is right to 1e-10 and cheaper.
+_FAR = 20.0
+
+
+def cell_potential(x: Array, y: Array, aspect: float = 1.0) -> Array:
+    """Integral of 1/r over the rectangle |x'| < 1/2, |y'| < aspect/2, seen from (x, y) in its plane.
+
+    Closed form: A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377; K. L. Johnson, Contact Mechanics
+    (1985), Eq. 3.25.  Far away: its multipole series up to the fourth moments of the rectangle.
+    """
+    x, y = np.broadcast_arrays(x, y)
+    x2, y2 = x * x, y * y
+    r2 = x2 + y2
+    least = (_FAR * max(1.0, aspect)) ** 2
+    near = r2 < least
+    inverse2 = 1.0 / np.where(near, least, r2)
+    x2 *= inverse2
+    y2 *= inverse2
+    if aspect == 1.0:
+        fourth = -7.0 / 1920.0 + (7.0 / 96.0) * x2 * y2
+        result = np.sqrt(inverse2) * (1.0 + inverse2 * (1.0 / 24.0 + inverse2 * fourth))
+    else:
+        a2 = aspect**2
+        second = ((2.0 * x2 - y2) + a2 * (2.0 * y2 - x2)) / 24.0
+        # r⁵ ∂⁴(1/r) are 3(8x⁴ − 24x²y² + 3y⁴) and 3(4x⁴ − 27x²y² + 4y⁴), crosswise, for r = 1
+        fourth = (8.0 * x2**2 - 24.0 * x2 * y2 + 3.0 * y2**2) + a2**2 * (8.0 * y2**2 - 24.0 * x2 * y2 + 3.0 * x2**2)
+        mixed = a2 * (-4.0 * x2**2 + 27.0 * x2 * y2 - 4.0 * y2**2)
+        fourth = fourth / 640.0 + mixed / 192.0
+        result = aspect * np.sqrt(inverse2) * (1.0 + inverse2 * (second + inverse2 * fourth))
+    if near.any():
+        result[near] = _love(x[near], y[near], aspect)
+    return result
+
+
+def _love(x: Array, y: Array, aspect: float) -> Array:
+    def corner(a: Array, b: Array) -> Array:
+        # a asinh(b/|a|) + b asinh(a/|b|); each term goes to zero with its first factor.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            first = np.where(a == 0.0, 0.0, a * np.arcsinh(b / np.abs(a)))
+            second = np.where(b == 0.0, 0.0, b * np.arcsinh(a / np.abs(b)))
+        return first + second
+
+    return _corner_sum(corner, x, y, aspect)
+
+
+def _corner_sum(corner: Callable[[Array, Array], Array], x: Array, y: Array, aspect: float) -> Array:
+    """Difference of an antiderivative over the four corners of the cell."""
+    east, west, north, south = x + 0.5, x - 0.5, y + 0.5 * aspect, y - 0.5 * aspect
+    return corner(east, north) - corner(east, south) - corner(west, north) + corner(west, south)
+
+
+def cell_potential_xx(x: Array, y: Array, aspect: float = 1.0) -> Array:
+    """Second derivative along x of `cell_potential` (not on the lines x = ±1/2 through the cell's edges).
+
+    Far away by its multipole series, right to 1e-6 of it.
+    """
+    x, y = np.broadcast_arrays(x, y)
+    x2, y2 = x * x, y * y
+    r2 = x2 + y2
+    least = (_FAR * max(1.0, aspect)) ** 2
+    near = r2 < least
+    inverse2 = 1.0 / np.where(near, least, r2)
+    x2 *= inverse2
+    y2 *= inverse2
+    moments = x2 * (x2 - 3.0 * y2) + 0.375 * y2 * y2 - aspect**2 * (0.5 * x2 * x2 - 3.375 * x2 * y2 + 0.5 * y2 * y2)
+    result = np.asarray(aspect * np.sqrt(inverse2) * inverse2 * (2.0 * x2 - y2 + inverse2 * moments))
+
+    def corner(a: Array, b: Array) -> Array:
+        return np.asarray(-b / (a * np.hypot(a, b)))
+
+    if near.any():
+        result[near] = _corner_sum(corner, x[near], y[near], aspect)
+    return result
