@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.contact.height_map import Profile as Profile
     from viscofric.contact.indenters import Ball as Ball
     from viscofric.contact.indenters import Cylinder as Cylinder
-    from viscofric.contact.periodic.layers import Layer as Layer
+    from viscofric.contact.layers import Layer as Layer
     from viscofric.contact.periodic.solution import PeriodicDiagnostics as PeriodicDiagnostics
     from viscofric.contact.periodic.solution import PeriodicSolution as PeriodicSolution
     from viscofric.contact.periodic.solve import solve_periodic as solve_periodic
@@ -108,7 +108,7 @@ _HOME = {
     "Profile": "viscofric.contact.height_map",
     "Ball": "viscofric.contact.indenters",
     "Cylinder": "viscofric.contact.indenters",
-    "Layer": "viscofric.contact.periodic.layers",
+    "Layer": "viscofric.contact.layers",
     "PeriodicDiagnostics": "viscofric.contact.periodic.solution",
     "PeriodicSolution": "viscofric.contact.periodic.solution",
     "solve_periodic": "viscofric.contact.periodic.solve",

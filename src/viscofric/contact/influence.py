@@ -30,7 +30,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.memory_rules import lattice_interpolation, panel_points, panel_rule, product_weights
-from viscofric.contact.potentials import cell_potential
+from viscofric.contact.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -64,6 +64,7 @@ _GRADED_ROWS = 0.4
 _HALVINGS = 0.5 ** np.arange(1.0, 31.0)
 # Rows that are transformed in one go: few enough for the cache.
 _ROWS_AT_ONCE = 48
+_HALF_SPACE = HalfSpaceCell()
 # Digits that are kept of what comes from beyond the window, as a function of y.
 _TAIL_ACCURACY = 1e-13
 
@@ -75,7 +76,7 @@ def memory_influence(
     shift: float = 0.0,
     *,
     instant: Array | None = None,
-    potential: Potential = cell_potential,
+    potential: Potential = _HALF_SPACE,
     aspect: float = 1.0,
 ) -> Array:
     """Delayed displacements around one loaded cell, for mixtures of modes.

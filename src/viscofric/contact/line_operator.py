@@ -30,7 +30,7 @@ class LineOperator(ConvolutionOperator):
         x = np.arange(-(cells - 1.0), cells)
         wider = np.arange(-float(cells), cells + 1.0)
         lengths = self.material.memory_lengths / h
-        centred = self.material.glassy * strip_potential(x)
+        centred = self._instant(x)
         dissipation, bent_dissipation = np.zeros_like(x), np.zeros_like(x)
         for compliance, length, bent in zip(self.material.compliances, lengths, bent_share(lengths), strict=True):
             delayed, lost = line_memory_influence(wider, length)
@@ -39,17 +39,16 @@ class LineOperator(ConvolutionOperator):
             bent_dissipation += compliance * (bent * length * second_difference(delayed) + (1.0 - bent) * lost[1:-1])
         displacement = centred if self.shift == 0.0 else self._delayed(x - self.shift)
         level = centred.min() - 0.1 * np.ptp(centred)
-        unit = 2.0 / np.pi
-        return Influence(
-            unit * h * (displacement - level)[:, None],
-            unit * dissipation[:, None],
-            unit * bent_dissipation[:, None],
-        )
+        found = Influence((displacement - level)[:, None], dissipation[:, None], bent_dissipation[:, None])
+        return found.times(2.0 / np.pi, h)
 
     def _delayed(self, x: Array) -> Array:
         """Influence at places x, in cells."""
-        displacement = self.material.glassy * strip_potential(x)
+        displacement = self._instant(x)
         lengths = self.material.memory_lengths / self.window.spacing
         for compliance, length in zip(self.material.compliances, lengths, strict=True):
             displacement += compliance * line_memory_influence(x, length)[0]
         return displacement
+
+    def _instant(self, x: Array) -> Array:
+        return (self.material.glassy + self.material.counterface) * strip_potential(x)

@@ -11,13 +11,14 @@ import scipy.fft
 
 from viscofric.contact.backend import Backend
 from viscofric.contact.influence import memory_influence
-from viscofric.contact.potentials import cell_potential_xx
+from viscofric.contact.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from viscofric.contact.backend import AnyArray
     from viscofric.contact.grids import Grid
+    from viscofric.contact.potentials import CellPotential
 
     Array: TypeAlias = NDArray[np.float64]
     ComplexArray: TypeAlias = NDArray[np.complex128]
@@ -43,18 +44,28 @@ class SteadyMaterial:
         (1−ν²) C_k.
     memory_lengths : (m,) array
         v τ_k > 0: how far behind the indenter a mode still feels the load.
+    counterface : float, optional
+        (1−ν_i²)/E_i of an elastic indenter, a half-space even where the material is a layer.
     """
 
     glassy: float
     compliances: Array
     memory_lengths: Array
+    counterface: float = 0.0
 
-    def symbol(self, qx: Array) -> ComplexArray:
-        """(1−ν²) S(−q_x v): the compliance that a sinusoidal load meets at the wavenumber q_x."""
+    def symbol(self, qx: Array, yielding: ArrayLike = 1.0) -> ComplexArray:
+        """Compliance that a sinusoidal load meets at the wavenumber q_x, (1−ν²) S(−q_x v) + (1−ν_i²)/E_i.
+
+        Parameters
+        ----------
+        qx : array
+        yielding : array, optional
+            Θ of a layer at these wavenumbers, by which its part is multiplied.
+        """
         result = np.full(np.shape(qx), complex(self.glassy))
         for compliance, length in zip(self.compliances, self.memory_lengths, strict=True):
             result += compliance / (1.0 - 1j * qx * length)
-        return result
+        return np.asarray(result * yielding + self.counterface)
 
 
 class Influence(NamedTuple):
@@ -74,6 +85,10 @@ class Influence(NamedTuple):
     displacement: Array
     dissipation: Array
     bent_dissipation: Array
+
+    def times(self, unit: float, length: float) -> Influence:
+        """Return displacements in a unit times a length, their slopes in that unit."""
+        return Influence(unit * length * self.displacement, unit * self.dissipation, unit * self.bent_dissipation)
 
 
 @dataclass
@@ -183,31 +198,53 @@ class HalfSpaceOperator(ConvolutionOperator):
     """Displacement of the free half-space under pressures on square cells (paper Eqs. 7 and 8)."""
 
     def _influence(self) -> Influence:
-        nx, ny = self.window.shape
-        h = self.window.spacing
-        compliances = self.material.compliances
-        lengths = self.material.memory_lengths / h
-        # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
-        long = lengths > _SHORT_MEMORY
-        rates = np.zeros_like(compliances)
-        rates[long] = compliances[long] / lengths[long]
-        bent = bent_share(lengths)
-        straight = (1.0 - bent) * compliances / lengths
-        mixtures = np.stack([compliances, rates, bent * compliances * lengths, straight])
-        instant = np.array([self.material.glassy, -rates.sum(), 0.0, -straight.sum()])
-        displacement, slope, bend, straight_slope = memory_influence((nx + 1, ny), mixtures, lengths, instant=instant)
-        displacement, slope = displacement[1:-1], slope[1:-1]
-        if self.shift > 0.0:
-            (displacement,) = memory_influence((nx, ny), mixtures[:1], lengths, self.shift, instant=instant[:1])
-        short = float((compliances[~long] * lengths[~long]).sum())
-        if short > 0.0:
-            for i in range(nx):
-                curvature = short * cell_potential_xx(np.array(float(i)), np.arange(float(ny)))
-                slope[nx - 1 + i] += curvature
-                if i > 0:
-                    slope[nx - 1 - i] += curvature
-        bent_slope = second_difference(bend) + straight_slope[1:-1]
-        return Influence(displacement * h / np.pi, slope / np.pi, bent_slope / np.pi)
+        instant = self.material.glassy + self.material.counterface
+        return cell_influence(self, HalfSpaceCell(), instant).times(1.0 / np.pi, self.window.spacing)
+
+
+def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: float) -> Influence:
+    """Displacement around a loaded cell, with its memory, and what of its slope dissipates.
+
+    Parameters
+    ----------
+    operator : ConvolutionOperator
+        Whose window, material and shift are meant.
+    cell : CellPotential
+    instant : float
+        Compliance without memory.
+
+    Returns
+    -------
+    Influence
+        In units of the cell's potential, for lengths in cells.
+    """
+    nx, ny = operator.window.shape
+    compliances = operator.material.compliances
+    lengths = operator.material.memory_lengths / operator.window.spacing
+    # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
+    long = lengths > _SHORT_MEMORY
+    rates = np.zeros_like(compliances)
+    rates[long] = compliances[long] / lengths[long]
+    bent = bent_share(lengths)
+    straight = (1.0 - bent) * compliances / lengths
+    mixtures = np.stack([compliances, rates, bent * compliances * lengths, straight])
+    without_memory = np.array([instant, -rates.sum(), 0.0, -straight.sum()])
+    displacement, slope, bend, straight_slope = memory_influence(
+        (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell
+    )
+    displacement, slope = displacement[1:-1], slope[1:-1]
+    if operator.shift > 0.0:
+        (displacement,) = memory_influence(
+            (nx, ny), mixtures[:1], lengths, operator.shift, instant=without_memory[:1], potential=cell
+        )
+    short = float((compliances[~long] * lengths[~long]).sum())
+    if short > 0.0:
+        for i in range(nx):
+            curvature = short * cell.xx(np.array(float(i)), np.arange(float(ny)))
+            slope[nx - 1 + i] += curvature
+            if i > 0:
+                slope[nx - 1 - i] += curvature
+    return Influence(displacement, slope, second_difference(bend) + straight_slope[1:-1])
 
 
 def bent_share(memory_lengths: Array) -> Array:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
@@ -12,6 +13,17 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array: TypeAlias = NDArray[np.float64]
+
+
+class CellPotential(Protocol):
+    """Displacement around a loaded cell, in units of the cell's length, but for the compliance."""
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """Value at (x, y) from the cell's centre; even in both."""
+
+    def xx(self, x: Array, y: Array) -> Array:
+        """Second derivative along x (not on the lines x = ±1/2 through the cell's edges)."""
+
 
 # Beyond this distance (in the cell's longer side) the multipole series of Love's form is right to 1e-10 and cheaper.
 _FAR = 20.0
@@ -86,3 +98,24 @@ def cell_potential_xx(x: Array, y: Array, aspect: float = 1.0) -> Array:
     if near.any():
         result[near] = _corner_sum(corner, x[near], y[near], aspect)
     return result
+
+
+@dataclass(frozen=True)
+class HalfSpaceCell:
+    """Potential of a rectangular cell of the half-space.
+
+    Attributes
+    ----------
+    aspect : float
+        Width of the cell over its length.
+    """
+
+    aspect: float = 1.0
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """Integral of 1/r over the cell, seen from (x, y)."""
+        return cell_potential(x, y, self.aspect)
+
+    def xx(self, x: Array, y: Array) -> Array:
+        """Second derivative along x."""
+        return cell_potential_xx(x, y, self.aspect)

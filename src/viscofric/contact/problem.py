@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, TypeAlias
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from viscofric.contact.control import Control
     from viscofric.contact.geometry import Geometry
     from viscofric.contact.grids import Extent, Grid
+    from viscofric.contact.layer_operator import ScaledLayer
     from viscofric.contact.operator import ConvolutionOperator, SteadyMaterial
 
     Array: TypeAlias = NDArray[np.float64]
@@ -56,6 +58,8 @@ class Problem:
         How exactly the contact conditions hold.
     backend : Backend
         Where it is solved.
+    layer : ScaledLayer, optional
+        What the geometry's operator is one of; a half-space without.
     """
 
     geometry: Geometry
@@ -64,19 +68,23 @@ class Problem:
     control: Control
     tolerance: float
     backend: Backend = field(default_factory=Backend)
+    layer: ScaledLayer | None = None
 
     @property
     def first_size(self) -> float:
         """First guess of the contact's size.
 
-        Under a given load, the radius a of Hertz's contact with the modulus |E(v/a)|; a given indentation hardly leaves
-        the size a choice.
+        Under a given load, the radius a of Hertz's contact with the compliance of waves e^(ix/a); a given indentation
+        hardly leaves the size a choice.
         """
         size = 1.0
         if isinstance(self.control, GivenLoad):
-            for _ in range(30):
-                compliance = float(np.abs(self.solid.symbol(np.array([1.0 / size])))[0])
-                size = compliance ** (1.0 / (self.geometry.dimension + 1.0))
+            for _ in range(60):
+                wave = np.array([1.0 / size])
+                yielding = 1.0 if self.layer is None else self.layer.yielding(wave)
+                compliance = float(np.abs(self.solid.symbol(wave, yielding))[0])
+                # Half way, since of a thin incompressible layer the whole step would lead back and forth.
+                size = math.sqrt(size * compliance ** (1.0 / (self.geometry.dimension + 1.0)))
         return size
 
     def height_on(self, window: Grid, shift: float) -> Array:

@@ -13,6 +13,8 @@ from viscofric.contact.backend import Backend
 from viscofric.contact.control import GivenIndentation, GivenLoad
 from viscofric.contact.estimates import FEWEST_GRIDS
 from viscofric.contact.indenters import SMALL_STRAIN, Indenter
+from viscofric.contact.layer_operator import ScaledLayer
+from viscofric.contact.layers import Layer
 from viscofric.contact.nested import COARSEST, find_window, refine
 from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.problem import Problem
@@ -52,9 +54,10 @@ def solve_steady(
     finest: int | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
+    layer: Layer | None = None,
     backend: Backend | str = "scipy",
 ) -> ContactSolution:
-    """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space.
+    """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space or layer.
 
     Parameters
     ----------
@@ -67,8 +70,8 @@ def solve_steady(
     load : float, str or pint.Quantity, optional
         Normal load, N; of a line contact per unit of length, N/m.  Either it or the indentation is given.
     indentation : float, str or pint.Quantity, optional
-        Depth of the indenter's lowest point below the undeformed surface, m; not for a line contact, in which it has
-        no meaning.
+        Depth of the indenter's lowest point below the undeformed surface, m; of a line contact it has a meaning on a
+        layer under a rigid indenter only.
     temperature : float, str or pint.Quantity, optional
         K if a plain number.  May be left out for a material without a shift law.
     accuracy : float
@@ -83,6 +86,8 @@ def solve_steady(
         Young's modulus of an elastic indenter, Pa; rigid without it.
     indenter_poisson_ratio : float
         Of an elastic indenter.
+    layer : Layer, optional
+        Thickness and base of the material; a half-space without.
     backend : Backend or str
         Arrays and FFTs to solve with, such as "ducc0" or "torch:cuda"; see `Backend`.
 
@@ -104,6 +109,9 @@ def solve_steady(
 
     An elastic indenter is a second half-space, which adds (1 − ν_i²)/E_i to the compliance without memory.
 
+    A layer yields by the factor Θ(qH) less than a half-space to each wave of pressure (see `Layer`); its influence
+    coefficients are as exact.
+
     Examples
     --------
     >>> import viscofric as vf
@@ -123,18 +131,24 @@ def solve_steady(
     counterface = _indenter_compliance(indenter_modulus, indenter_poisson_ratio)
     plane_strain = 1.0 - material.poisson_ratio**2
     compliance = plane_strain / spectrum.E0 + counterface
-    scale, control, given, held = _held(indenter, 1.0 / compliance, load, indentation)
+    if layer is not None and not isinstance(layer, Layer):
+        raise InputError(f"layer = {layer!r}: must be a Layer, such as Layer(thickness='2 mm').")
+    levelled = geometry.has_far_field or (layer is not None and counterface == 0.0)
+    scale, control, given, held = _held(indenter, 1.0 / compliance, load, indentation, levelled)
     solid = _steady_material(
         spectrum, abs(velocity) / scale.length, plane_strain / compliance, counterface / compliance
     )
     shape = ScaledIndenter(indenter, scale, math.copysign(1.0, velocity))
     problem = Problem(geometry, solid, shape, control, tolerance, Backend.of(backend))
+    if layer is not None:
+        scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)
+        problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)
     first = find_window(problem, problem.first_size)
     indenter.check(scale.extent(first.extent), held)
     stages = refine(first, accuracy, finest)
     # What was given comes back as it was given, free of the rounding of sums and units.
     solution = replace(assemble(stages, scale, velocity, kelvin), **given)
-    return _with_doubts(solution, indenter, scale, stages[-1])
+    return _with_doubts(solution, indenter, layer, scale, stages[-1])
 
 
 def _velocity(speed: Quantity) -> float:
@@ -156,7 +170,7 @@ def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
 
 
 def _held(
-    indenter: Indenter, stiffness: float, load: Quantity | None, indentation: Quantity | None
+    indenter: Indenter, stiffness: float, load: Quantity | None, indentation: Quantity | None, levelled: bool
 ) -> tuple[Scale, Control, dict[str, Any], str]:
     """Return the units, what is given in them, in SI, and in words."""
     geometry = indenter.geometry
@@ -167,7 +181,7 @@ def _held(
         force = positive(load, geometry.load_unit, "load")
         scale = Scale.for_load(indenter, stiffness, force)
         return scale, GivenLoad(geometry.parabolic_load), {"load": force}, f"under {force:g} {geometry.load_unit}"
-    if not geometry.has_far_field:
+    if not levelled:
         raise InputError(
             f"indentation = {indentation!r}: has no meaning in plane strain, where the surface far away is infinitely "
             f"high above the contact; give the load ({geometry.load_unit})."
@@ -204,13 +218,17 @@ def _steady_material(
     """
     none = np.empty(0)
     if speed == 0.0:
-        return SteadyMaterial(1.0, none, none)
-    glassy = plane_strain / spectrum.E_inf + counterface
+        return SteadyMaterial(plane_strain / spectrum.E0, none, none, counterface)
+    glassy = plane_strain / spectrum.E_inf
     if math.isinf(speed):
-        return SteadyMaterial(glassy, none, none)
-    return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau))
+        return SteadyMaterial(glassy, none, none, counterface)
+    return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 
 
-def _with_doubts(solution: ContactSolution, indenter: Indenter, scale: Scale, finest: Stage) -> ContactSolution:
-    doubt = indenter.doubt(scale.extent(finest.extent), solution.indentation)
-    return replace(solution, warnings=(doubt,)) if doubt else solution
+def _with_doubts(
+    solution: ContactSolution, indenter: Indenter, layer: Layer | None, scale: Scale, finest: Stage
+) -> ContactSolution:
+    doubts = [indenter.doubt(scale.extent(finest.extent), solution.indentation)]
+    if layer is not None:
+        doubts.append(layer.doubt(solution.indentation))
+    return replace(solution, warnings=tuple(doubt for doubt in doubts if doubt))

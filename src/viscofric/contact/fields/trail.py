@@ -11,11 +11,16 @@ import scipy.fft
 
 from viscofric.contact.fields._cells import on_cells, spacing
 from viscofric.contact.influence import memory_influence
+from viscofric.contact.layer_potentials import LayerCell, LayerStrip
 from viscofric.contact.line_influence import line_memory_influence, strip_potential
+from viscofric.contact.potentials import HalfSpaceCell
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.contact.layers import Layer
+    from viscofric.contact.potentials import CellPotential
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -52,11 +57,12 @@ def surface_displacement(
     C: ArrayLike,
     tau: ArrayLike,
     poisson_ratio: float,
+    layer: Layer | None = None,
     behind: float = 0.0,
     ahead: float = 0.0,
     beside: float = 0.0,
 ) -> SurfaceDisplacement:
-    """Displacement of the half-space under a steady pressure, in a window larger than the contact's.
+    """Displacement of a half-space or layer under a steady pressure, in a window larger than the contact's.
 
     Parameters
     ----------
@@ -71,6 +77,8 @@ def surface_displacement(
     C, tau : (m,) array
         Compliance (1/Pa) and retardation time (s) of each mode.
     poisson_ratio : float
+    layer : Layer, optional
+        Thickness and base of the material; a half-space without.
     behind, ahead : float
         How far to look beyond the ends of `x`, against and along the motion, m; rounded up to whole cells.
     beside : float
@@ -79,8 +87,8 @@ def surface_displacement(
     Returns
     -------
     SurfaceDisplacement
-        For a line contact, relative to the end of the window ahead of it, since in plane strain only differences are
-        determined.
+        For a line contact on a half-space, relative to the end of the window ahead of it, since in plane strain only
+        differences are determined.
 
     Raises
     ------
@@ -110,9 +118,13 @@ def surface_displacement(
     larger = np.pad(load, ((below, above), (sides, sides)))
     # The influence functions know motion towards +x only.
     mirrored = larger[::-1] if speed < 0.0 else larger
-    influence = _line_influence(modes, len(larger)) if is_line else _influence(modes, larger.shape)
-    found = (1.0 - poisson_ratio**2) * step / np.pi * _convolve(influence, mirrored)
-    if is_line:
+    if is_line and layer is None:
+        influence = _line_influence(modes, len(larger))
+    else:
+        influence = _influence(modes, larger.shape, _cell(layer, is_line, step, poisson_ratio))
+    factor = 2.0 if is_line else 1.0
+    found = factor * (1.0 - poisson_ratio**2) * step / np.pi * _convolve(influence, mirrored)
+    if is_line and layer is None:
         found -= found[-1]
     return SurfaceDisplacement(
         x=along[0] + step * (np.arange(len(larger)) - below),
@@ -144,20 +156,28 @@ class _Modes:
         return cls(glassy, compliances, abs(speed) * times / step if len(times) else times)
 
 
-def _influence(modes: _Modes, shape: tuple[int, ...]) -> Array:
+def _cell(layer: Layer | None, is_line: bool, step: float, poisson_ratio: float) -> CellPotential:
+    if layer is None:
+        return HalfSpaceCell()
+    thickness = float(layer.thickness) / step
+    return (LayerStrip if is_line else LayerCell)(thickness, layer.bonded, poisson_ratio)
+
+
+def _influence(modes: _Modes, shape: tuple[int, ...], cell: CellPotential) -> Array:
     """Influence of the unit cell at offsets −(nx−1) … nx−1 and −(ny−1) … ny−1."""
     nx, ny = shape
-    (half,) = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=np.array([modes.glassy]))
+    instant = np.array([modes.glassy])
+    (half,) = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell)
     return np.concatenate([half[:, :0:-1], half], axis=1)
 
 
 def _line_influence(modes: _Modes, cells: int) -> Array:
-    """Twice the influence of the unit cell of a strip, up to a constant."""
+    """Influence of the unit cell of a strip on a half-space, up to a constant."""
     x = np.arange(-(cells - 1.0), cells)
     total = modes.glassy * strip_potential(x)
     for compliance, length in zip(modes.compliances, modes.lengths, strict=True):
         total += compliance * line_memory_influence(x, length)[0]
-    return 2.0 * total[:, None]
+    return total[:, None]
 
 
 def _convolve(influence: Array, pressure: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.backend import Backend
-from viscofric.contact.periodic.layers import Layer
+from viscofric.contact.layers import Layer
 from viscofric.contact.periodic.levels import Stage, coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation

@@ -13,7 +13,7 @@ from viscofric.contact.periodic.waves import hermitian_factor, wave_number, with
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from viscofric.contact.periodic.layers import Layer
+    from viscofric.contact.layers import Layer
 
     Array: TypeAlias = NDArray[np.float64]
     ComplexArray: TypeAlias = NDArray[np.complex128]

@@ -44,6 +44,8 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+LARGE_COMPRESSION = 0.3  # indentation over thickness beyond which small strain is doubtful
+
 
 @dataclass(frozen=True)
 class Layer:
@@ -92,6 +94,16 @@ class Layer:
         """Return E u/p under a uniform pressure, m: (1+ν)(1−2ν)/(1−ν) H."""
         modulus_ratio = (1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio) / (1.0 - poisson_ratio)
         return modulus_ratio * float(self.thickness)
+
+    def doubt(self, indentation: float) -> str | None:
+        """Return what is doubtful about small strain at an indentation (m), if anything: one sentence."""
+        strain = indentation / float(self.thickness)
+        if strain <= LARGE_COMPRESSION:
+            return None
+        return (
+            f"The indenter is pressed {strain:.2f} of the layer's thickness deep; above {LARGE_COMPRESSION} the "
+            "assumption of small strain is doubtful."
+        )
 
 
 def _bonded(depth: Array, poisson_ratio: float) -> Array:

@@ -1,0 +1,129 @@
+"""A viscoelastic layer on a rigid base: pressure to displacement, for point and line contacts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.geometry import LINE, Geometry
+from viscofric.contact.layer_potentials import LayerCell, LayerStrip
+from viscofric.contact.layers import Layer
+from viscofric.contact.line_influence import strip_potential
+from viscofric.contact.operator import ConvolutionOperator, Influence, cell_influence
+from viscofric.contact.potentials import cell_potential
+from viscofric.errors import ConvergenceError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Thinnest layer, in cells.  Of a thinner one the cells' own edges would be felt more than the contact.
+THINNEST = 0.25
+
+
+@dataclass(frozen=True)
+class ScaledLayer:
+    """A layer in units of the contact.
+
+    Attributes
+    ----------
+    thickness : float
+    bonded : bool
+    poisson_ratio : float
+    """
+
+    thickness: float
+    bonded: bool
+    poisson_ratio: float
+
+    @classmethod
+    def of(cls, layer: Layer, length: float, poisson_ratio: float) -> ScaledLayer:
+        """Return a layer in units of a length, m."""
+        return cls(float(layer.thickness) / length, bool(layer.bonded), poisson_ratio)
+
+    def yielding(self, wave_number: ArrayLike) -> Array:
+        """Return Θ(qH): displacement under a wave of pressure over that of the half-space."""
+        return Layer(self.thickness, self.bonded).yielding(wave_number, self.poisson_ratio)
+
+    def geometry(self, geometry: Geometry, counterface: float) -> Geometry:
+        """Return what a contact is on this layer that is point or line on a half-space.
+
+        Parameters
+        ----------
+        geometry : Geometry
+        counterface : float
+            Compliance of the indenter; in plane strain it leaves displacements without a level.
+        """
+        operator = partial(_OPERATORS[geometry.name], layer=self)
+        return replace(geometry, operator=operator, has_far_field=geometry.has_far_field or counterface == 0.0)
+
+    def in_cells(self, spacing: float) -> float:
+        """Return the thickness in cells.
+
+        Raises
+        ------
+        ConvergenceError
+            If the cells are too large for the layer.
+        """
+        thickness = self.thickness / spacing
+        if thickness < THINNEST:
+            raise ConvergenceError(
+                f"the layer is thinner than the grid resolves ({thickness:.2g} of a cell): it acts like a foundation; "
+                "for a layer so much thinner than its contact is wide there are closed forms, in contact.reference."
+            )
+        return thickness
+
+
+@dataclass
+class LayerOperator(ConvolutionOperator):
+    """Displacement of a layer under pressures on square cells.
+
+    Parameters
+    ----------
+    layer : ScaledLayer
+    """
+
+    layer: ScaledLayer | None = None
+
+    def _influence(self) -> Influence:
+        assert self.layer is not None
+        (nx, ny), h = self.window.shape, self.window.spacing
+        cell = LayerCell(self.layer.in_cells(h), self.layer.bonded, self.layer.poisson_ratio)
+        found = cell_influence(self, cell, self.material.glassy).times(1.0 / np.pi, h)
+        if self.material.counterface > 0.0:
+            x, y = np.arange(-(nx - 1.0), nx)[:, None] - self.shift, np.arange(float(ny))
+            found.displacement[:] += h / np.pi * self.material.counterface * cell_potential(x, y)
+        return found
+
+
+@dataclass
+class LineLayerOperator(ConvolutionOperator):
+    """Displacement of a layer under pressures on a strip of cells, the same all along y.
+
+    The surface far away stays where it was, unless the indenter is elastic: of its displacement, as of the
+    half-space's in plane strain, only differences mean something, and the zero is put below the least of them.
+
+    Parameters
+    ----------
+    layer : ScaledLayer
+    """
+
+    layer: ScaledLayer | None = None
+
+    def _influence(self) -> Influence:
+        assert self.layer is not None
+        (nx, _), h = self.window.shape, self.window.spacing
+        strip = LayerStrip(self.layer.in_cells(h), self.layer.bonded, self.layer.poisson_ratio)
+        found = cell_influence(self, strip, self.material.glassy).times(2.0 / np.pi, h)
+        if self.material.counterface > 0.0:
+            facing = strip_potential(np.arange(-(nx - 1.0), nx) - self.shift)
+            level = facing.min() - 0.1 * np.ptp(facing)
+            found.displacement[:] += 2.0 * h / np.pi * self.material.counterface * (facing - level)[:, None]
+        return found
+
+
+_OPERATORS = {LINE.name: LineLayerOperator, "point": LayerOperator}

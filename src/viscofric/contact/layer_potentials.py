@@ -1,0 +1,240 @@
+"""Potential of a loaded cell of a layer on a rigid base: that of the half-space, and what the base takes from it.
+
+A point load on an elastic layer of thickness H moves the surface at the distance r by (1−ν²)/(πE) g(r), and a line
+load that at the distance x by 2(1−ν²)/(πE) g(x), with Θ from `viscofric.contact.layers`::
+
+    point    g = ∫_0^∞ Θ(qH) J0(qr) dq          = 1/r + ∫_0^∞ (Θ − 1) J0(qr) dq
+    line     g = ∫_0^∞ Θ(qH) cos(qx)/q dq       = −ln(x/H) + ∫_0^∞ [(Θ(Q) − 1) cos(Qx/H) + e^(−Q)]/Q dQ
+
+The last integrals are smooth functions of r/H, whose nearest singularities lie at ±2i, since Θ − 1 fades like
+e^(−2Q): they are tabulated once, and integrated over a cell by Gauss points, while the half-space's part is known in
+closed form.  g fades exponentially over a few H, so that the potential has a finite reach; of a layer even a line
+contact has a far field.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.layers import Layer
+from viscofric.contact.line_influence import strip_potential
+from viscofric.contact.potentials import cell_potential, cell_potential_xx
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+# Waves that are integrated over: panels in Q of 24 Gauss points.  Beyond, 1 − Θ is below 1e-15.
+_WAVE_PANELS = np.linspace(0.0, 40.0, 81)
+_POINTS = 24
+# Tables: pieces in r/H with so many coefficients, right to 1e-12; they end where g r is below _FADED.
+_PIECE = 0.5
+_COEFFICIENTS = 10
+_LONGEST = 50.0
+_FADED = 1e-13
+# Relative error of the integral over a cell.
+_ACCURACY = 1e-11
+
+
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """A smooth function of r/H from zero on, piece by piece polynomials."""
+
+    coefficients: Array
+    reach: float
+
+    def __call__(self, distance: Array) -> Array:
+        """Value at r/H up to the reach."""
+        piece, t = self._locate(distance)
+        result = np.asarray(self.coefficients[-1][piece])
+        for row in self.coefficients[-2::-1]:
+            result *= t
+            result += row[piece]
+        return result
+
+    def slope(self, distance: Array) -> Array:
+        """Return the derivative with respect to r/H."""
+        piece, t = self._locate(distance)
+        result = np.zeros_like(t)
+        for power in range(_COEFFICIENTS - 1, 0, -1):
+            result = result * t + power * self.coefficients[power][piece]
+        return result * (2.0 / _PIECE)
+
+    def _locate(self, distance: Array) -> tuple[NDArray[np.intp], Array]:
+        scaled = distance / _PIECE
+        piece = np.minimum(scaled.astype(np.intp), self.coefficients.shape[1] - 1)
+        return piece, 2.0 * (scaled - piece) - 1.0
+
+
+@lru_cache(maxsize=32)
+def _taken_by_base(poisson_ratio: float, bonded: bool, line: bool) -> _Table:
+    """Tabulate g(r/H) in units of H, less 1/r or −ln r."""
+    from scipy.special import j0
+
+    points, weights = np.polynomial.legendre.leggauss(_POINTS)
+    half = 0.5 * np.diff(_WAVE_PANELS)[:, None]
+    q, w = (_WAVE_PANELS[:-1, None] + half * (1.0 + points)).ravel(), (half * weights).ravel()
+    missing = w * (Layer(1.0, bonded).yielding(q, poisson_ratio) - 1.0)
+
+    def taken(distance: Array) -> Array:
+        waves = q * distance[:, None]
+        if line:
+            return np.asarray(np.cos(waves) @ (missing / q) + (w * np.exp(-q) / q).sum())
+        return np.asarray(j0(waves) @ missing)
+
+    nodes = np.polynomial.chebyshev.chebpts1(_COEFFICIENTS)
+    to_powers = np.linalg.inv(np.vander(nodes, increasing=True))
+    pieces = []
+    start = 0.0
+    while start < _LONGEST:
+        distance = start + 0.5 * _PIECE * (1.0 + nodes)
+        values = taken(distance)
+        pieces.append(to_powers @ values)
+        start += _PIECE
+        left = values - np.log(distance) if line else values * distance + 1.0
+        if np.abs(left).max() < _FADED:
+            break
+    return _Table(np.array(pieces).T, start)
+
+
+@lru_cache(maxsize=64)
+def _cell_rule(length: float) -> tuple[Array, Array]:
+    """Points and weights of a mean over a cell so many layers' thicknesses long, in units of the cell."""
+    # Panels no longer than the layer is thick; on each the ellipse through the singularity 2 H beyond.
+    panels = max(1, math.ceil(length))
+    distance = 4.0 * panels / length
+    ellipse = distance + math.hypot(distance, 1.0)
+    order = max(2, math.ceil(-0.5 * math.log(_ACCURACY) / math.log(ellipse)))
+    points, weights = np.polynomial.legendre.leggauss(order)
+    starts = np.arange(panels)[:, None]
+    return ((starts + 0.5 * (points + 1.0)) / panels - 0.5).ravel(), np.tile(0.5 * weights / panels, panels)
+
+
+@dataclass(frozen=True)
+class LayerCell:
+    """Potential of a rectangular cell of a layer, in units of the cell's length.
+
+    Attributes
+    ----------
+    thickness : float
+        H in units of the cell's length.
+    bonded : bool
+    poisson_ratio : float
+    aspect : float
+        Width of the cell over its length.
+    """
+
+    thickness: float
+    bonded: bool
+    poisson_ratio: float
+    aspect: float = 1.0
+
+    @cached_property
+    def _table(self) -> _Table:
+        return _taken_by_base(self.poisson_ratio, self.bonded, False)
+
+    @cached_property
+    def _points(self) -> Array:
+        """Places in the cell and weights of the mean over it: (n, 3)."""
+        across, weights_across = _cell_rule(self.aspect / self.thickness)
+        along, weights_along = _cell_rule(1.0 / self.thickness)
+        x, y = np.meshgrid(along, self.aspect * across)
+        return np.stack([x.ravel(), y.ravel(), np.outer(weights_across, weights_along).ravel()], axis=1)
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """∫∫_cell g, seen from (x, y)."""
+        return self._within_reach(x, y, self._near)
+
+    def xx(self, x: Array, y: Array) -> Array:
+        """Second derivative along x (not on the lines x = ±1/2 through the cell's edges)."""
+        return self._within_reach(x, y, self._near_xx)
+
+    def _near(self, x: Array, y: Array) -> Array:
+        taken = np.zeros_like(x)
+        for dx, dy, weight in self._points:
+            taken += weight * self._taken(np.hypot(x - dx, y - dy))
+        return cell_potential(x, y, self.aspect) + self.aspect * taken
+
+    def _taken(self, r: Array) -> Array:
+        distance = r / self.thickness
+        beyond = distance >= self._table.reach
+        found = self._table(distance) / self.thickness
+        found[beyond] = -1.0 / r[beyond]
+        return found
+
+    def _near_xx(self, x: Array, y: Array) -> Array:
+        # The derivative of the slope along x, integrated over the cell, is its difference from end to end.
+        taken = np.zeros_like(x)
+        for dy, weight in zip(*_cell_rule(self.aspect / self.thickness), strict=True):
+            for end, sign in ((0.5, 1.0), (-0.5, -1.0)):
+                taken += sign * weight * self._slope_along(x + end, y - self.aspect * dy)
+        return cell_potential_xx(x, y, self.aspect) + self.aspect * taken
+
+    def _slope_along(self, x: Array, y: Array) -> Array:
+        r = np.hypot(x, y)
+        distance = r / self.thickness
+        beyond = distance >= self._table.reach
+        # Even in r, the slope vanishes at r = 0 as the direction loses its meaning.
+        found = self._table.slope(distance) / self.thickness**2 * x / np.maximum(r, 1e-300)
+        found[beyond] = (x / r**3)[beyond]
+        return np.asarray(found)
+
+    def _within_reach(self, x: Array, y: Array, function: Callable[[Array, Array], Array]) -> Array:
+        x, y = np.broadcast_arrays(x, y)
+        inside = np.hypot(x, y) < self._table.reach * self.thickness + 1.0 + self.aspect
+        result = np.zeros(x.shape)
+        result[inside] = function(x[inside], y[inside])
+        return result
+
+
+@dataclass(frozen=True)
+class LayerStrip:
+    """Potential of a cell of a line contact on a layer, in units of the cell's length; the same for all y.
+
+    Attributes
+    ----------
+    thickness : float
+        H in units of the cell's length.
+    bonded : bool
+    poisson_ratio : float
+    """
+
+    thickness: float
+    bonded: bool
+    poisson_ratio: float
+
+    @cached_property
+    def _table(self) -> _Table:
+        return _taken_by_base(self.poisson_ratio, self.bonded, True)
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """∫_cell g, seen from x."""
+        x, _ = np.broadcast_arrays(x, y)
+        result = strip_potential(x) + math.log(self.thickness)
+        for dx, weight in zip(*_cell_rule(1.0 / self.thickness), strict=True):
+            distance = np.abs(x - dx) / self.thickness
+            beyond = distance >= self._table.reach
+            taken = self._table(distance)
+            taken[beyond] = np.log(distance[beyond])
+            result += weight * taken
+        result[np.abs(x) >= self._table.reach * self.thickness + 1.0] = 0.0
+        return result
+
+    def xx(self, x: Array, y: Array) -> Array:
+        """Second derivative along x (not for x = ±1/2)."""
+        x, _ = np.broadcast_arrays(x, y)
+        result = np.zeros(x.shape)
+        for end, sign in ((0.5, 1.0), (-0.5, -1.0)):
+            distance = np.abs(x + end) / self.thickness
+            within = distance < self._table.reach
+            slope = self._table.slope(distance[within]) * np.sign(x[within] + end) / self.thickness
+            result[within] += sign * (slope - 1.0 / (x[within] + end))
+        return result
