@@ -26,10 +26,12 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from viscofric.contact.backend import AnyArray, Backend, Cells
 
 # How far a linear residual is reduced while more than the given part of the contact's cells is wrongly classified.
-_REDUCTIONS = ((0.02, 0.3), (0.001, 0.1), (0.0, 1e-4))
+_REDUCTIONS = ((0.02, 0.3), (0.0003, 0.1), (0.0, 1e-4))
 _FIRST_REDUCTION = 1e-1
 _LEAST_REDUCTION = 1e-7
 _DIRECTIONS = 40  # search directions that GCR keeps
@@ -51,6 +53,13 @@ class ContactOperator(Protocol):
 
     def precondition(self, residual: AnyArray) -> AnyArray:
         """Approximate inverse of the operator."""
+
+
+class CoarseCorrection(Protocol):
+    """What the solver asks of a correction on something coarser than cells."""
+
+    def on(self, contact: AnyArray, *, fixed_load: bool) -> Callable[[AnyArray], AnyArray]:
+        """Return what answers a residual on a contact set with a pressure."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +113,7 @@ def solve_complementarity(
     patience: int | None = None,
     tighten: Literal["without headway", "near the end"] = "without headway",
     directions: int = _DIRECTIONS,
+    coarse: CoarseCorrection | None = None,
 ) -> ComplementaritySolution:
     """Solve the contact problem for a given load, or for a given indentation.
 
@@ -134,6 +144,8 @@ def solve_complementarity(
         When linear problems are solved more tightly; see above.
     directions : int
         Search directions that are kept while a linear problem is solved: two numbers each for every cell in contact.
+    coarse : CoarseCorrection, optional
+        Gives every other search direction, in turn with the operator's preconditioner.
 
     Returns
     -------
@@ -173,9 +185,10 @@ def solve_complementarity(
             return best
         contact = backend.cells((pressure > 0.0) | overlapping)
         unit = abs(state_now.indentation) if depth is None else depth
-        correction, steps, linear = _solve_on_contact(
-            inner, gap, contact, reduction, 0.5 * tolerance * unit, directions, fixed_load=load is not None
-        )
+        correction, steps, linear = solve_on_contact(
+            inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=directions,
+            fixed_load=load is not None, coarse=coarse,
+        )  # fmt: skip
         linear_iterations += steps
         pressure = pressure + contact.scattered(correction)
         negative = pressure < 0.0
@@ -227,20 +240,41 @@ def _look(
     return state, gap, overlapping
 
 
-def _solve_on_contact(
+def solve_on_contact(
     operator: ContactOperator,
     gap: AnyArray,
     contact: Cells,
+    *,
     reduction: float,
     floor: float,
-    most: int,
-    *,
+    directions: int,
     fixed_load: bool,
+    coarse: CoarseCorrection | None = None,
+    most_steps: int = _LINEAR_ITERATIONS,
 ) -> tuple[AnyArray, int, float]:
     """Correct the pressures on a fixed contact set until its gap is closed, or level for a fixed load.
 
-    Keeps `most` search directions.  Returns the corrections at the cells of the set, the number of steps and the
-    relative residual.
+    Parameters
+    ----------
+    operator : ContactOperator
+    gap : (nx, ny) array
+    contact : Cells
+    reduction, floor : float
+        Where to stop: Euclidean norm of the gap over that at the start, or the largest gap.
+    directions : int
+        Search directions that are kept.
+    fixed_load : bool
+        Whether the corrections must sum to zero, and the gap need be level only.
+    coarse : CoarseCorrection, optional
+    most_steps : int
+
+    Returns
+    -------
+    correction : (n,) array
+        At the cells of the set.
+    steps : int
+    residual : float
+        Relative.
     """
     backend, xp = operator.backend, operator.backend.xp
 
@@ -262,14 +296,18 @@ def _solve_on_contact(
     target, floor = reduction * first, floor / unit
     correction = xp.zeros_like(residual)
     # Directions z and their images A z, orthonormal among themselves, in a ring that forgets the oldest.
-    directions: list[AnyArray] = []
+    kept: list[AnyArray] = []
     images: list[AnyArray] = []
+    # A coarse correction comes first, since it leaves steps at the edges of blocks, which the other smooths.
+    turns: list[Callable[[AnyArray], AnyArray]] = [operator.precondition]
+    if coarse is not None:
+        turns.insert(0, coarse.on(contact.chosen, fixed_load=fixed_load))
     steps = 0
-    while steps == 0 or (steps < _LINEAR_ITERATIONS and left > target and largest > floor):
-        direction = projected(operator.precondition(contact.scattered(residual)))
+    while steps == 0 or steps % len(turns) or (steps < most_steps and left > target and largest > floor):
+        direction = projected(turns[steps % len(turns)](contact.scattered(residual)))
         image = projected(operator(contact.scattered(direction)))
         overlaps = [other @ image for other in images]
-        for overlap, other, its_direction in zip(overlaps, images, directions, strict=True):
+        for overlap, other, its_direction in zip(overlaps, images, kept, strict=True):
             image -= overlap * other
             direction -= overlap * its_direction
         length = math.sqrt(float(image @ image))
@@ -281,11 +319,11 @@ def _solve_on_contact(
         correction += step * direction
         residual -= step * image
         left, largest = _sizes(backend, residual)
-        if len(images) == most:
-            images[steps % most], directions[steps % most] = image, direction
+        if len(images) == directions:
+            images[steps % directions], kept[steps % directions] = image, direction
         else:
             images.append(image)
-            directions.append(direction)
+            kept.append(direction)
         steps += 1
     return unit * correction, steps, left / first if first else 0.0
 

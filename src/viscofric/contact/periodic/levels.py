@@ -8,11 +8,13 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.periodic.blocks import Blocks, block_size
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.contact.periodic.surface import interpolated
@@ -30,11 +32,12 @@ if TYPE_CHECKING:
 logger = logging.getLogger(__name__)
 
 COARSEST = 32  # points along the longer edge of the coarsest grid, about
-COARSE_TOLERANCE = 1e-2  # a coarser surface is another one: more would be wasted on it
+COARSE_TOLERANCE = 1e-3  # a coarser surface is another one: more would be wasted on it
 
 _PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
 _FEW_DIRECTIONS, _MANY_DIRECTIONS = 8, 40  # kept by the linear solver; the first are enough for most contacts
-_FIRST_STEPS = 20  # of the splitting on each grid of a viscoelastic solid
+_FIRST_STEPS = (5, 10)  # of the splitting on each grid of an elastic and of a viscoelastic solid
+_MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
 _STIFFNESSES = (0.2, 1.0)  # ρ of the splitting, in turn; the first suits most contacts
 _GROWTH = 2.0  # of the splitting's steps from round to round
 _MOST_COARSE_PRODUCTS = 2000  # on a grid that only gives the next one its start
@@ -186,14 +189,14 @@ class _Level:
             return full
         if pressure is None or not self._loaded(pressure):
             pressure = self._first_guess()
-        if not self.elastic:
-            pressure = self._split(self.single, pressure, _FIRST_STEPS, _STIFFNESSES[0])
+        # These find most of the contact set, and cost half of a linear step each.
+        pressure = self._split(self.single, pressure, _FIRST_STEPS[0 if self.elastic else 1], _STIFFNESSES[0])
         result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS, self.most_products)
         if not result.converged and self.products < self.most_products:
             # A little more of the cheap kind brings most of those that remain near enough.
-            pressure = self._split(self.single, pressure, 2 * _FIRST_STEPS, _STIFFNESSES[0])
+            pressure = self._split(self.single, pressure, _MORE_STEPS, _STIFFNESSES[0])
             result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS, self.most_products)
-        steps, turn = 4 * _FIRST_STEPS, 0
+        steps, turn = 2 * _MORE_STEPS, 0
         while not result.converged and self.products < self.most_products:
             # Not from where the active set went: only its own steps bring the splitting nearer and nearer.
             turn += 1
@@ -203,6 +206,12 @@ class _Level:
             result = self._active_set(pressure, _PATIENCE, _MANY_DIRECTIONS, allowed)
             steps = int(_GROWTH * steps)
         return result
+
+    @cached_property
+    def blocks(self) -> Blocks | None:
+        """Coarse correction of the linear problems."""
+        size = block_size(self.shape)
+        return None if size is None else Blocks(self.single, size)
 
     @property
     def products(self) -> int:
@@ -223,6 +232,7 @@ class _Level:
             patience=patience,
             tighten="near the end",
             directions=directions,
+            coarse=self.blocks,
         )
         self.set_changes += result.set_changes
         self.linear_iterations += result.linear_iterations
