@@ -193,11 +193,12 @@ def solve_complementarity(
         pressure = pressure + contact.scattered(correction)
         negative = pressure < 0.0
         pressure[negative] = 0.0
-        wrong = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(negative))
+        wrong, cells = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(negative)), len(contact)
         pressure = _loaded_to(xp, pressure, load)
+        del state_now, gap, overlapping, contact, correction, negative  # large, and no longer needed
         displacement = operator(pressure)
         if near_end:
-            reduction = next(each for part, each in _REDUCTIONS if wrong > part * len(contact) or part == 0.0)
+            reduction = next(each for part, each in _REDUCTIONS if wrong > part * cells or part == 0.0)
         elif wrong_before is not None and wrong > 0.5 * wrong_before:
             reduction = max(0.1 * reduction, _LEAST_REDUCTION)
         wrong_before = wrong

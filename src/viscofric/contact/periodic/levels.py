@@ -21,7 +21,7 @@ from viscofric.contact.periodic.surface import interpolated
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
@@ -94,7 +94,7 @@ def coarser_shapes(shape: tuple[int, int]) -> list[tuple[int, int]]:
 
 
 def solve_on_levels(
-    stages: Iterable[Stage],
+    stages: Iterator[Stage],
     *,
     mean_pressure: float | None,
     offset: float | None,
@@ -106,7 +106,8 @@ def solve_on_levels(
 
     Parameters
     ----------
-    stages : iterable of Stage
+    stages : iterator of Stage
+        Coarsest first; each is asked for when it is needed.
     mean_pressure : float or None
     offset : float or None
         Mean gap, where no pressure is given.
@@ -124,10 +125,10 @@ def solve_on_levels(
     """
     pressure: Array | None = None
     grids: list[tuple[int, int, int]] = []
-    queue = list(stages)
+    stage = next(stages)
     while True:
-        stage = queue.pop(0)
-        if queue:
+        finer = next(stages, None)
+        if finer is not None:
             wanted, most = COARSE_TOLERANCE, min(most_products, _MOST_COARSE_PRODUCTS)
         else:
             wanted, most = tolerance, most_products
@@ -136,8 +137,9 @@ def solve_on_levels(
         ffts = level.exact.ffts + level.single.ffts
         grids.append((*level.shape, ffts))
         logger.debug("%s points: %s FFTs, residual %.1e", level.shape, ffts, result.complementarity)
-        if queue:
-            pressure = interpolated(result.pressure, queue[0].height.shape)
+        if finer is not None:
+            pressure = interpolated(result.pressure, finer.height.shape)
+            stage = finer
             continue
         if not result.converged:
             raise ConvergenceError(

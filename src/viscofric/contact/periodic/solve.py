@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -130,10 +131,10 @@ def solve_periodic(
     # The unit of compliance, m/Pa: that of the wave which yields most.
     unit = float(np.abs(finest).max())
     finest /= unit
-    stages = [_stage(surface, solid, depth, unit, shape) for shape in reversed(coarser_shapes(surface.shape))]
-    stages.append(Stage((surface.z.max() - surface.z) / depth, finest))
+    coarse = (_stage(surface, solid, depth, unit, shape) for shape in reversed(coarser_shapes(surface.shape)))
+    fine = (Stage((surface.z.max() - surface.z) / depth, finest) for _ in range(1))
     result, work = solve_on_levels(
-        stages,
+        itertools.chain(coarse, fine),
         mean_pressure=None if given.pressure is None else given.pressure * unit / depth,
         offset=None if given.gap is None else given.gap / depth,
         tolerance=tolerance,
