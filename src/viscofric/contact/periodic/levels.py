@@ -35,8 +35,9 @@ COARSEST = 32  # points along the longer edge of the coarsest grid, about
 COARSE_TOLERANCE = 1e-3  # a coarser surface is another one: more would be wasted on it
 
 _PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
-_FEW_DIRECTIONS, _MANY_DIRECTIONS = 8, 40  # kept by the linear solver; the first are enough for most contacts
-_FIRST_STEPS = (5, 10)  # of the splitting on each grid of an elastic and of a viscoelastic solid
+_FEW_DIRECTIONS = (4, 6)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
+_MANY_DIRECTIONS = 40
+_FIRST_STEPS = (5, 10)  # of the splitting on each grid, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
 _STIFFNESSES = (0.2, 1.0)  # ρ of the splitting, in turn; the first suits most contacts
 _GROWTH = 2.0  # of the splitting's steps from round to round
@@ -192,12 +193,14 @@ class _Level:
         if pressure is None or not self._loaded(pressure):
             pressure = self._first_guess()
         # These find most of the contact set, and cost half of a linear step each.
-        pressure = self._split(self.single, pressure, _FIRST_STEPS[0 if self.elastic else 1], _STIFFNESSES[0])
-        result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS, self.most_products)
+        kind = 0 if self.elastic else 1
+        few = _FEW_DIRECTIONS[kind]
+        pressure = self._split(self.single, pressure, _FIRST_STEPS[kind], _STIFFNESSES[0])
+        result = self._active_set(pressure, 2 * _PATIENCE, few, self.most_products)
         if not result.converged and self.products < self.most_products:
             # A little more of the cheap kind brings most of those that remain near enough.
             pressure = self._split(self.single, pressure, _MORE_STEPS, _STIFFNESSES[0])
-            result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS, self.most_products)
+            result = self._active_set(pressure, 2 * _PATIENCE, few, self.most_products)
         steps, turn = 2 * _MORE_STEPS, 0
         while not result.converged and self.products < self.most_products:
             # Not from where the active set went: only its own steps bring the splitting nearer and nearer.
