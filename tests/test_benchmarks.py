@@ -1,4 +1,4 @@
-"""The rheology benchmark runs without its peers and measures what it says."""
+"""The benchmarks run without their peers, on the smallest of their problems, and measure what they say."""
 
 from __future__ import annotations
 
@@ -16,14 +16,25 @@ from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-FOLDER = Path(__file__).resolve().parents[1] / "benchmarks" / "rheology"
+BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
 
 
 @pytest.fixture
 def benchmark_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Let the benchmark's files import each other, and forget them afterwards: their names are common ones."""
+    """Let the rheology benchmark's files import each other."""
+    yield from _importable("rheology", monkeypatch)
+
+
+@pytest.fixture
+def contact_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let the contact benchmarks' files import each other."""
+    yield from _importable("contact", monkeypatch)
+
+
+def _importable(folder: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Put a folder on the path, and forget its files afterwards: their names are common ones."""
     before = set(sys.modules)
-    monkeypatch.syspath_prepend(str(FOLDER))
+    monkeypatch.syspath_prepend(str(BENCHMARKS / folder))
     yield
     for name in set(sys.modules) - before:
         origin = getattr(sys.modules[name], "__file__", None) or ""
@@ -101,3 +112,97 @@ def test_spectra_of_peers_are_measured_as_prony_series() -> None:
     assert found["modes"] == 2
     assert found["storage"] == pytest.approx(np.log10(1.1))
     assert found["loss"] == pytest.approx(0.0, abs=1e-12)
+
+
+def read(path: Path) -> dict[str, Any]:
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import ball
+
+    ball.main(["--cells", "64", "--memory", "1", "--json", str(tmp_path / "new" / "ball.json")])
+    assert "vτ/a0 = 1 " in capsys.readouterr().out
+    results = read(tmp_path / "new" / "ball.json")
+    assert results["measured_with"]["viscofric"] == vf.__version__
+    (row,) = results["rows"]
+    assert row["cells"] == 64
+    assert 1 < row["finest_products"] < row["products"]
+    assert row["residual"] <= 1e-8
+    assert row["fft_pairs"] == pytest.approx(row["seconds"] / row["seconds_per_pair"])
+    # 0.1305 on finer grids (both ways to the friction agree there to 1e-4): of second order, 64 cells leave a percent
+    assert row["pressure_friction"] == pytest.approx(0.1305, rel=0.01)
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_rough_benchmark_leaves_a_reason_where_a_peer_is_missing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import rough
+
+    rough.main(["--sizes", "32", "--peers", str(tmp_path), "--json", str(tmp_path / "rough.json")])
+    assert "not installed; run benchmarks/contact/make_peers.sh" in capsys.readouterr().out
+    elastic, viscoelastic, *peers = read(tmp_path / "rough.json")["rows"]
+    assert len(peers) == 2
+    assert elastic["ratio"] == 1.0
+    assert elastic["friction"] == 0.0 < viscoelastic["friction"]
+    assert max(elastic["residual"], viscoelastic["residual"]) <= 1e-8
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_residual_of_the_rough_benchmark_is_that_of_the_pressures() -> None:
+    import problems
+    import rough
+
+    surface = problems.rough_surface(32)
+    pressure = problems.elastic_rough(surface).pressure
+    assert rough.residual(pressure, surface) <= 2e-8  # the solver's own measure, at another mean gap
+    spoilt = pressure.copy()
+    spoilt[np.unravel_index(pressure.argmax(), pressure.shape)] *= 1.01
+    assert rough.residual(spoilt, surface) > 1e-4
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
+    import scaling
+
+    scaling.main(["--sizes", "32", "64", "--problems", "elastic", "--json", str(tmp_path / "scaling.json")])
+    small, large = read(tmp_path / "scaling.json")["rows"]
+    assert (small["points"], large["points"]) == (32, 64)
+    assert large["exponent"] == pytest.approx(np.log(large["seconds"] / small["seconds"]) / np.log(4.0))
+    # At least pressure, displacement and heights; less than what a matrix would take.
+    assert all(3.0 < row["arrays"] < 32**2 for row in (small, large))
+    assert large["megabytes"] > small["megabytes"]
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_growth_is_the_exponent_of_a_power_law() -> None:
+    import measuring
+
+    assert measuring.growth([1e4, 4e4, 16e4], [2.0, 2.0 * 4**1.1, 2.0 * 16**1.1]) == pytest.approx(1.1)
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_steps_in_time_lead_to_the_steady_friction_in_first_order() -> None:
+    import maxwell
+    import problems
+
+    surface = vf.PeriodicSurface(problems.self_affine(32, points_per_shortest_wave=16.0), 1.0 / 32)
+    steady = maxwell.steady_friction(surface)
+    coarse, fine = (
+        maxwell.steady_friction(surface, maxwell.time_step(surface, substeps)) - steady for substeps in (128, 256)
+    )
+    assert coarse / fine == pytest.approx(2.0, rel=0.02)  # of first order in Δt, up to its second
+    assert maxwell.substeps_needed(surface) > 4
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_maxwell_benchmark_without_its_peer(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import maxwell
+
+    maxwell.main(["--points", "32", "--verify", "16", "--peers", str(tmp_path), "--json", str(tmp_path / "m.json")])
+    assert "not installed" in capsys.readouterr().out
+    own, peer = read(tmp_path / "m.json")["cost"]
+    assert own["friction"] > 0.0
+    assert "error" in peer
