@@ -206,3 +206,19 @@ def test_maxwell_benchmark_without_its_peer(tmp_path: Path, capsys: pytest.Captu
     own, peer = read(tmp_path / "m.json")["cost"]
     assert own["friction"] > 0.0
     assert "error" in peer
+
+
+@pytest.mark.usefixtures("contact_path")
+def test_curve_benchmark_measures_its_true_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import curve
+
+    # the fast end of the curve, where coarse grids do
+    arguments = ["--speeds", "2", "--slowest", "1e2", "--decades", "4", "--workers", "1", "--accuracy", "0.005"]
+    curve.main([*arguments, "--check", "1", "--json", str(tmp_path / "curve.json")])
+    assert "failures" in capsys.readouterr().out
+    results = read(tmp_path / "curve.json")
+    (row,), points = results["rows"], results["points"]
+    assert (row["speeds"], row["failures"], row["checked"]) == (2, 0, 1)
+    assert 0.0 < row["worst_error"] == points[0]["true_error"] < 0.005
+    assert row["worst_estimate"] <= 0.005
+    assert row["wall_seconds"] > 0.0 < row["seconds"]

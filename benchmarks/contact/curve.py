@@ -1,7 +1,7 @@
 """A whole friction curve of a ball: wall and CPU time, failures, and how far the friction is off.
 
-Usage: python benchmarks/contact/curve.py [--speeds 60] [--slowest 1e-2] [--workers 2]
-       [--accuracy 1e-3] [--check 6] [--json FILE]
+Usage: python benchmarks/contact/curve.py [--speeds 60] [--slowest 1e-2] [--decades 15]
+       [--workers 2] [--accuracy 1e-3] [--check 6] [--json FILE]
 
 A rubber of 40 modes over thirteen decades, E_inf/E0 = 1000, speeds over fifteen decades, through
 `viscofric.predict_friction` as a user calls it.  `--check N` solves every so-many-th speed again to a twentieth of the
@@ -26,7 +26,6 @@ from problems import CURVE_BALL, CURVE_LOAD, CURVE_RUBBER, curve_speeds
 
 import viscofric as vf
 
-DECADES = 15.0
 COLUMNS = (
     ("speeds", "speeds", "d"),
     ("wall s", "wall_seconds", ".2f"),
@@ -39,10 +38,10 @@ COLUMNS = (
 
 
 def measure(
-    count: int, slowest: float, workers: int, accuracy: float, checks: int
+    count: int, slowest: float, decades: float, workers: int, accuracy: float, checks: int
 ) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     """Predict the curve; a row of the table, and what each speed gave."""
-    speeds = curve_speeds(slowest, DECADES, count)
+    speeds = curve_speeds(slowest, decades, count)
     row: dict[str, Any] = {"case": f"{workers} process{'es' * (workers > 1)}", "speeds": count}
     wall, cpu = time.perf_counter(), _cpu_with_children()
     try:
@@ -94,12 +93,15 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--speeds", type=int, default=60)
     parser.add_argument("--slowest", type=float, default=1e-2, help="longest memory v τ_max/a0 at the slowest speed")
+    parser.add_argument("--decades", type=float, default=15.0, help="that the speeds cover")
     parser.add_argument("--workers", type=int, default=2, help="processes")
     parser.add_argument("--accuracy", type=float, default=1e-3)
     parser.add_argument("--check", type=int, default=6, help="speeds that are solved again, much more accurately")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
-    row, points = measure(options.speeds, options.slowest, options.workers, options.accuracy, options.check)
+    row, points = measure(
+        options.speeds, options.slowest, options.decades, options.workers, options.accuracy, options.check
+    )
     measuring.print_table("friction curve of a ball, 40 modes over thirteen decades", [row], COLUMNS)
     measuring.write_json(options.json, {"rows": [row], "points": points})
 

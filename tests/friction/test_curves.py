@@ -63,6 +63,21 @@ def test_prediction_covers_every_speed_and_temperature(predicted: FrictionCurves
     assert predicted.coulomb is None
 
 
+def test_processes_that_share_the_contacts_find_the_same_digits(rubber: vf.Material, predicted: FrictionCurves) -> None:
+    shared = predict_friction(
+        rubber,
+        BALL,
+        speeds=["50 mm/s", "200 mm/s"],
+        temperatures=["45 degC", "60 degC"],
+        load="2 N",
+        accuracy=ACCURACY,
+        workers=2,
+    )
+    np.testing.assert_array_equal(shared.speed, predicted.speed)
+    np.testing.assert_array_equal(shared.viscoelastic, predicted.viscoelastic)
+    np.testing.assert_array_equal(shared.viscoelastic_error, predicted.viscoelastic_error)
+
+
 def test_progress_is_reported(rubber: vf.Material) -> None:
     calls: list[tuple[int, int]] = []
     predict_friction(
@@ -86,6 +101,7 @@ def test_progress_is_reported(rubber: vf.Material) -> None:
         ({"speeds": "100 mm"}, "speeds = '100 mm': has the wrong kind of unit"),
         ({"temperatures": 0.0}, "temperatures must be above zero"),
         ({"load": "-1 N"}, "load = '-1 N': must be above zero"),
+        ({"workers": 0}, "workers = 0: must be a whole number of processes above zero"),
     ],
 )
 def test_senseless_conditions_are_refused(rubber: vf.Material, change: dict[str, object], message: str) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
+from viscofric.processes import call_all
 from viscofric.units import Quantities, Quantity, celsius, positive, to_si_array
 
 if TYPE_CHECKING:
@@ -291,6 +292,7 @@ def predict_friction(
     temperatures: Quantities,
     load: Quantity,
     accuracy: float = 1e-3,
+    workers: int = 1,
     progress: Callable[[int, int], object] | None = None,
 ) -> FrictionCurves:
     """Predict the viscoelastic friction at every one of the speeds and temperatures by solving the contact.
@@ -308,6 +310,8 @@ def predict_friction(
         Normal load, N if a plain number.
     accuracy : float
         Relative error of each friction coefficient that is aimed at; see `solve_steady`.
+    workers : int
+        Processes that share the contacts out among them; the result is the same to the last digit.
     progress : callable, optional
         Called as ``progress(done, total)`` before the first and after every contact.
 
@@ -345,22 +349,23 @@ def predict_friction(
             raise InputError(f"{name} must hold at least one value.")
         if not np.all(values > 0.0):
             raise InputError(f"{name} must be above zero everywhere, but one is {values.min():g} {unit}.")
-    total = kelvins.size * velocities.size
-    solutions: list[ContactSolution] = []
-    if progress is not None:
-        progress(0, total)
-    for kelvin in kelvins:
-        for velocity in velocities:
-            solutions.append(
-                solve_steady(
-                    material,
-                    indenter,
-                    speed=float(velocity),
-                    load=force,
-                    temperature=float(kelvin),
-                    accuracy=accuracy,
-                )
-            )
-            if progress is not None:
-                progress(len(solutions), total)
+    contacts = [
+        {
+            "material": material,
+            "indenter": indenter,
+            "speed": float(velocity),
+            "load": force,
+            "temperature": float(kelvin),
+            "accuracy": accuracy,
+        }
+        for kelvin in kelvins
+        for velocity in velocities
+    ]
+
+    def tell(done: int) -> None:
+        if progress is not None:
+            progress(done, len(contacts))
+
+    tell(0)
+    solutions: list[ContactSolution] = call_all(solve_steady, contacts, workers=workers, progress=tell)
     return FrictionCurves.from_solutions(solutions)
