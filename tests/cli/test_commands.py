@@ -18,6 +18,7 @@ from click.testing import CliRunner, Result
 from viscofric.cli import main
 from viscofric.cli.run import tell
 from viscofric.study import open_results
+from viscofric.study.results import save_results
 
 EXAMPLE = Path(str(files("viscofric"))) / "example"
 STUDY = """
@@ -253,6 +254,10 @@ def test_interruption_while_modules_load_is_one_sentence(finished: Path, tmp_pat
 def test_matplotlib_writes_nothing_to_the_home_folder(finished: Path, tmp_path: Path) -> None:
     home = tmp_path / "home"
     home.mkdir()
+    few = open_results(finished)
+    for name in ("isotherms", "shift_factors", "master_curve", "prediction", "prediction_master"):
+        del few.tree[name]  # one figure is enough to make matplotlib look for its folders
+    save_results(few.tree, finished)
     unset = {"HOME": str(home), "MPLCONFIGDIR": "", "XDG_CACHE_HOME": "", "XDG_CONFIG_HOME": ""}
     script = "import os; [os.environ.pop(name, None) for name in ('MPLCONFIGDIR', 'XDG_CACHE_HOME', 'XDG_CONFIG_HOME')]"
     script += "; from viscofric.cli import main; main(['report', 'finished.results'])"

@@ -10,7 +10,6 @@ factorisations of the bordered matrix, symmetric half in y).  Made for 16 to 40 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -55,31 +54,34 @@ def _log_sum(b: Array, a: Array) -> Array:
     return np.where(b >= 0.0, np.log(np.abs(b) + radius), 2.0 * np.log(np.abs(a)) - np.log(np.abs(b) + radius))
 
 
-def memory_coefficients(nx: int, ny: int, memory_length: float) -> Array:
-    """∫_0^∞ e^(−z) L(x + λz, y) dz at x = −(nx−1) … nx−1 and y = 0 … ny−1 in cells, λ in cells."""
+def memory_coefficients(nx: int, ny: int, strengths: Array, memory_lengths: Array) -> Array:
+    """Σ c_m ∫_0^∞ e^(−z) L(x + λ_m z, y) dz at x = −(nx−1) … nx−1 and y = 0 … ny−1 in cells, λ in cells."""
     rows = np.arange(float(ny))
-    result = np.empty((2 * nx - 1, ny))
+    result = np.zeros((2 * nx - 1, ny))
+    if len(memory_lengths) == 0:
+        return result
     for i, x in enumerate(np.arange(-(nx - 1.0), nx)):
-        edges = memory_panels(x, memory_length)
+        edges = memory_panels(x, float(np.min(memory_lengths)), float(np.max(memory_lengths)))
         half = 0.5 * np.diff(edges)[:, None]
         s = (edges[:-1, None] + half * (1.0 + _GAUSS_POINTS)).ravel()
-        weight = (half * _GAUSS_WEIGHTS).ravel() * np.exp(-s / memory_length) / memory_length
-        result[i] = weight @ square_potential(x + s[:, None], rows)
+        memory = (strengths / memory_lengths) @ np.exp(-s / memory_lengths[:, None])
+        result[i] = ((half * _GAUSS_WEIGHTS).ravel() * memory) @ square_potential(x + s[:, None], rows)
     return result
 
 
-def memory_panels(x: float, memory_length: float) -> Array:
-    """Break points in s = λz: dense at zero and at the loaded cell's edges, no longer than 3λ."""
-    end = _FADED * memory_length
-    graded = 0.5 * 1.8 ** np.arange(-40.0, np.log(2.0 * end + 2.0) / np.log(1.8) + 2.0)
-    coarse = 0.5 * 1.8 ** np.arange(0.0, np.log(2.0 * end + 2.0) / np.log(1.8) + 2.0)
-    edges = [np.array([0.0, end]), coarse]
-    for singular in (-x - 0.5, -x + 0.5):
+def memory_panels(x: float, shortest: float, longest: float) -> Array:
+    """Break points in s = λz, for all modes: they crowd at zero and at the loaded cell's edges.
+
+    A panel is no longer than 0.8 times its distance from zero, so that a mode has either not faded much along it or
+    has faded before it.
+    """
+    end = _FADED * longest
+    graded = min(0.5, shortest) * 1.8 ** np.arange(-40.0, np.log(2.0 * end / min(0.5, shortest)) / np.log(1.8) + 2.0)
+    edges = [np.array([0.0, end])]
+    for singular in (0.0, -x - 0.5, -x + 0.5):
         edges += [np.array([singular]), singular + graded, singular - graded]
     points = np.unique(np.concatenate(edges))
-    points = np.concatenate([[0.0], points[(points > 0.0) & (points < end)], [end]])
-    pieces = [np.linspace(a, b, 1 + int(np.ceil((b - a) / (3.0 * memory_length))))[:-1] for a, b in pairwise(points)]
-    return np.concatenate([*pieces, [end]])
+    return np.concatenate([[0.0], points[(points > 0.0) & (points < end)], [end]])
 
 
 def displacement_coefficients(
@@ -88,8 +90,7 @@ def displacement_coefficients(
     """Displacement at offset (i, j) cells from a cell under unit pressure; compliances include (1 − ν²)."""
     x, y = np.arange(-(nx - 1.0), nx)[:, None], np.arange(float(ny))
     total = glassy * square_potential(x, y)
-    for compliance, length in zip(compliances, memory_lengths, strict=True):
-        total = total + compliance * memory_coefficients(nx, ny, length / spacing)
+    total += memory_coefficients(nx, ny, np.asarray(compliances), np.asarray(memory_lengths) / spacing)
     return total * spacing / np.pi
 
 

@@ -188,7 +188,7 @@ def test_wide_window_agrees_with_quadrature_by_panels() -> None:
     points, weights = np.polynomial.legendre.leggauss(12)
     for m, memory_length in enumerate(memory_lengths):
         for i, j in ((-79, 0), (-40, 3), (-26, 0), (-25, 23), (-25, 24), (0, 24), (24, 0), (26, 2), (79, 0), (79, 59)):
-            edges = memory_panels(float(i), memory_length)
+            edges = memory_panels(float(i), memory_length, memory_length)
             half = 0.5 * np.diff(edges)[:, None]
             s = (edges[:-1, None] + half * (1.0 + points)).ravel()
             faded = (half * weights).ravel() * np.exp(-s / memory_length) / memory_length

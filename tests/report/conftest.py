@@ -8,12 +8,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.collections import PathCollection
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
 
+from viscofric.report import drawing
 from viscofric.rheology.cards.native import plain
 from viscofric.rheology.shifts.laws import WLF
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from matplotlib.figure import Figure
 
 REFERENCE = 303.15  # K
 C1, C2 = 10.04, 89.6  # WLF at the reference; K
@@ -235,6 +241,19 @@ def make_tree() -> Callable[..., xr.DataTree]:
         return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **groups})
 
     return make
+
+
+@pytest.fixture
+def unrendered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let figures be drawn, but not turned into images, which takes a hundred times as long; each is its own text."""
+
+    def words(figure: Figure, form: str) -> bytes:
+        texts = [text.get_text() for text in figure.findobj(Text)]
+        points = [line.get_xydata() for line in figure.findobj(Line2D)]
+        points += [np.asarray(markers.get_offsets()) for markers in figure.findobj(PathCollection)]
+        return f"{form} {texts} {[array.tolist() for array in points]}".encode()
+
+    monkeypatch.setattr(drawing, "_image", words)
 
 
 @pytest.fixture

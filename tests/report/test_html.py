@@ -77,6 +77,7 @@ def write(tree: xr.DataTree, folder: Path) -> tuple[str, Page]:
     return source, Page(source)
 
 
+@pytest.mark.usefixtures("unrendered")
 def test_page_has_every_part(tree: xr.DataTree, tmp_path: Path) -> None:
     _, page = write(tree, tmp_path)
     ids = page.attributes("id")
@@ -176,6 +177,7 @@ def test_synthetic_data_are_announced_first(
         assert page.text.index("Synthetic data:") < page.text.index("What was asked")
 
 
+@pytest.mark.usefixtures("unrendered")
 def test_page_without_measurement_does_not_speak_of_one(make_tree: Callable[..., xr.DataTree], tmp_path: Path) -> None:
     _, page = write(make_tree(measurement=False, data_origin="measured"), tmp_path)
     ids = page.attributes("id")
@@ -185,6 +187,7 @@ def test_page_without_measurement_does_not_speak_of_one(make_tree: Callable[...,
     assert "Coulomb" not in page.text
 
 
+@pytest.mark.usefixtures("unrendered")
 def test_page_of_one_case(make_tree: Callable[..., xr.DataTree], tmp_path: Path) -> None:
     _, page = write(make_tree(measurement=False, speeds=1, temperatures=1), tmp_path)
     text = page.text.replace("\N{NO-BREAK SPACE}", " ")
@@ -226,6 +229,7 @@ def test_study_file_with_a_space_is_quoted_in_the_command(
     assert "viscofric run 'my study.toml'" in page.text
 
 
+@pytest.mark.usefixtures("unrendered")
 def test_same_results_give_the_same_page(make_tree: Callable[..., xr.DataTree], tmp_path: Path) -> None:
     first = report.write_report(make_tree(), tmp_path / "one").read_bytes()
     assert report.write_report(make_tree(), tmp_path / "two").read_bytes() == first
@@ -239,6 +243,7 @@ def test_many_speeds_are_thinned_at_a_glance_only(make_tree: Callable[..., xr.Da
     assert "all of them are in the tables below" in glance.caption
 
 
+@pytest.mark.usefixtures("unrendered")
 def test_report_that_cannot_be_written_is_told(tree: xr.DataTree, tmp_path: Path) -> None:
     (tmp_path / "report.html").mkdir()
     with pytest.raises(DataFileError, match=r"report\.html: cannot be written \(.*director"):

@@ -1,0 +1,21 @@
+"""What tests of the command line share."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@pytest.fixture(scope="module", autouse=True)
+def unrendered() -> Iterator[None]:
+    """Let figures be drawn, but not turned into images, most of the time of a quick study.
+
+    Tests of the report look at the images; programs of their own, such as those of the README's commands, write them.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("viscofric.report.drawing._image", lambda figure, form: form.encode())
+        yield
