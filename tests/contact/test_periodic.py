@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
-import json
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -393,24 +390,6 @@ def test_few_points_and_all_but_few_touch(pressure: float) -> None:
     assert solution.diagnostics.complementarity <= 1e-8
     area = solution.contact_area_fraction
     assert area < 1e-3 if pressure < 1.0 else area > 0.999
-
-
-def test_benchmark_measures_what_it_says(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = Path(__file__).parents[2] / "benchmarks" / "contact" / "rough.py"
-    specification = importlib.util.spec_from_file_location("rough_benchmark", path)
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    module.main(["--sizes", "64", "--json", str(tmp_path / "rough.json"), "--peers", str(tmp_path / "nowhere")])
-    rows = json.loads((tmp_path / "rough.json").read_text(encoding="utf-8"))
-    assert [row["tool"] for row in rows] == ["viscofric", "viscofric, viscoelastic", "contact_mechanics", "tamaas"]
-    assert all(row["residual"] <= 1e-8 for row in rows[:2])
-    assert all("error" in row for row in rows[2:])
-    assert "ratio" in capsys.readouterr().out
-    # The measure that peers are held against, on our own answer
-    _, surface, solution = module.own(64, viscoelastic=False)
-    assert module.residual(solution.pressure, surface) == pytest.approx(solution.diagnostics.complementarity, rel=0.1)
 
 
 def test_work_does_not_grow_with_the_grid() -> None:
