@@ -47,6 +47,15 @@ def test_broad_spectrum_at_low_speed() -> None:
     assert slow.solve(accuracy=5e-3).friction_coefficient == pytest.approx(low_speed_friction(slow), rel=6e-3)
 
 
+def test_friction_at_low_speed_is_better_than_the_energy_of_the_finest_grid() -> None:
+    """What is dissipated settles in the first order of the cell there, and is extrapolated."""
+    slow = standard_linear_solid(10.0, 1e-5)
+    solution, law = slow.solve(accuracy=4e-3), low_speed_friction(slow)
+    assert abs(solution.energy_friction_coefficient / law - 1.0) > 1.5e-3
+    # 2e-4 was found, on 256 cells; the law's next term is about 1e-5.
+    assert solution.friction_coefficient == pytest.approx(law, rel=1e-3)
+
+
 def test_broad_spectrum_at_high_speed() -> None:
     fast = broad_spectrum_25(1e17)
     # The shortest memory is 1e5 a0: the law's next term is k/l = 1e-4.
@@ -167,3 +176,20 @@ def test_oblique_wave_in_full_contact_has_its_closed_form(speed: float, waves: t
     # Round-off of pressures of order one in a sum of order qA times smaller ones.
     assert found.friction_coefficient == pytest.approx(expected, rel=1e-9, abs=1e-15)
     assert found.pressure_friction_coefficient == pytest.approx(expected, rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.parametrize("bonded", [True, False])
+def test_elastic_indenter_on_a_layer_is_no_layer_itself(bonded: bool) -> None:
+    """Its half-space is in series with the layer: each wave of the pressure is z |q|/2 over the sum of both."""
+    ratio, modulus, thickness, amplitude, points = 0.3, 4.0, 0.05, 1e-4, 32
+    z = amplitude * np.cos(2.0 * np.pi * np.arange(points) / points)
+    rubber, layer = vf.Material.standard_linear_solid(1.0, 10.0, 1.0, ratio), vf.Layer(thickness, bonded)
+    found = vf.solve_periodic(
+        rubber, vf.PeriodicSurface(z, 1.0 / points), speed=0.0, pressure=1.0, layer=layer,
+        indenter_modulus=modulus, indenter_poisson_ratio=0.2,
+    )  # fmt: skip
+    q = 2.0 * np.pi
+    compliance = (1.0 - ratio**2) * float(layer.yielding(q, ratio)) + (1.0 - 0.2**2) / modulus
+    assert found.diagnostics.full_contact
+    # Linear: round-off of pressures of order one.
+    np.testing.assert_allclose(found.pressure[:, 0] - 1.0, z * q / (2.0 * compliance), atol=1e-12)
