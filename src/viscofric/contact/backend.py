@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.transforms import DuccTransforms, ScipyTransforms, StandardTransforms
+from viscofric.contact.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
@@ -92,11 +92,11 @@ class Backend:
         """Return the backend of a name, or the backend itself."""
         return backend if isinstance(backend, Backend) else cls(backend)
 
-    @property
+    @cached_property
     def _library(self) -> str:
         return str(self.name).partition(":")[0]
 
-    @property
+    @cached_property
     def _is_strict(self) -> bool:
         return self._library == "array_api_strict"
 
@@ -124,9 +124,7 @@ class Backend:
         if self._library == "ducc0":
             return DuccTransforms(self._imported("ducc0.fft"), self.threads or 1)
         if self._library == "pyfftw":
-            # Measured plans are remembered by the library (its wisdom): only the first FFT of a size takes long.
-            fft = self._imported("pyfftw.interfaces.scipy_fft")
-            return ScipyTransforms(fft, self.threads or 1, planner_effort="FFTW_MEASURE")
+            return FftwTransforms(self._imported("pyfftw"), self.threads or 1)
         return StandardTransforms(self.xp.fft)
 
     @cached_property
@@ -143,7 +141,7 @@ class Backend:
                 f"{_HOW_TO_INSTALL[self._library]}."
             ) from error
 
-    @property
+    @cached_property
     def is_numpy(self) -> bool:
         """Whether arrays are NumPy's; corrections are in single precision then."""
         return self._library in _ON_NUMPY
@@ -215,6 +213,13 @@ class Cells:
         """Values (n,) of a field at the cells."""
         return self.backend.xp.reshape(field, (-1,))[self.indices]
 
+    def added(self, field: AnyArray, values: AnyArray) -> AnyArray:
+        """Return a field with values added at the cells."""
+        xp = self.backend.xp
+        found = xp.asarray(field, copy=True)
+        xp.reshape(found, (-1,))[self.indices] += values
+        return found
+
     def scattered(self, values: AnyArray) -> AnyArray:
         """Field of the values at the cells and of zeros elsewhere; the next call overwrites it."""
         xp = self.backend.xp
@@ -231,6 +236,10 @@ class MaskedCells(Cells):
         """Values (n,) of a field at the cells."""
         xp = self.backend.xp
         return xp.take(xp.reshape(field, (-1,)), self.indices)
+
+    def added(self, field: AnyArray, values: AnyArray) -> AnyArray:
+        """Return a field with values added at the cells."""
+        return field + self.scattered(values)
 
     def scattered(self, values: AnyArray) -> AnyArray:
         """Field of the values at the cells and of zeros elsewhere."""

@@ -190,7 +190,7 @@ def solve_complementarity(
             fixed_load=load is not None, coarse=coarse,
         )  # fmt: skip
         linear_iterations += steps
-        pressure = pressure + contact.scattered(correction)
+        pressure = contact.added(pressure, correction)
         negative = pressure < 0.0
         pressure[negative] = 0.0
         wrong, cells = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(negative)), len(contact)

@@ -46,37 +46,34 @@ class StandardTransforms:
 
 
 class ScipyTransforms:
-    """SciPy's FFTs, or of a library that offers the same functions.
+    """SciPy's FFTs.
 
     Parameters
     ----------
     fft : module
     threads : int
-    settings : dict
-        Further keywords of every call.
     """
 
-    def __init__(self, fft: Any, threads: int, **settings: Any) -> None:
-        self._fft = fft
-        self._settings = {"workers": threads, **settings}
+    def __init__(self, fft: Any, threads: int) -> None:
+        self._fft, self._threads = fft, threads
 
     def forward(self, values: AnyArray) -> AnyArray:
         """Spectrum of real values."""
-        return self._fft.rfft2(values, **self._settings)  # type: ignore[no-any-return]
+        return self._fft.rfft2(values, workers=self._threads)  # type: ignore[no-any-return]
 
     def inverse(self, spectrum: AnyArray, shape: Shape) -> AnyArray:
         """Real values of the given shape."""
-        return self._fft.irfft2(spectrum, shape, overwrite_x=True, **self._settings)  # type: ignore[no-any-return]
+        return self._fft.irfft2(spectrum, shape, overwrite_x=True, workers=self._threads)  # type: ignore[no-any-return]
 
     def forward_padded(self, values: AnyArray, padded: Shape) -> AnyArray:
         """Spectrum of real values with zeros behind them up to a shape."""
-        lines = self._fft.rfft(values, padded[1], axis=1, **self._settings)
-        return self._fft.fft(lines, padded[0], axis=0, overwrite_x=True, **self._settings)  # type: ignore[no-any-return]
+        lines = self._fft.rfft(values, padded[1], axis=1, workers=self._threads)
+        return self._fft.fft(lines, padded[0], axis=0, overwrite_x=True, workers=self._threads)  # type: ignore[no-any-return]
 
     def inverse_cropped(self, spectrum: AnyArray, padded: Shape, shape: Shape) -> AnyArray:
         """First `shape` of the real values whose spectrum, of the padded shape, is given."""
-        lines = self._fft.ifft(spectrum, axis=0, overwrite_x=True, **self._settings)[: shape[0]]
-        return self._fft.irfft(lines, padded[1], axis=1, **self._settings)[:, : shape[1]]  # type: ignore[no-any-return]
+        lines = self._fft.ifft(spectrum, axis=0, overwrite_x=True, workers=self._threads)[: shape[0]]
+        return self._fft.irfft(lines, padded[1], axis=1, workers=self._threads)[:, : shape[1]]  # type: ignore[no-any-return]
 
 
 class DuccTransforms:
@@ -118,3 +115,57 @@ class DuccTransforms:
             spectrum[: shape[0]], axes=(1,), lastsize=padded[1], forward=False, inorm=2, nthreads=self._threads
         )
         return values[:, : shape[1]]  # type: ignore[no-any-return]
+
+
+class FftwTransforms:
+    """FFTs of FFTW by its estimated plans, made once for each size: measured ones would take longer than they save.
+
+    Parameters
+    ----------
+    fftw : module
+        pyfftw.
+    threads : int
+    """
+
+    def __init__(self, fftw: Any, threads: int) -> None:
+        self._fftw, self._threads = fftw, threads
+        self._plans: dict[tuple[Any, ...], Any] = {}
+
+    def _run(self, given: AnyArray, found: AnyArray, axes: tuple[int, ...], *, back: bool = False) -> AnyArray:
+        """Transform one array into another, or into itself; `given` is overwritten on the way back."""
+        key = (given.shape, given.dtype, found.dtype, given is found, axes, back)
+        if key not in self._plans:
+            first = self._fftw.empty_aligned(given.shape, given.dtype)
+            last = first if given is found else self._fftw.empty_aligned(found.shape, found.dtype)
+            direction = "FFTW_BACKWARD" if back else "FFTW_FORWARD"
+            flags = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT") if back else ("FFTW_ESTIMATE",)
+            self._plans[key] = self._fftw.FFTW(first, last, axes, direction, flags, self._threads)
+        return self._plans[key](given, found)  # type: ignore[no-any-return]
+
+    def _spectrum(self, shape: Shape, like: AnyArray) -> AnyArray:
+        kind = np.result_type(like.dtype, np.complex64)
+        return self._fftw.empty_aligned((shape[0], shape[1] // 2 + 1), kind)  # type: ignore[no-any-return]
+
+    def forward(self, values: AnyArray) -> AnyArray:
+        """Spectrum of real values."""
+        return self._run(values, self._spectrum(values.shape, values), (0, 1))
+
+    def inverse(self, spectrum: AnyArray, shape: Shape) -> AnyArray:
+        """Real values of the given shape."""
+        return self._run(spectrum, self._fftw.empty_aligned(shape, spectrum.real.dtype), (0, 1), back=True)
+
+    def forward_padded(self, values: AnyArray, padded: Shape) -> AnyArray:
+        """Spectrum of real values with zeros behind them up to a shape."""
+        nx, ny = values.shape
+        lines = self._fftw.zeros_aligned((nx, padded[1]), values.dtype)
+        lines[:, :ny] = values
+        spectrum = self._spectrum(padded, values)
+        self._run(lines, spectrum[:nx], (1,))
+        spectrum[nx:] = 0.0
+        return self._run(spectrum, spectrum, (0,))
+
+    def inverse_cropped(self, spectrum: AnyArray, padded: Shape, shape: Shape) -> AnyArray:
+        """First `shape` of the real values whose spectrum, of the padded shape, is given."""
+        self._run(spectrum, spectrum, (0,), back=True)
+        lines = self._fftw.empty_aligned((shape[0], padded[1]), spectrum.real.dtype)
+        return self._run(spectrum[: shape[0]], lines, (1,), back=True)[:, : shape[1]]
