@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import pickle
+import sys
 from functools import cache
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -202,7 +204,7 @@ def test_missing_libraries_are_named_with_their_installation(
     library = name.partition(":")[0]
     # An entry of None makes an import fail as if nothing were installed.
     for module in (library, f"{library}.fft", f"{library}.interfaces.scipy_fft"):
-        monkeypatch.setitem(__import__("sys").modules, module, None)
+        monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(InputError, match=rf"^backend = '{name}': .*install.*{words}[^\n]*$"):
         Backend(name)
 
@@ -211,6 +213,12 @@ def test_unknown_device_is_refused() -> None:
     pytest.importorskip("torch")
     with pytest.raises(InputError, match="no such device"):
         Backend("torch:abacus")
+
+
+def test_cupy_without_a_gpu_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "cupy", SimpleNamespace(is_available=lambda: False))
+    with pytest.raises(InputError, match="finds no GPU here"):
+        Backend("cupy")
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, True, "2"])

@@ -61,7 +61,8 @@ class Backend:
 
     Notes
     -----
-    The CPU threads of PyTorch are PyTorch's to set (``torch.set_num_threads``).
+    The CPU threads of PyTorch are PyTorch's to set (``torch.set_num_threads``).  A backend on FFTW ("pyfftw") keeps its
+    plans, and is not to be shared by threads that solve at the same time.
 
     Examples
     --------
@@ -82,7 +83,7 @@ class Backend:
             raise InputError(f"threads = {self.threads!r}: is for FFTs on NumPy arrays, not for {self._library}.")
         if self._library in _ON_NUMPY:
             object.__setattr__(self, "threads", _threads(self.threads))
-        _ = self.xp, self.transforms, self.device  # now rather than in the middle of a solve
+        _ = self.device, self.xp, self.transforms  # now rather than in the middle of a solve
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Backend, (self.name, self.threads)
@@ -129,7 +130,9 @@ class Backend:
 
     @cached_property
     def device(self) -> Any:
-        """Device of the arrays, as their library names it; None on NumPy."""
+        """Device of PyTorch's arrays; None for the only one, or the current one, of other libraries."""
+        if self._library == "cupy" and not self._imported("cupy").is_available():
+            raise InputError("backend = 'cupy': CuPy finds no GPU here; choose another backend, such as 'scipy'.")
         return _torch_device(self._imported("torch"), self._device_name) if self._library == "torch" else None
 
     def _imported(self, module: str) -> Any:

@@ -185,6 +185,7 @@ def solve_complementarity(
             return best
         contact = backend.cells((pressure > 0.0) | overlapping)
         unit = abs(state_now.indentation) if depth is None else depth
+        gap = contact.gathered(gap)  # the rest of it is not needed, and large
         correction, steps, linear = solve_on_contact(
             inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=directions,
             fixed_load=load is not None, coarse=coarse,
@@ -258,7 +259,8 @@ def solve_on_contact(
     Parameters
     ----------
     operator : ContactOperator
-    gap : (nx, ny) array
+    gap : (n,) array
+        At the cells of the set.
     contact : Cells
     reduction, floor : float
         Where to stop: Euclidean norm of the gap over that at the start, or the largest gap.
@@ -285,11 +287,10 @@ def solve_on_contact(
             found -= xp.mean(found)
         return found
 
-    residual = contact.gathered(gap)
-    unit = float(xp.max(xp.abs(residual)))
+    unit = float(xp.max(xp.abs(gap)))
     if unit == 0.0:
-        return residual, 0, 0.0
-    residual = xp.astype(residual / -unit, operator.dtype, copy=False)
+        return gap, 0, 0.0
+    residual = xp.astype(gap / -unit, operator.dtype, copy=False)
     if fixed_load:
         residual -= xp.mean(residual)
     first, largest = _sizes(backend, residual)

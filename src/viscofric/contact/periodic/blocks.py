@@ -79,7 +79,7 @@ class Blocks:
         blocks = backend.cells(touching > 0.0)
 
         def correction(residual: AnyArray) -> AnyArray:
-            gap = self._sums(residual) / -cells
+            gap = blocks.gathered(self._sums(residual) / -cells)
             found, _, _ = solve_on_contact(
                 partial, gap, blocks, reduction=_REDUCTION, floor=0.0, directions=_STEPS, fixed_load=fixed_load,
                 most_steps=_STEPS,
