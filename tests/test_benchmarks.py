@@ -136,6 +136,23 @@ def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: p
 
 
 @pytest.mark.usefixtures("contact_path")
+def test_backend_benchmark_measures_what_is_there_and_names_what_is_not(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import backends
+
+    monkeypatch.setitem(sys.modules, "cupy", None)
+    names = ["scipy", "scipyx2", "cupy"]
+    backends.main(["--sizes", "32", "--backends", *names, "--repeats", "1", "--json", str(tmp_path / "backends.json")])
+    assert "left out: backend = 'cupy'" in capsys.readouterr().out
+    rows = read(tmp_path / "backends.json")["rows"]
+    assert [row["backend"] for row in rows] == ["scipy", "scipyx2"] * 2
+    assert rows[0]["FFTs"] == rows[1]["FFTs"]
+    assert rows[2]["products"] == rows[3]["products"]
+    assert all(row[what] > 0.0 for row in rows for what in ("elastic", "ball") if what in row)
+
+
+@pytest.mark.usefixtures("contact_path")
 def test_rough_benchmark_leaves_a_reason_where_a_peer_is_missing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -13,7 +13,6 @@ FFTs whatever computes them, but for the digits of the last one or two; where th
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import re
 import sys
@@ -23,8 +22,9 @@ from typing import TYPE_CHECKING, Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "tests"))
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "tests")]
 
+import measuring  # noqa: E402
 import numpy as np  # noqa: E402
 import scipy.fft  # noqa: E402
 
@@ -146,9 +146,7 @@ def main(arguments: list[str] | None = None) -> None:
         rows += table(present, lambda name, points=points: measure(name, points, least), columns, "FFTs")
     print(f"Ball, 25 modes, accuracy {BALL_ACCURACY:g}\n{'cells':>7} {'backend':12}{'whole solve':>20}{'products':>10}")
     rows += table(present, lambda name: measure_ball(name, least), ("ball",), "products")
-    if options.json:
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+    measuring.write_json(options.json, {"clock": options.clock, "rows": rows})
 
 
 if __name__ == "__main__":
