@@ -20,9 +20,9 @@ class Control(Protocol):
     """How the contact problem on one grid is closed."""
 
     def solve(
-        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
     ) -> ComplementaritySolution:
-        """Solve on one grid from a guess of the pressure."""
+        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +37,11 @@ class GivenLoad:
     load: float
 
     def solve(
-        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
     ) -> ComplementaritySolution:
-        """Solve on one grid from a guess of the pressure."""
+        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
         load = self.load / operator.window.cell_area
-        found = solve_complementarity(operator, height, load, guess, tolerance=tolerance)
+        found = solve_complementarity(operator, height, load, guess, tolerance=tolerance, patience=patience)
         return found.on_numpy(operator.backend)
 
 
@@ -57,8 +57,10 @@ class GivenIndentation:
     indentation: float
 
     def solve(
-        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
     ) -> ComplementaritySolution:
-        """Solve on one grid from a guess of the pressure."""
-        found = solve_complementarity(operator, height, None, guess, indentation=self.indentation, tolerance=tolerance)
+        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
+        found = solve_complementarity(
+            operator, height, None, guess, indentation=self.indentation, tolerance=tolerance, patience=patience
+        )
         return found.on_numpy(operator.backend)

@@ -59,10 +59,7 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     energy = np.array([stage.balanced_friction.value for stage in stages])
     lean = np.array([stage.pressure_friction for stage in stages])
     if last.problem.shape.has_walls:
-        candidates = [settled(energy)]
-        if len(stages) > FEWEST_GRIDS:
-            candidates.append(settled(2.0 * energy[1:] - energy[:-1]))
-        return min(candidates, key=lambda candidate: candidate.error)
+        return _settled_energy(energy)
     difference = abs(float(lean[-1] - energy[-1]))
     shares = _SHIFTED_SHARES if last.operator.shift > 0.0 else _SHARES
     balanced = settled(energy).at_least(max(_uncertainty(stages), shares[0] * difference))
@@ -71,6 +68,17 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     unexplained = difference - balanced.error - _LEAN_TRUST * leaning.error  # speaks against either
     error = max(best.error, _UNEXPLAINED_SHARE * unexplained)
     return Estimate(best.value, last.problem.geometry.scatter * error)
+
+
+def _settled_energy(energy: Array) -> Estimate:
+    """Return the dissipated energy, or what it tends to by the order at which cells resolve a singular edge.
+
+    That is one half where the edge's layer is thinner than a cell, and one where it is not.
+    """
+    candidates = [settled(energy)]
+    if len(energy) > FEWEST_GRIDS:
+        candidates += [settled(energy[1:] + np.diff(energy) / (2.0**order - 1.0)) for order in (0.5, 1.0)]
+    return min(candidates, key=lambda candidate: candidate.error)
 
 
 def _uncertainty(stages: list[Stage]) -> float:

@@ -36,7 +36,7 @@ class Geometry:
         By what the error that the changes from grid to grid let expect is multiplied.  Where an edge lies within its
         cell is a matter of luck, which the many cells of a rim average, but not the two at the ends of a strip.
     finest, finest_continuation : int
-        Most cells along the longer edge that are spent by default, and in a continuation.
+        Most cells along the longer edge that are spent by default, and along the edges of a square in a continuation.
     """
 
     name: str
@@ -51,5 +51,5 @@ class Geometry:
     finest_continuation: int
 
 
-POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, 160)
+POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, 320)
 LINE: Final = Geometry("line", 1, Strip, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, 4096)

@@ -20,6 +20,8 @@ from viscofric.contact.problem import Problem, Stage
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from viscofric.contact.grids import Grid
@@ -34,7 +36,9 @@ MARGIN = 0.15  # free space left around the contact, relative to its size
 # Step of the continuation in the glassy compliance, which leads into the hard corner (one mode, E∞ >> E0).
 _CONTINUATION = 1.4
 _EASY_GLASSY = 0.1
-_LONGEST_CONTINUATION = 64
+_GROWTH = 1.15
+_LONGEST_CONTINUATION = 100
+_PATIENCE = 8  # looks at the contact set without headway that end one step's attempt
 # A contact n times longer than wide has n/2 times the cells along it, up to so many times.
 _MOST_SLENDER = 4
 # First windows that are tried, in units of the contact's size as it is guessed.
@@ -136,35 +140,56 @@ def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
     """Solve on one grid; where that fails, come from a material with a softer glassy state."""
     solid, geometry = problem.solid, problem.geometry
 
-    def attempt(glassy: float, start: Array) -> Stage:
+    def attempt(glassy: float, start: Array, patience: int | None = None) -> Stage:
         material = replace(solid, glassy=glassy)
         shift = collocation_shift(material, window.spacing)
         operator = geometry.operator(window, material, shift, problem.backend)
         height = problem.height_on(window, shift)
         below = np.where(np.isfinite(height), start, 0.0)  # no pressure beyond the indenter's walls
-        return Stage(problem, window, operator, problem.control.solve(operator, height, below, problem.tolerance))
+        result = problem.control.solve(operator, height, below, problem.tolerance, patience)
+        return Stage(problem, window, operator, result)
 
     stage = attempt(solid.glassy, guess)
     if stage.result.converged:
         return stage
-    failed = stage
     # On a large grid a failure is final, since a continuation would take hours.
-    steps = _LONGEST_CONTINUATION if max(window.shape) <= geometry.finest_continuation else 0
-    glassy, factor, good = max(_EASY_GLASSY, solid.glassy), _CONTINUATION, guess
-    for _ in range(steps):
-        stage = attempt(glassy, good)
-        if stage.result.converged:
-            if glassy <= solid.glassy:
-                return stage
-            good = stage.result.pressure
-            glassy = max(solid.glassy, glassy / factor)
-        elif glassy >= _EASY_GLASSY:
-            break
-        else:
-            factor = math.sqrt(factor)
-            glassy *= factor
+    small = math.prod(window.shape) <= geometry.finest_continuation**geometry.dimension
+    continued = _continued(attempt, guess, solid.glassy) if small else None
+    if continued is not None:
+        return continued
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
-        f"{failed.result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for; "
+        f"{stage.result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for; "
         "ask for less accuracy of the friction, which needs a coarser grid."
     )
+
+
+def _continued(attempt: Callable[[float, Array, int], Stage], guess: Array, target: float) -> Stage | None:
+    """Solve for softer glassy states, step by step down to the one asked for, each from the line through the last two.
+
+    Steps are geometric in the glassy compliance.  They grow a little where they succeed, and are halved where they do
+    not.
+    """
+    path: list[tuple[float, Array]] = []  # logarithms of the compliance, and pressures
+    place, end, step = math.log(max(_EASY_GLASSY, target)), math.log(target), math.log(_CONTINUATION)
+    for _ in range(_LONGEST_CONTINUATION):
+        stage = attempt(target if place <= end else math.exp(place), _ahead(path, place, guess), _PATIENCE)
+        if stage.result.converged:
+            if place <= end:
+                return stage
+            path = [*path[-1:], (place, stage.result.pressure)]
+            step *= _GROWTH
+        elif path:
+            step = 0.5 * (path[-1][0] - place)
+        else:
+            return None
+        place = max(end, path[-1][0] - step)
+    return None
+
+
+def _ahead(path: list[tuple[float, Array]], place: float, guess: Array) -> Array:
+    """Continue the line through the last two pressures."""
+    if len(path) < 2:
+        return path[-1][1] if path else guess
+    (before, one), (last, other) = path
+    return np.maximum(0.0, other + (place - last) / (last - before) * (other - one))

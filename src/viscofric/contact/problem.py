@@ -124,9 +124,9 @@ class Stage:
         Its error is how far that is uncertain, from the wave that is taken for the first one left out.  An indenter
         with walls has no curvature to balance.
         """
-        force = self.operator.bent_dissipated_force(self.result.pressure) / self.load
         if self.problem.shape.has_walls:
-            return Estimate(force, 0.0)
+            return Estimate(self.energy_friction, 0.0)
+        force = self.operator.bent_dissipated_force(self.result.pressure) / self.load
         lags = [lag(self.operator.material, self.window.spacing, cut) for cut in CUTS]
         return Estimate(force + lags[1] * self.opening, (lags[0] - lags[2]) * self.opening)
 

@@ -1,0 +1,112 @@
+"""What cells leave out of the dissipated energy, and that the friction's error estimate covers its true error."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from viscofric.contact.balance import CUTS, lag, opening
+from viscofric.contact.control import GivenLoad
+from viscofric.contact.estimates import FEWEST_GRIDS, friction_estimate
+from viscofric.contact.geometry import LINE, POINT, Geometry
+from viscofric.contact.grids import Strip, Window
+from viscofric.contact.indenters import Ball, Cylinder
+from viscofric.contact.nested import find_window, refine
+from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial, bent_share, second_difference
+from viscofric.contact.problem import Problem, Stage
+from viscofric.contact.reference import hunter_line
+
+INDENTERS = {POINT.name: Ball(radius=1.0), LINE.name: Cylinder(radius=1.0)}
+
+
+def contact(geometry: Geometry, modulus_ratio: float, shares: list[float], memory_lengths: list[float]) -> Problem:
+    """Return a ball or a cylinder of unit radius in units of the Hertz contact at E0."""
+    compliances = (1.0 - 1.0 / modulus_ratio) * np.asarray(shares) / np.sum(shares)
+    solid = SteadyMaterial(1.0 / modulus_ratio, compliances, np.asarray(memory_lengths))
+    return Problem(geometry, solid, INDENTERS[geometry.name], GivenLoad(geometry.parabolic_load), 1e-9)
+
+
+def coarse_stage(problem: Problem) -> Stage:
+    return find_window(problem, problem.first_size)
+
+
+# --- the identity ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("geometry", [POINT, LINE], ids=lambda geometry: geometry.name)
+def test_bends_of_the_surface_balance_those_of_the_indenter(geometry: Geometry) -> None:
+    """−∫ p ∂²u/∂x² dA is the load over the radius, but for the gap that opens in the edge cells."""
+    stage = coarse_stage(contact(geometry, 10.0, [1.0, 2.0], [0.02, 0.5]))
+    assert stage.operator.shift == 0.0
+    window, pressure = stage.window, stage.result.pressure
+    bends = second_difference(stage.result.displacement) / window.spacing**2
+    balance = -window.cell_area * float(np.vdot(pressure[1:-1], bends)) / stage.load
+    assert 0.01 < stage.opening < 0.2  # the identity is off by that much on 32 cells
+    # The gap under the pressures is zero to 1e-9 of the indentation; differences over h² ≈ 1e-2 of a0².
+    assert balance + stage.opening == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("geometry", [POINT, LINE], ids=lambda geometry: geometry.name)
+@pytest.mark.parametrize("modulus_ratio", [1.1, 1000.0])
+def test_short_memories_are_right_on_the_coarsest_grid(geometry: Geometry, modulus_ratio: float) -> None:
+    lengths = [1e-6, 3e-6, 2e-5]
+    stage = coarse_stage(contact(geometry, modulus_ratio, [3.0, 2.0, 1.0], lengths))
+    law = float(stage.problem.solid.compliances @ np.asarray(lengths))  # (v/R) Σ C_k τ_k E0
+    # The law's next term is about the longest memory over the contact; the dissipation alone is 4 % off.
+    assert stage.balanced_friction.value == pytest.approx(law, rel=5e-5)
+    assert stage.energy_friction != pytest.approx(law, rel=0.01)
+
+
+def test_opening_counts_gaps_beside_pressures() -> None:
+    pressure, gap = np.zeros((6, 4)), np.full((6, 4), 5.0)
+    pressure[2, 1], pressure[3, 1] = 2.0, 3.0
+    gap[2:4, 1] = 1e-9  # what the solver's tolerance leaves under pressure counts for nothing
+    gap[1, 1], gap[4, 1] = 0.5, 0.25
+    assert opening(Window(0.1, 3, 3, 2), pressure, gap) == pytest.approx(2.0 * 0.5 + 3.0 * 0.25)
+    strip = Strip(0.1, 3, 3)
+    assert opening(strip, pressure[:, 1:2], gap[:, 1:2]) == pytest.approx((2.0 * 0.5 + 3.0 * 0.25) / 0.1)
+
+
+def test_lag_of_waves_left_out() -> None:
+    short = SteadyMaterial(0.2, np.array([0.5, 0.3]), np.array([1e-7, 3e-7]))
+    # All memories far below the cell: their mean, whatever the cut; the next term is λ = 3e-7.
+    for cut in CUTS:
+        assert lag(short, 1.0, cut) == pytest.approx(0.5e-7 + 0.9e-7, rel=1e-5)
+    longer = SteadyMaterial(0.2, np.array([0.8]), np.array([0.5]))
+    lags = [lag(longer, 1.0, cut) for cut in CUTS]
+    assert lags[0] > lags[1] > lags[2] > 0.0  # shorter waves find the mode less compliant
+    assert lag(SteadyMaterial(1.0, np.empty(0), np.empty(0)), 1.0, 1.0) == 0.0
+
+
+@pytest.mark.parametrize("length", [1e-5, 0.05, 0.5, 3.0])
+def test_both_ways_to_the_dissipation_agree_to_second_order(length: float) -> None:
+    def difference(cells: int) -> float:
+        window = Window(3.2 / cells, cells, cells, cells)
+        pressure = np.exp(-2.0 * (window.x[:, None] ** 2 + window.y**2))
+        operator = HalfSpaceOperator(window, SteadyMaterial(0.1, np.array([0.9]), np.array([length])))
+        return operator.bent_dissipated_force(pressure) / operator.dissipated_force(pressure) - 1.0
+
+    # A quarter on half the cells, and the next order; more where the slopes take over.
+    assert abs(difference(32)) < 0.3 * abs(difference(16)) < 0.02
+
+
+def test_bent_share_fades_for_long_memories() -> None:
+    share = bent_share(np.array([1e-8, 10.0, 1e8]))
+    np.testing.assert_allclose(share, [1.0, 0.5, 0.0], atol=1e-12)
+
+
+# --- errors and their estimates -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("modulus_ratio", [1.1, 10.0, 1e4])
+def test_error_estimate_covers_the_true_error_of_the_line_contact(modulus_ratio: float) -> None:
+    """On every grid, from memories far shorter than a cell to far longer than the contact."""
+    for decade in range(-4, 5):
+        memory_length = 10.0**decade
+        problem = contact(LINE, modulus_ratio, [1.0], [memory_length])
+        known = hunter_line(LINE.parabolic_load, 1.0, 1.0, modulus_ratio, memory_length, 1.0, 0.0).friction_coefficient
+        stages = refine(coarse_stage(problem), 1e-3, 8192)
+        for count in range(FEWEST_GRIDS, len(stages) + 1):
+            value, error = friction_estimate(stages[:count])
+            # The solver's tolerance of 1e-9, over slopes that are 1e-3 of the contact's at the least.
+            assert abs(value - known) <= error + 1e-6 * known
