@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
 from viscofric.contact.balance import CUTS, lag, opening
 from viscofric.contact.control import GivenLoad
-from viscofric.contact.estimates import FEWEST_GRIDS, friction_estimate
+from viscofric.contact.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
 from viscofric.contact.geometry import LINE, POINT, Geometry
 from viscofric.contact.grids import Strip, Window
 from viscofric.contact.indenters import Ball, Cylinder
@@ -110,3 +111,25 @@ def test_error_estimate_covers_the_true_error_of_the_line_contact(modulus_ratio:
             value, error = friction_estimate(stages[:count])
             # The solver's tolerance of 1e-9, over slopes that are 1e-3 of the contact's at the least.
             assert abs(value - known) <= error + 1e-6 * known
+
+
+def test_low_speed_takes_no_fine_grid() -> None:
+    problem = broad_spectrum_37(1.1e-3)
+    solution = problem.solve()
+    assert max(solution.diagnostics.shape) == 128  # the third grid
+    # The accuracy asked for, and the law's next term, of the order of the longest memory, 1e-3.
+    assert solution.friction_coefficient == pytest.approx(low_speed_friction(problem), rel=2e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("modulus_ratio", [1.1, 100.0, 1e4])
+def test_every_speed_is_solved_on_a_grid_of_moderate_size(modulus_ratio: float) -> None:
+    for decade in (-6, -4, -3, -1, 0, 1, 2, 4, 6):
+        problem = standard_linear_solid(modulus_ratio, 10.0**decade)
+        solution = problem.solve(accuracy=1e-3)
+        floor = FRICTION_FLOOR * HERTZ_RADIUS / float(problem.ball.radius)  # type: ignore[arg-type]
+        assert solution.diagnostics.friction_error <= 1e-3 * max(solution.friction_coefficient, floor)
+        assert max(solution.diagnostics.shape) <= 256
+        if decade <= -4:
+            # The law's next term is 0.7 v τ/a0.
+            assert solution.friction_coefficient == pytest.approx(low_speed_friction(problem), rel=1e-4)
