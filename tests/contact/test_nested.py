@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import viscofric as vf
 from gallery import standard_linear_solid
 from viscofric.contact.control import GivenIndentation, GivenLoad
 from viscofric.contact.estimates import FRICTION_FLOOR, Estimate, settled
@@ -118,3 +119,34 @@ def test_refinement_keeps_the_load(grid: Strip | Window) -> None:
     # The same values on cells that are halved: sums in another order.
     assert carried.sum() * finer.cell_area == pytest.approx(pressure.sum() * grid.cell_area, rel=1e-12)
     assert finer.whole == pytest.approx(grid.whole, rel=1e-12)
+
+
+def test_rectangular_cells_keep_their_shape_and_their_edges() -> None:
+    window = Window.around(1.0, 2.0, 12.0, 32, 4.0)
+    assert window.aspect == 4.0
+    assert window.width == pytest.approx(4.0 * window.spacing)
+    assert max(window.shape) == 32
+    assert window.x[0] - 0.5 * window.spacing <= -1.0
+    assert window.y[-1] + 0.5 * window.width >= 12.0
+    assert window.cell_area == pytest.approx((window.x[1] - window.x[0]) * (window.y[1] - window.y[0]))
+    fine = window.refined()
+    assert (fine.aspect, fine.width) == (4.0, 0.5 * window.width)
+    assert fine.whole == pytest.approx(window.whole)
+    values = np.random.default_rng(0).random(window.shape)
+    np.testing.assert_array_equal(window.resample(values, fine), np.kron(values, np.ones((2, 2))))
+
+
+def test_wide_contact_has_wide_cells_and_a_round_one_square_ones() -> None:
+    rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+    wide, narrow = (
+        vf.solve_steady(rubber, vf.Ellipsoid(*radii), speed=1.0, load=1.0, accuracy=1e-2)
+        for radii in ((1e-3, 3e-2), (3e-2, 1e-3))
+    )
+    step_x, step_y = np.diff(wide.x)[0], np.diff(wide.y)[0]
+    slenderness = 2.0 * wide.half_width / (wide.front + wide.rear)
+    assert step_y / step_x == pytest.approx(2.0 ** round(np.log2(0.5 * slenderness)))
+    assert slenderness > 5.0
+    # On squares, at an accuracy of 1e-4: 0.166199.
+    assert wide.friction_coefficient == pytest.approx(0.166199, rel=2e-3)
+    assert wide.pressure.sum() * step_x * step_y == pytest.approx(1.0, rel=1e-9)
+    assert np.diff(narrow.x)[0] == pytest.approx(np.diff(narrow.y)[0])

@@ -58,7 +58,8 @@ def test_ellipsoid_makes_hertz_elliptic_contact(speed: float, modulus_ratio: flo
     # Edges to a fifth of a cell; the shorter axis has 30 cells at least.
     assert solution.front == pytest.approx(hertz.semi_axis_x, abs=0.2 * cell)
     assert solution.rear == pytest.approx(hertz.semi_axis_x, abs=0.2 * cell)
-    assert solution.half_width == pytest.approx(hertz.semi_axis_y, abs=0.2 * cell)
+    width = solution.y[1] - solution.y[0]
+    assert solution.half_width == pytest.approx(hertz.semi_axis_y, abs=0.2 * width)
     assert solution.contact_area == pytest.approx(math.pi * hertz.semi_axis_x * hertz.semi_axis_y, rel=0.01)
     assert solution.indentation == pytest.approx(hertz.indentation, rel=0.001)  # second order, 30 cells
     assert solution.max_pressure == pytest.approx(hertz.max_pressure, rel=0.002)

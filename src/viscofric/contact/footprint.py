@@ -88,7 +88,7 @@ class FootprintErrors:
         def error(name: str) -> float:
             return settled(np.array([getattr(one, name) for one in footprints])).error
 
-        shift, cell = stages[-1].operator.shift, stages[-1].window.spacing
+        shift, cell = stages[-1].operator.shift, max(stages[-1].window.spacing, stages[-1].window.width)
         least = cell * max(_LEAST_EDGE_ERROR, 2.0 * shift)
         sides = [name for name in ("front", "rear", "side") if math.isfinite(getattr(last, name))]
         rim = last.area / max(last.front + last.rear, cell)  # the contact's width across, one for a line contact

@@ -1,4 +1,4 @@
-"""The two free contacts: a point contact on square cells, a line contact in plane strain on one row of cells."""
+"""The two free contacts: a point contact on rectangular cells, a line contact in plane strain on one row of cells."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Windows of cells that follow the indenter, and the passage from a coarse one to a finer one.
 
-A `Window` of square cells holds a point contact, a `Strip`, one row of cells, a line contact.  Both give their
+A `Window` of rectangular cells holds a point contact, a `Strip`, one row of cells, a line contact.  Both give their
 values as (nx, ny) arrays, so that a strip is a window with ny = 1.
 """
 
@@ -50,7 +50,7 @@ class Grid(ABC):
     Parameters
     ----------
     spacing : float
-        Side of a cell.
+        Length of a cell along the motion.
     behind, ahead : int
         Cells between the axis and the rear and the front edge of the grid; either may be negative.
     """
@@ -61,13 +61,21 @@ class Grid(ABC):
 
     @classmethod
     @abstractmethod
-    def around(cls, rear: float, front: float, side: float, cells: int) -> Self:
-        """Return the grid over −rear … front (and ±side) with `cells` cells along its longer edge."""
+    def around(cls, rear: float, front: float, side: float, cells: int, aspect: float = 1.0) -> Self:
+        """Return the grid over −rear … front (and ±side), with `cells` cells along the edge that takes more of them.
+
+        `aspect` is the width of the cells across the motion over their length, where there are sides.
+        """
 
     @property
     @abstractmethod
     def shape(self) -> tuple[int, int]:
         """Number of cells along x and y."""
+
+    @property
+    def width(self) -> float:
+        """Width of a cell across the motion, as far as edges are known to a part of it."""
+        return self.spacing
 
     @property
     @abstractmethod
@@ -122,25 +130,34 @@ class Grid(ABC):
 
 @dataclass(frozen=True)
 class Window(Grid):
-    """Square cells around the indenter's axis, which lies on a corner of cells.
+    """Rectangular cells around the indenter's axis, which lies on a corner of cells.
 
     Parameters
     ----------
     spacing : float
-        Side of a cell.
+        Length of a cell along the motion.
     behind, ahead : int
         Cells between the axis and the rear and the front edge of the window; either may be negative.
     beside : int
         Cells between the axis and each side.
+    aspect : float, optional
+        Width of a cell across the motion over its length; square by default.
     """
 
     beside: int
+    aspect: float = 1.0
 
     @classmethod
-    def around(cls, rear: float, front: float, side: float, cells: int) -> Self:
-        """Return the window over −rear … front, ±side with `cells` cells along its longer edge."""
-        spacing = max(rear + front, 2.0 * side) / cells
-        return cls(spacing, _whole_cells(rear, spacing), _whole_cells(front, spacing), _whole_cells(side, spacing))
+    def around(cls, rear: float, front: float, side: float, cells: int, aspect: float = 1.0) -> Self:
+        """Return the window over −rear … front, ±side, with `cells` cells along the edge that takes more of them."""
+        spacing = max(rear + front, 2.0 * side / aspect) / cells
+        behind, ahead = _whole_cells(rear, spacing), _whole_cells(front, spacing)
+        return cls(spacing, behind, ahead, _whole_cells(side, aspect * spacing), aspect)
+
+    @property
+    def width(self) -> float:
+        """Width of a cell across the motion."""
+        return self.spacing * self.aspect
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -150,12 +167,12 @@ class Window(Grid):
     @property
     def cell_area(self) -> float:
         """Area of a cell."""
-        return self.spacing**2
+        return self.spacing * self.width
 
     @property
     def y(self) -> Array:
         """Cell centres across the motion."""
-        return np.asarray(self.spacing * (np.arange(-self.beside, self.beside) + 0.5), dtype=np.float64)
+        return np.asarray(self.width * (np.arange(-self.beside, self.beside) + 0.5), dtype=np.float64)
 
     def refined(self) -> Self:
         """Return the same window with cells half as large."""
@@ -166,14 +183,14 @@ class Window(Grid):
     def extent(self, mask: Mask) -> Extent:
         """Smallest such window that holds a set of cells."""
         across = np.abs(self.y[mask.any(axis=0)])
-        return Extent(*self._along(mask), float(across.max()) + 0.5 * self.spacing)
+        return Extent(*self._along(mask), float(across.max()) + 0.5 * self.width)
 
     def cuts(self, mask: Mask) -> bool:
         """Whether a set of cells reaches the outermost cells of the window."""
         return bool(mask[0].any() or mask[-1].any() or mask[:, 0].any() or mask[:, -1].any())
 
     def _rows(self, y: Array) -> Indices:
-        return np.asarray(np.floor(y / self.spacing).astype(np.intp) + self.beside)
+        return np.asarray(np.floor(y / self.width).astype(np.intp) + self.beside)
 
 
 @dataclass(frozen=True)
@@ -189,7 +206,7 @@ class Strip(Grid):
     """
 
     @classmethod
-    def around(cls, rear: float, front: float, side: float, cells: int) -> Self:
+    def around(cls, rear: float, front: float, side: float, cells: int, aspect: float = 1.0) -> Self:
         """Return the strip over −rear … front with `cells` cells; there are no sides."""
         spacing = (rear + front) / cells
         return cls(spacing, _whole_cells(rear, spacing), _whole_cells(front, spacing))

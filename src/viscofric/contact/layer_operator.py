@@ -80,7 +80,7 @@ class ScaledLayer:
 
 @dataclass
 class LayerOperator(ConvolutionOperator):
-    """Displacement of a layer under pressures on square cells.
+    """Displacement of a layer under pressures on rectangular cells.
 
     Parameters
     ----------
@@ -92,11 +92,13 @@ class LayerOperator(ConvolutionOperator):
     def _influence(self) -> Influence:
         assert self.layer is not None
         (nx, ny), h = self.window.shape, self.window.spacing
-        cell = LayerCell(self.layer.in_cells(h), self.layer.bonded, self.layer.poisson_ratio)
+        aspect = self.window.width / h
+        thickness = self.layer.in_cells(max(h, self.window.width)) * max(1.0, aspect)
+        cell = LayerCell(thickness, self.layer.bonded, self.layer.poisson_ratio, aspect)
         found = cell_influence(self, cell, self.material.glassy).times(1.0 / np.pi, h)
         if self.material.counterface > 0.0:
-            x, y = np.arange(-(nx - 1.0), nx)[:, None] - self.shift, np.arange(float(ny))
-            found.displacement[:] += h / np.pi * self.material.counterface * cell_potential(x, y)
+            x, y = np.arange(-(nx - 1.0), nx)[:, None] - self.shift, aspect * np.arange(float(ny))
+            found.displacement[:] += h / np.pi * self.material.counterface * cell_potential(x, y, aspect)
         return found
 
 

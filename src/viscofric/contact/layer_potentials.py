@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -207,6 +207,7 @@ class LayerStrip:
     poisson_ratio : float
     """
 
+    aspect: ClassVar[float] = 1.0  # there is one row
     thickness: float
     bonded: bool
     poisson_ratio: float

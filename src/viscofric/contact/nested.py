@@ -41,6 +41,8 @@ _LONGEST_CONTINUATION = 100
 _PATIENCE = 8  # looks at the contact set without headway that end one step's attempt
 # A contact n times longer than wide has n/2 times the cells along it, up to so many times.
 _MOST_SLENDER = 4
+# A contact that is wider than long has cells as slender as half of that, in powers of two up to this one.
+_WIDE, _WIDEST = math.sqrt(2.0), 4
 # First windows that are tried, in units of the contact's size as it is guessed.
 _FIRST_WINDOWS = (1.0, 2.5, 5.0, 1.6, 0.6)
 _MOST_WINDOWS = 20
@@ -126,10 +128,15 @@ def _fitted_window(problem: Problem, size: float) -> Stage:
 
 
 def _around(stage: Stage) -> Grid:
-    contact = stage.extent
-    narrow = min(contact.rear + contact.front, 2.0 * contact.side) or contact.longest
+    contact, grid = stage.extent, stage.problem.geometry.grid
+    length, width = contact.rear + contact.front, 2.0 * contact.side
+    if (wide := 0.5 * width / length) > _WIDE:
+        # Along the motion much changes within the contact's length, across it little within the same distance.
+        margins = contact.widened(MARGIN * length)._replace(side=(1.0 + 2.0 * MARGIN) * contact.side)
+        return grid.around(*margins, COARSEST, 2.0 ** min(round(math.log2(wide)), _WIDEST))
+    narrow = min(length, width) or contact.longest
     slender = min(_MOST_SLENDER, max(1, int(0.5 * contact.longest / narrow)))
-    return stage.problem.geometry.grid.around(*contact.widened(MARGIN * contact.longest), COARSEST * slender)
+    return grid.around(*contact.widened(MARGIN * contact.longest), COARSEST * slender)
 
 
 def _solve_in_window(window: Grid, before: Stage) -> Stage:

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 _SHORT_MEMORY = 1e-3
 # Memory length, in cells, from which on a mode's dissipation is rather found from slopes than from bends.
 _BEND_MEMORY = 10.0
+# Cells whose curvature is found in one go: few enough for the cache.
+_CELLS_AT_ONCE = 20_000
 # Loss angle of waves four cells long from which displacements are looked at behind the cell centres.
 _TOLERATED_ANGLE = np.pi / 4.0
 
@@ -195,11 +197,12 @@ class ConvolutionOperator(ABC):
 
 @dataclass
 class HalfSpaceOperator(ConvolutionOperator):
-    """Displacement of the free half-space under pressures on square cells (paper Eqs. 7 and 8)."""
+    """Displacement of the free half-space under pressures on rectangular cells (paper Eqs. 7 and 8)."""
 
     def _influence(self) -> Influence:
         instant = self.material.glassy + self.material.counterface
-        return cell_influence(self, HalfSpaceCell(), instant).times(1.0 / np.pi, self.window.spacing)
+        cell = HalfSpaceCell(self.window.width / self.window.spacing)
+        return cell_influence(self, cell, instant).times(1.0 / np.pi, self.window.spacing)
 
 
 def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: float) -> Influence:
@@ -230,20 +233,27 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
     mixtures = np.stack([compliances, rates, bent * compliances * lengths, straight])
     without_memory = np.array([instant, -rates.sum(), 0.0, -straight.sum()])
     displacement, slope, bend, straight_slope = memory_influence(
-        (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell
+        (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell, aspect=cell.aspect
     )
     displacement, slope = displacement[1:-1], slope[1:-1]
     if operator.shift > 0.0:
         (displacement,) = memory_influence(
-            (nx, ny), mixtures[:1], lengths, operator.shift, instant=without_memory[:1], potential=cell
+            (nx, ny),
+            mixtures[:1],
+            lengths,
+            operator.shift,
+            instant=without_memory[:1],
+            potential=cell,
+            aspect=cell.aspect,
         )
     short = float((compliances[~long] * lengths[~long]).sum())
     if short > 0.0:
-        for i in range(nx):
-            curvature = short * cell.xx(np.array(float(i)), np.arange(float(ny)))
+        at_once = max(1, _CELLS_AT_ONCE // ny)
+        for start in range(0, nx, at_once):
+            i = np.arange(start, min(start + at_once, nx))
+            curvature = short * cell.xx(i[:, None].astype(float), cell.aspect * np.arange(float(ny)))
             slope[nx - 1 + i] += curvature
-            if i > 0:
-                slope[nx - 1 - i] += curvature
+            slope[nx - 1 - i[i > 0]] += curvature[i > 0]
     return Influence(displacement, slope, second_difference(bend) + straight_slope[1:-1])
 
 

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 class CellPotential(Protocol):
     """Displacement around a loaded cell, in units of the cell's length, but for the compliance."""
 
+    @property
+    def aspect(self) -> float:
+        """Width of the cell across the motion over its length."""
+
     def __call__(self, x: Array, y: Array) -> Array:
         """Value at (x, y) from the cell's centre; even in both."""
 

@@ -41,7 +41,7 @@ class Diagnostics:
     shape : (int, int)
         Cells of the finest window.
     spacing : float
-        Side of a cell, m.
+        Length of a cell along the motion, m.
     collocation_shift : float
         How far behind the cell centres the gap was held at zero, in cells; above zero only where the cells do not
         resolve the shortest memory (see `viscofric.contact.operator.collocation_shift`).
@@ -97,7 +97,7 @@ class Diagnostics:
 
 @dataclass(frozen=True, eq=False)
 class ContactSolution:
-    """Steady contact of an indenter moving at a constant velocity over a viscoelastic half-space.
+    """Steady contact of an indenter moving at a constant velocity over a viscoelastic half-space or layer.
 
     All in SI units.  The indenter moves towards +x for a positive speed.
 
@@ -118,7 +118,8 @@ class ContactSolution:
         From the energy that the material dissipates, on the finest grid.
     indentation : float
         δ, m: depth of the indenter's lowest point below the undeformed surface.  In a line contact, where the surface
-        far away is infinitely high above it, below the surface at the contact's leading edge.
+        far away is infinitely high above it (but for that of a layer under a rigid indenter), below the surface at the
+        contact's leading edge.
     contact_area : float
         m², to a fraction of a cell; the width, m, of a line contact.
     front, rear : float

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 #: Most cells of the window that is looked at.
 LARGEST = 2**24
-# Square cells may differ in their last digits.
+# Cells are square but for their last digits: rounded coordinates must not make them anything else.
 _NOT_SQUARE = 1e-6
 
 
@@ -67,7 +67,7 @@ def surface_displacement(
     Parameters
     ----------
     x, y : (nx,) and (ny,) array
-        Centres of square cells, m; one y means a line contact in plane strain.
+        Centres of rectangular cells, each in equal steps, m; one y means a line contact in plane strain.
     pressure : (nx, ny) array
         p, Pa.
     speed : float
@@ -93,7 +93,7 @@ def surface_displacement(
     Raises
     ------
     InputError
-        If the arrays do not fit each other, the cells are not square, or the window has too many of them.
+        If the arrays do not fit each other, or the window has too many cells.
 
     Notes
     -----
@@ -103,15 +103,15 @@ def surface_displacement(
     step = spacing(along, "x")
     load = on_cells(pressure, (len(along), len(across)), "pressure")
     is_line = len(across) == 1
-    if not is_line and abs(spacing(across, "y") / step - 1.0) > _NOT_SQUARE:
-        raise InputError("the cells must be square: x and y must ascend in the same step.")
+    width = step if is_line else spacing(across, "y")
+    aspect = 1.0 if abs(width / step - 1.0) < _NOT_SQUARE else width / step
     if min(behind, ahead, beside) < 0.0:
         raise InputError("behind, ahead and beside must not be negative.")
     modes = _Modes.at(speed, E_inf, C, tau, step)
     below, above = (math.ceil(distance / step - 1e-9) for distance in (behind, ahead))
     if speed < 0.0:
         below, above = above, below
-    sides = 0 if is_line else math.ceil(beside / step - 1e-9)
+    sides = 0 if is_line else math.ceil(beside / width - 1e-9)
     cells = (len(along) + below + above) * (len(across) + 2 * sides)
     if cells > LARGEST:
         raise InputError(f"the window has {cells} cells, more than {LARGEST}; look less far.")
@@ -121,14 +121,14 @@ def surface_displacement(
     if is_line and layer is None:
         influence = _line_influence(modes, len(larger))
     else:
-        influence = _influence(modes, larger.shape, _cell(layer, is_line, step, poisson_ratio))
+        influence = _influence(modes, larger.shape, _cell(layer, is_line, step, aspect, poisson_ratio))
     factor = 2.0 if is_line else 1.0
     found = factor * (1.0 - poisson_ratio**2) * step / np.pi * _convolve(influence, mirrored)
     if is_line and layer is None:
         found -= found[-1]
     return SurfaceDisplacement(
         x=along[0] + step * (np.arange(len(larger)) - below),
-        y=across if is_line else across[0] + step * (np.arange(larger.shape[1]) - sides),
+        y=across if is_line else across[0] + width * (np.arange(larger.shape[1]) - sides),
         displacement=found[::-1] if speed < 0.0 else found,
     )
 
@@ -156,18 +156,22 @@ class _Modes:
         return cls(glassy, compliances, abs(speed) * times / step if len(times) else times)
 
 
-def _cell(layer: Layer | None, is_line: bool, step: float, poisson_ratio: float) -> CellPotential:
+def _cell(layer: Layer | None, is_line: bool, step: float, aspect: float, poisson_ratio: float) -> CellPotential:
     if layer is None:
-        return HalfSpaceCell()
+        return HalfSpaceCell(aspect)
     thickness = float(layer.thickness) / step
-    return (LayerStrip if is_line else LayerCell)(thickness, layer.bonded, poisson_ratio)
+    if is_line:
+        return LayerStrip(thickness, layer.bonded, poisson_ratio)
+    return LayerCell(thickness, layer.bonded, poisson_ratio, aspect)
 
 
 def _influence(modes: _Modes, shape: tuple[int, ...], cell: CellPotential) -> Array:
     """Influence of the unit cell at offsets −(nx−1) … nx−1 and −(ny−1) … ny−1."""
     nx, ny = shape
     instant = np.array([modes.glassy])
-    (half,) = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell)
+    (half,) = memory_influence(
+        (nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell, aspect=cell.aspect
+    )
     return np.concatenate([half[:, :0:-1], half], axis=1)
 
 
