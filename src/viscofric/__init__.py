@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from viscofric.contact.backend import Backend as Backend
+    from viscofric.contact.derivatives import FrictionDerivatives as FrictionDerivatives
     from viscofric.contact.fields import highest_von_mises as highest_von_mises
     from viscofric.contact.fields import line_stress as line_stress
     from viscofric.contact.fields import stress_at as stress_at
@@ -97,6 +98,7 @@ __version__: str
 # public name -> the module that defines it
 _HOME = {
     "Backend": "viscofric.contact.backend",
+    "FrictionDerivatives": "viscofric.contact.derivatives",
     "highest_von_mises": "viscofric.contact.fields",
     "line_stress": "viscofric.contact.fields",
     "stress_at": "viscofric.contact.fields",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -14,6 +15,8 @@ from viscofric.contact.influence import memory_influence
 from viscofric.contact.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from numpy.typing import ArrayLike, NDArray
 
     from viscofric.contact.backend import AnyArray
@@ -193,6 +196,21 @@ class ConvolutionOperator(ABC):
     def _resistance(self, influence: Array, pressure: Array) -> float:
         slope = self._convolve(self._spectrum(influence), self.backend.asarray(pressure))
         return -self.window.cell_area * float(np.vdot(pressure, self.backend.to_numpy(slope)))
+
+    def dissipated_force_gradient(self, pressure: Array) -> Array:
+        """Change of `dissipated_force` with the pressure of each cell, (nx, ny)."""
+        # The force is a quadratic form, which has a symmetric matrix: that of the influence and its mirror image.
+        symmetric = self._spectrum(self._dissipation + self._dissipation[::-1])
+        slope = self._convolve(symmetric, self.backend.asarray(pressure))
+        return -self.window.cell_area * self.backend.to_numpy(slope)
+
+    def transposed(self) -> Self:
+        """Return the operator with the transposed matrix: the same influence, mirrored along the motion."""
+        mirrored = copy.copy(self)
+        mirrored.products = 0
+        mirrored._transfer = self.backend.xp.conj(self._transfer)
+        mirrored._inverse_symbol = self.backend.xp.conj(self._inverse_symbol)
+        return mirrored
 
 
 @dataclass

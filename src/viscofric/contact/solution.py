@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
+    from viscofric.contact.derivatives import FrictionDerivatives
+
     Array: TypeAlias = NDArray[np.float64]
 
 
@@ -139,6 +141,8 @@ class ContactSolution:
         One sentence for each assumption that does not hold well.
     geometry : str
         "point" or "line".
+    derivatives : FrictionDerivatives or None
+        Of the friction coefficient, where they were asked for.
     """
 
     speed: float
@@ -160,6 +164,7 @@ class ContactSolution:
     diagnostics: Diagnostics
     warnings: tuple[str, ...] = ()
     geometry: str = "point"
+    derivatives: FrictionDerivatives | None = None
 
     @property
     def centre_of_pressure(self) -> float:

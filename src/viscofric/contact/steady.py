@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.contact.assembly import assemble
 from viscofric.contact.backend import Backend
 from viscofric.contact.control import GivenIndentation, GivenLoad
+from viscofric.contact.derivatives import differentiate
 from viscofric.contact.estimates import FEWEST_GRIDS
 from viscofric.contact.indenters import SMALL_STRAIN, Indenter
 from viscofric.contact.layer_operator import ScaledLayer
@@ -56,6 +57,7 @@ def solve_steady(
     indenter_poisson_ratio: float = 0.3,
     layer: Layer | None = None,
     backend: Backend | str = "scipy",
+    derivatives: bool = False,
 ) -> ContactSolution:
     """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space or layer.
 
@@ -90,6 +92,9 @@ def solve_steady(
         Thickness and base of the material; a half-space without.
     backend : Backend or str
         Arrays and FFTs to solve with, such as "ducc0" or "torch:cuda"; see `Backend`.
+    derivatives : bool
+        Whether the solution is to hold the derivatives of the friction coefficient with respect to every mode, the
+        glass, the speed and the load or indentation; they cost about as much as the finest grid does.
 
     Returns
     -------
@@ -100,7 +105,7 @@ def solve_steady(
     InputError
         If a value cannot be used, or the contact would be wider than the indenter.
     ConvergenceError
-        If the solver fails, or the accuracy is not reached on the finest grid.
+        If the solver fails, the accuracy is not reached on the finest grid, or derivatives are not found.
 
     Notes
     -----
@@ -126,6 +131,8 @@ def solve_steady(
     geometry = indenter.geometry
     finest = geometry.finest if finest is None else finest
     _check_settings(accuracy, tolerance, finest)
+    if derivatives:
+        _check_derivatives(velocity, layer)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
     spectrum = material.modes_at(kelvin)
     counterface = _indenter_compliance(indenter_modulus, indenter_poisson_ratio)
@@ -148,6 +155,8 @@ def solve_steady(
     stages = refine(first, accuracy, finest)
     # What was given comes back as it was given, free of the rounding of sums and units.
     solution = replace(assemble(stages, scale, velocity, kelvin), **given)
+    if derivatives:
+        solution = replace(solution, derivatives=differentiate(stages, scale, spectrum, plane_strain, velocity))
     return _with_doubts(solution, indenter, layer, scale, stages[-1])
 
 
@@ -167,6 +176,16 @@ def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
         )
     if finest < LEAST_FINEST:
         raise InputError(f"finest = {finest!r}: must be at least {LEAST_FINEST} cells.")
+
+
+def _check_derivatives(velocity: float, layer: Layer | None) -> None:
+    if velocity == 0.0 or math.isinf(velocity):
+        raise InputError(
+            f"derivatives = True: an elastic limit, speed = {velocity:g}, has no friction to differentiate; "
+            "give a speed other than zero and infinity."
+        )
+    if layer is not None:
+        raise InputError("derivatives = True: known for half-spaces only, not for layers; leave one of them out.")
 
 
 def _held(

@@ -1,0 +1,171 @@
+"""How the friction coefficient changes with the material, the speed and the load, in SI units."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.adjoint import Way, friction_gradient, friction_way
+from viscofric.contact.control import GivenLoad
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.contact.adjoint import Gradient
+    from viscofric.contact.problem import Stage
+    from viscofric.contact.scale import Scale
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LogarithmicDerivatives:
+    """Derivatives of the friction coefficient with respect to logarithms, such as F ∂μ/∂F; pure numbers.
+
+    Attributes
+    ----------
+    C, tau : (n,) array
+        C_k ∂μ/∂C_k and τ_k ∂μ/∂τ_k.
+    E_inf, speed : float
+        E_inf ∂μ/∂E_inf and v ∂μ/∂v, the latter the sum of `tau`: times and speed have one effect.
+    load, indentation : float or None
+        F ∂μ/∂F or δ ∂μ/∂δ, whichever is given.
+    """
+
+    C: Array
+    E_inf: float
+    tau: Array
+    speed: float
+    load: float | None
+    indentation: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionDerivatives:
+    """Derivatives of the friction coefficient, each with all else held, at the material's modes at that temperature.
+
+    Attributes
+    ----------
+    C : (n,) array
+        ∂μ/∂C_k at fixed E_inf, so that E0 falls as C_k grows; Pa.
+    E_inf : float
+        ∂μ/∂E_inf at fixed C, so that E0 rises with it; 1/Pa.
+    tau : (n,) array
+        ∂μ/∂τ_k, 1/s.
+    speed : float
+        ∂μ/∂v, s/m.
+    load : float or None
+        ∂μ/∂F, 1/N or m/N; None where the indentation is given.
+    indentation : float or None
+        ∂μ/∂δ, 1/m; None where the load is given.
+    logarithmic : LogarithmicDerivatives
+        The same with respect to the logarithms.
+    way : {"pressure", "energy"}
+        What was differentiated: the friction coefficient from the lean of the pressure, or that from the dissipated
+        energy, whichever the solution trusts (the latter where the friction coefficient is extrapolated from it).
+    error : float
+        Error estimate of the logarithmic derivatives, from the largest of their changes on the last three grids.
+
+    Notes
+    -----
+    They are exact for the cells found in contact.  Since these are whole cells, the derivatives of one solution
+    scatter more than its friction coefficient does: they settle with the first power of the cell, at accuracy 1e-3
+    to some per cent of the largest of them.
+    """
+
+    C: Array
+    E_inf: float
+    tau: Array
+    speed: float
+    load: float | None
+    indentation: float | None
+    logarithmic: LogarithmicDerivatives
+    way: Way
+    error: float
+
+
+def differentiate(
+    stages: list[Stage], scale: Scale, spectrum: RetardationSpectrum, plane_strain: float, velocity: float
+) -> FrictionDerivatives:
+    """Differentiate the friction coefficient of a converged contact, by an adjoint solve on each of the last grids.
+
+    Parameters
+    ----------
+    stages : list of Stage
+        Coarsest first, three at least.
+    scale : Scale
+    spectrum : RetardationSpectrum
+        What `stages` were solved with.
+    plane_strain : float
+        1 − ν².
+    velocity : float
+        m/s, neither zero nor infinite.
+
+    Raises
+    ------
+    ConvergenceError
+        If an adjoint problem is not solved.
+    InputError
+        If the solid is not a half-space.
+    """
+    way = friction_way(stages)
+    found = [
+        _in_si(friction_gradient(stage, way), stage, way, scale, spectrum, plane_strain, velocity)
+        for stage in stages[-3:]
+    ]
+    before, last = (
+        float(np.abs(_numbers(after.logarithmic) - _numbers(first.logarithmic)).max())
+        for first, after in pairwise(found)
+    )
+    # A single change may be small by chance; from grid to grid they halve.
+    return replace(found[-1], error=scale.geometry.scatter * max(last, 0.5 * before))
+
+
+def _in_si(
+    gradient: Gradient,
+    stage: Stage,
+    way: Way,
+    scale: Scale,
+    spectrum: RetardationSpectrum,
+    plane_strain: float,
+    velocity: float,
+) -> FrictionDerivatives:
+    # The units, and with them the cells, are held: all of the chain rule is constant factors.
+    slope = math.copysign(scale.slope, velocity)
+    compliance = slope * plane_strain * scale.stiffness
+    C = compliance * gradient.compliances
+    E_inf = -compliance * gradient.glassy / spectrum.E_inf**2
+    tau = (slope * abs(velocity) / scale.length) * gradient.memory_lengths
+    log_tau = spectrum.tau * tau
+    log_speed = float(log_tau.sum())
+    loaded = isinstance(stage.problem.control, GivenLoad)
+    unit, value = (scale.force, stage.load) if loaded else (scale.depth, stage.indentation)
+    held, log_held = slope * gradient.held / unit, slope * gradient.held * value
+    return FrictionDerivatives(
+        C=C,
+        E_inf=E_inf,
+        tau=tau,
+        speed=log_speed / velocity,
+        load=held if loaded else None,
+        indentation=None if loaded else held,
+        logarithmic=LogarithmicDerivatives(
+            C=spectrum.C * C,
+            E_inf=spectrum.E_inf * E_inf,
+            tau=log_tau,
+            speed=log_speed,
+            load=log_held if loaded else None,
+            indentation=None if loaded else log_held,
+        ),
+        way=way,
+        error=math.inf,
+    )
+
+
+def _numbers(derivatives: LogarithmicDerivatives) -> Array:
+    held = derivatives.load if derivatives.indentation is None else derivatives.indentation
+    return np.concatenate([derivatives.C, derivatives.tau, [derivatives.E_inf, held or 0.0]])

@@ -1,0 +1,341 @@
+"""Derivatives of the friction coefficient: against differences on the same cells, closed forms and similarity."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viscofric.contact.adjoint import friction_gradient
+from viscofric.contact.control import GivenIndentation, GivenLoad
+from viscofric.contact.geometry import LINE, POINT
+from viscofric.contact.indenters import Ball, Cylinder
+from viscofric.contact.influence import memory_influence
+from viscofric.contact.influence_moments import correlation, memory_moments
+from viscofric.contact.layers import Layer
+from viscofric.contact.line_influence import line_memory_changes, line_memory_influence
+from viscofric.contact.nested import find_window
+from viscofric.contact.operator import SteadyMaterial
+from viscofric.contact.problem import Problem, Stage
+from viscofric.contact.reference import hunter_line
+from viscofric.contact.scale import Scale, ScaledIndenter
+from viscofric.contact.shapes import Ellipsoid, FlatPunch
+from viscofric.contact.steady import solve_steady
+from viscofric.errors import InputError
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from viscofric.contact.derivatives import FrictionDerivatives
+    from viscofric.contact.geometry import Geometry
+
+    Array = NDArray[np.float64]
+
+BALL = Ball(radius=10e-3)
+LENGTHS = np.geomspace(1e-7, 1e9, 17)
+
+
+def material(C: list[float], tau: list[float], E_inf: float = 2e7) -> Material:
+    E0 = 1.0 / (1.0 / E_inf + sum(C))
+    return Material(RetardationSpectrum(E0, E_inf, C, tau))
+
+
+def solved(C: list[float], tau: list[float], *, E_inf: float = 2e7, **given_: float) -> FrictionDerivatives:
+    arguments = {"speed": 0.5, "load": 1.0} | given_
+    solution = solve_steady(material(C, tau, E_inf), BALL, derivatives=True, **arguments)  # type: ignore[arg-type]
+    assert solution.derivatives is not None
+    return solution.derivatives
+
+
+class Paraboloid:
+    """x²/2 + y²/2, in units of the Hertz contact."""
+
+    has_walls = False
+
+    def height(self, x: Array, y: Array) -> Array:
+        return 0.5 * (x**2 + y**2)
+
+    def slope(self, x: Array, y: Array) -> Array:
+        return x + 0.0 * y
+
+
+def central_difference(function: Callable[[float], Array], step: float) -> Array:
+    """Five-point rule: the error is of fourth order."""
+    near, far = function(step) - function(-step), function(2.0 * step) - function(-2.0 * step)
+    return (8.0 * near - far) / (12.0 * step)
+
+
+def test_correlation_gathers_all_pairs_of_cells_at_one_distance() -> None:
+    rng = np.random.default_rng(1)
+    a, b = rng.normal(size=(2, 4, 7))
+    found = correlation(a, b)
+    expected = np.zeros_like(found)
+    for i, j in np.ndindex(a.shape):
+        for k, m in np.ndindex(b.shape):
+            expected[i - k + 3, abs(j - m)] += a[i, j] * b[k, m]
+    assert found == pytest.approx(expected, abs=1e-13)  # rounding
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.3])
+def test_moments_are_sums_of_influence_coefficients_and_change_with_the_memory(shift: float) -> None:
+    weights = np.random.default_rng(2).normal(size=(2, 29, 20))
+
+    def sums(logarithm: float) -> Array:
+        lengths = LENGTHS * np.exp(logarithm)
+        return np.asarray(
+            np.einsum("kij,mij->km", weights, memory_influence((15, 20), np.eye(len(lengths)), lengths, shift))
+        )
+
+    moments, sensitivities = memory_moments(weights, LENGTHS, shift)
+    assert moments == pytest.approx(sums(0.0), abs=1e-12)  # the same rule
+    # The coefficients are right to about 1e-11, which the difference divides by its step.
+    assert sensitivities == pytest.approx(central_difference(sums, 1e-3), abs=2e-8)
+
+
+@pytest.mark.parametrize("length", [1e-3, 0.3, 5.0, 1e4])
+def test_line_coefficients_change_with_the_memory(length: float) -> None:
+    x = np.arange(-40.0, 41.0) - 0.2
+    weights = np.random.default_rng(3).normal(size=81)
+    even = weights + weights[::-1]  # the dissipation is known up to what is odd, here about the loaded cell
+
+    def sums(logarithm: float) -> Array:
+        displacement = line_memory_influence(x, length * np.exp(logarithm))[0]
+        dissipation = line_memory_influence(x + 0.2, length * np.exp(logarithm))[1]
+        return np.array([weights @ displacement, even @ dissipation])
+
+    found = weights @ line_memory_changes(x, length)[0], even @ line_memory_changes(x + 0.2, length)[1]
+    expected = central_difference(sums, 1e-3)
+    assert np.array(found) == pytest.approx(expected, rel=1e-8, abs=1e-9)  # differences of fourth order
+
+
+@cache
+def converged(geometry: Geometry, held: str, k: float, length: float) -> Stage:
+    """Solve on the window's first grid, as exactly as doubles allow."""
+    solid = SteadyMaterial(1.0 / k, (1.0 - 1.0 / k) * np.array([0.6, 0.4]), np.array([0.2 * length, length]))
+    control = GivenLoad(geometry.parabolic_load) if held == "load" else GivenIndentation(1.0)
+    problem = Problem(geometry, solid, Paraboloid(), control, 1e-13)
+    return find_window(problem, problem.first_size)
+
+
+def friction(stage: Stage, way: str, **changed: float | Array) -> float:
+    """Friction coefficient of a neighbouring problem on the same cells, which stay in contact."""
+    held = changed.pop("held", None)
+    solid = replace(stage.operator.material, **changed)  # type: ignore[arg-type]
+    control = stage.problem.control if held is None else type(stage.problem.control)(held)  # type: ignore[call-arg]
+    operator = stage.problem.geometry.operator(stage.window, solid, stage.operator.shift)
+    x = stage.window.x - stage.operator.shift * stage.window.spacing
+    height = stage.problem.shape.height(x[:, None], stage.window.y)
+    result = control.solve(operator, height, stage.result.pressure, 1e-13)
+    assert result.converged
+    assert np.array_equal(result.pressure > 0.0, stage.result.pressure > 0.0)
+    there = Stage(stage.problem, stage.window, operator, result)
+    return there.pressure_friction if way == "pressure" else there.energy_friction
+
+
+@pytest.mark.parametrize("way", ["pressure", "energy"])
+@pytest.mark.parametrize(
+    ("geometry", "held", "k", "length"),
+    [
+        (POINT, "load", 10.0, 2.0),
+        (POINT, "indentation", 10.0, 2.0),
+        (POINT, "load", 300.0, 1.0),
+        (LINE, "load", 10.0, 2.0),
+        (LINE, "load", 300.0, 1.0),
+    ],
+)
+def test_derivatives_are_those_of_the_solution_on_its_cells(
+    geometry: Geometry, held: str, k: float, length: float, way: str
+) -> None:
+    stage = converged(geometry, held, k, length)
+    assert (stage.operator.shift > 0.0) == (k > 100.0)  # both where the gap is looked at behind the centres and not
+    solid, gradient = stage.operator.material, friction_gradient(stage, way)  # type: ignore[arg-type]
+    depth = stage.result.indentation if held == "indentation" else geometry.parabolic_load
+    step = 1e-5
+    first = np.array([1.0, 0.0])
+
+    def difference(change: Callable[[float], dict[str, float | Array]]) -> float:
+        up, down = friction(stage, way, **change(step)), friction(stage, way, **change(-step))
+        return (up - down) / (2.0 * step)
+
+    found = {
+        "glassy": gradient.glassy * solid.glassy,
+        "held": gradient.held * depth,
+        "compliance": gradient.compliances[0] * solid.compliances[0],
+        "memory": gradient.memory_lengths[0] * solid.memory_lengths[0],
+    }
+    expected = {
+        "glassy": difference(lambda e: {"glassy": solid.glassy * (1.0 + e)}),
+        "held": difference(lambda e: {"held": depth * (1.0 + e)}),
+        "compliance": difference(lambda e: {"compliances": solid.compliances * (1.0 + e * first)}),
+        "memory": difference(lambda e: {"memory_lengths": solid.memory_lengths * (1.0 + e * first)}),
+    }
+    # The solver leaves 1e-13 of the indentation, which the difference divides by its step; its own error is step².
+    assert found == pytest.approx(expected, rel=1e-6, abs=3e-8)
+
+
+@pytest.mark.parametrize(("k", "length"), [(2.0, 0.5), (10.0, 1.0), (100.0, 10.0)])
+def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, length: float) -> None:
+    E0, ratio, radius, load = 1e6, 0.5, 10e-3, 100.0
+    E_inf, C = k * E0, (1.0 - 1.0 / k) / E0
+    a0 = hunter_line(load, radius, E0, E_inf, 1e-3, 1.0, ratio).hertz.half_width
+
+    def exact(C: float, E_inf: float, tau: float, load: float) -> float:
+        E0 = 1.0 / (1.0 / E_inf + C)
+        return hunter_line(load, radius, E0, E_inf, tau, 1.0, ratio).friction_coefficient
+
+    tau = length * a0
+    solution = solve_steady(
+        Material(RetardationSpectrum(E0, E_inf, [C], [tau]), poisson_ratio=ratio),
+        Cylinder(radius=radius),
+        speed=1.0,
+        load=load,
+        accuracy=1e-4,
+        derivatives=True,
+    )
+    assert solution.derivatives is not None
+    found = solution.derivatives.logarithmic
+    point = np.array([C, E_inf, tau, load])
+
+    def change(place: int) -> float:
+        away = np.zeros(4)
+        away[place] = 1e-4
+        return (exact(*(point * (1.0 + away))) - exact(*(point * (1.0 - away)))) / 2e-4
+
+    values = np.array([found.C[0], found.E_inf, found.tau[0], found.load or 0.0])
+    exactly = np.array([change(place) for place in range(4)])
+    assert np.abs(values - exactly).max() <= solution.derivatives.error
+    # The contact is some 200 cells wide, and derivatives settle with the first power of the cell.
+    assert np.abs(values - exactly).max() <= 0.02 * np.abs(exactly).max()
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "near"),
+    # Derivatives settle with the first power of the cell: on 128 and on 512 cells one per cent and a quarter of it, of
+    # μ = 0.058.
+    [(1e-3, 6e-4), pytest.param(1e-4, 1.5e-4, marks=pytest.mark.slow)],
+)
+def test_ball_has_the_derivatives_of_its_friction_over_finite_steps(accuracy: float, near: float) -> None:
+    rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+
+    def over(name: str) -> float:
+        up, down = (
+            solve_steady(rubber, BALL, accuracy=accuracy, **({"speed": 1.0, "load": 1.0} | {name: value}))  # type: ignore[arg-type]
+            for value in (1.06, 1.0 / 1.06)
+        )
+        return (up.friction_coefficient - down.friction_coefficient) / (2.0 * np.log(1.06))
+
+    derivatives = solved([0.9e-6], [1e-3], E_inf=1e7, speed=1.0, accuracy=accuracy)
+    assert derivatives.logarithmic.speed == pytest.approx(over("speed"), abs=near)
+    assert derivatives.logarithmic.load == pytest.approx(over("load"), abs=near)
+
+
+@settings(max_examples=4, deadline=None)
+@given(
+    shares=st.lists(st.floats(0.05, 1.0), min_size=1, max_size=4),
+    decades=st.lists(st.floats(-5.0, -1.0), min_size=4, max_size=4, unique=True),
+    k=st.floats(1.5, 30.0),
+    way=st.sampled_from(["load", "indentation"]),
+)
+def test_similarity_ties_the_derivatives_together(
+    shares: list[float], decades: list[float], k: float, way: str
+) -> None:
+    E_inf = k * 1e6
+    C = np.array(shares) / sum(shares) * (1e-6 - 1.0 / E_inf)
+    tau = 10.0 ** np.array(decades[: len(C)])
+    held = {"load": 1.0} if way == "load" else {"indentation": 5e-5}
+    rubber = Material(RetardationSpectrum(1e6, E_inf, C, tau))
+    solution = solve_steady(rubber, BALL, speed=0.3, accuracy=0.1, derivatives=True, **held)  # type: ignore[arg-type]
+    assert solution.derivatives is not None
+    found = solution.derivatives.logarithmic
+    # Stiffness and load have one effect whatever the shape; at a given depth stiffness has none.  Exactly so on the
+    # cells; the adjoint problem is solved to 1e-8.
+    size = np.abs(found.C).sum() + abs(found.E_inf)
+    assert found.C.sum() - found.E_inf == pytest.approx(found.load or 0.0, abs=1e-7 * size)
+    assert found.speed == pytest.approx(found.tau.sum(), rel=1e-12)
+    if found.load is not None:
+        # For a ball μ = (a0/R) Φ(v/a0), which a grid that is held knows only as well as the derivatives settle.
+        expected = (solution.friction_coefficient - found.speed) / 3.0
+        assert found.load == pytest.approx(expected, abs=3.0 * solution.derivatives.error)
+
+
+def test_modes_that_are_split_or_empty_share_their_derivative() -> None:
+    whole = solved([6e-7, 3e-7], [1e-3, 1e-4], accuracy=3e-2)
+    parts = solved([4e-7, 3e-7, 2e-7, 0.0], [1e-3, 1e-4, 1e-3, 1e-4], accuracy=3e-2)
+    near = {"rel": 1e-6}  # the tolerance of the two solutions, 1e-8, in derivatives
+    assert list(parts.C) == pytest.approx(whole.C[[0, 1, 0, 1]], **near)
+    assert parts.tau == pytest.approx(whole.tau[[0, 1, 0, 1]] * [2 / 3, 1.0, 1 / 3, 0.0], **near)
+    assert parts.E_inf == pytest.approx(whole.E_inf, **near)
+    assert parts.load == pytest.approx(whole.load, **near)
+
+
+def test_reversed_motion_reverses_friction_but_not_its_derivative_with_speed() -> None:
+    ahead, back = (solved([6e-7], [1e-3], speed=speed, accuracy=3e-2) for speed in (0.5, -0.5))
+    assert list(back.C) == pytest.approx(-ahead.C)
+    assert back.tau == pytest.approx(-ahead.tau)
+    assert (back.E_inf, back.load) == pytest.approx((-ahead.E_inf, -(ahead.load or 0.0)))
+    assert back.speed == pytest.approx(ahead.speed)
+
+
+def test_elastic_indenter_is_a_part_of_the_glass() -> None:
+    modulus = 1e7
+    counter = (1.0 - 0.3**2) / modulus / (1.0 - 0.5**2)  # as a compliance of the rubber
+    rigid = solved([6e-7], [1e-3], E_inf=1.0 / (1.0 / 2e7 + counter), accuracy=3e-2)
+    elastic = solved([6e-7], [1e-3], E_inf=2e7, indenter_modulus=modulus, accuracy=3e-2)
+    near = {"rel": 1e-6}  # the tolerance of the two solutions, 1e-8, in derivatives
+    assert list(elastic.C) == pytest.approx(rigid.C, **near)
+    assert elastic.load == pytest.approx(rigid.load, **near)
+    assert elastic.E_inf * (2e7) ** 2 == pytest.approx(rigid.E_inf / (1.0 / 2e7 + counter) ** 2, **near)
+
+
+def test_friction_of_a_flat_punch_grows_with_its_depth() -> None:
+    punch = FlatPunch(radius=1.0)
+    scale = Scale(POINT, 1.0, 1.0, 1.0)
+    solid = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))
+    problem = Problem(POINT, solid, ScaledIndenter(punch, scale), GivenIndentation(0.5), 1e-10)
+    stage = find_window(problem, 1.0)
+    # The whole face touches at any depth: pressures grow with it, and what they dissipate with its square.
+    assert friction_gradient(stage, "energy").held * 0.5 == pytest.approx(stage.energy_friction, rel=1e-6)
+
+
+def test_units_do_not_matter() -> None:
+    def log_derivatives(length: float, time: float, modulus: float) -> Array:
+        spectrum = RetardationSpectrum(1e6 * modulus, 1e7 * modulus, [0.9e-6 / modulus], [1e-3 * time])
+        solution = solve_steady(
+            Material(spectrum),
+            Ellipsoid(10e-3 * length, 20e-3 * length),
+            speed=0.5 * length / time,
+            load=modulus * length**2,
+            accuracy=3e-2,
+            derivatives=True,
+        )
+        assert solution.derivatives is not None
+        one = solution.derivatives
+        plain = np.array([one.C[0] / modulus, one.E_inf * modulus, one.tau[0] * time, one.speed * length / time])
+        return np.append(plain, (one.load or 0.0) * modulus * length**2)
+
+    assert log_derivatives(1e-3, 1e9, 1e6) == pytest.approx(log_derivatives(1.0, 1.0, 1.0), rel=1e-6)
+
+
+@pytest.mark.parametrize("speed", [0.0, np.inf])
+def test_elastic_limits_are_refused(speed: float) -> None:
+    with pytest.raises(InputError, match="no friction to differentiate"):
+        solved([6e-7], [1e-3], speed=speed)
+
+
+def test_layers_are_refused() -> None:
+    with pytest.raises(InputError, match="known for half-spaces only"):
+        solved([6e-7], [1e-3], layer=Layer(thickness=1e-3))  # type: ignore[arg-type]
+
+
+def test_derivatives_are_left_out_unless_asked_for() -> None:
+    solution = solve_steady(material([6e-7], [1e-3]), BALL, speed=0.5, load=1.0, accuracy=0.1)
+    assert solution.derivatives is None
