@@ -14,8 +14,10 @@ if TYPE_CHECKING:
     from viscofric.contact.scale import Scale
 
 
-def assemble(stages: list[Stage], scale: Scale, velocity: float, temperature: float | None) -> ContactSolution:
-    """Bring the finest stage back to SI units, mirrored if the indenter moves backwards.
+def assemble(
+    stages: list[Stage], scale: Scale, velocity: float, direction: tuple[float, float], temperature: float | None
+) -> ContactSolution:
+    """Bring the finest stage back to SI units, turned round if the indenter moves backwards.
 
     Parameters
     ----------
@@ -23,7 +25,9 @@ def assemble(stages: list[Stage], scale: Scale, velocity: float, temperature: fl
         Coarsest first.
     scale : Scale
     velocity : float
-        m/s.
+        m/s, along the direction.
+    direction : (float, float)
+        Of length one.
     temperature : float or None
         K.
 
@@ -33,11 +37,13 @@ def assemble(stages: list[Stage], scale: Scale, velocity: float, temperature: fl
         Without warnings.
     """
     fine, window = stages[-1], stages[-1].window
-    pressure, x = scale.pressure * fine.result.pressure, scale.length * window.x
+    pressure = scale.pressure * fine.result.pressure
+    x, y = scale.length * window.x, scale.length * window.y
     displacement = scale.depth * fine.displacement
     slope = math.copysign(scale.slope, velocity)
     if velocity < 0.0:
-        x, pressure, displacement = -x[::-1], pressure[::-1], displacement[::-1]
+        x, y = -x[::-1], -y[::-1]
+        pressure, displacement = pressure[::-1, ::-1], displacement[::-1, ::-1]
     return ContactSolution(
         speed=velocity,
         load=scale.force * fine.load,
@@ -52,11 +58,13 @@ def assemble(stages: list[Stage], scale: Scale, velocity: float, temperature: fl
         half_width=scale.length * fine.footprint.side,
         max_pressure=scale.pressure * fine.footprint.peak,
         x=x,
-        y=scale.length * window.y,
+        y=y,
         pressure=pressure,
         displacement=displacement,
         diagnostics=_diagnostics(stages, scale, slope),
         geometry=scale.geometry.name,
+        direction=direction,
+        lateral_friction_coefficient=slope * fine.lateral_friction,
     )
 
 

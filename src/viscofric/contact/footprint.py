@@ -36,7 +36,7 @@ class Footprint:
     Attributes
     ----------
     front, rear, side : float
-        Distances from the axis to the leading and trailing edge on the centre line, and to the farther side.
+        Distances from the axis to the leading and trailing edge on the centre line, and half the width across it.
     area : float
     peak : float
         Largest pressure.
@@ -60,14 +60,15 @@ class Footprint:
         window : Grid
         pressure : (nx, ny) array
         """
-        centre = pressure[:, pressure.shape[1] // 2]
+        middle = pressure.shape[1] // 2
+        centre = 0.5 * (pressure[:, middle - 1] + pressure[:, middle])  # the axis lies between the two rows
         rear, front = edges(window.x, centre if centre.any() else pressure.max(axis=1))
         across = pressure.max(axis=0)
-        side = max(-(found := edges(window.y, across))[0], found[1]) if len(across) > 1 else math.inf
+        right, left = edges(window.y, across) if len(across) > 1 else (-math.inf, math.inf)
         place, row = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
         empty = np.flatnonzero(pressure[:, row] == 0.0)
         depth = int(np.abs(empty - place).min()) if len(empty) else len(pressure)
-        return cls(front, -rear, side, contact_area(window, pressure), float(pressure.max()), depth)
+        return cls(front, -rear, 0.5 * (left - right), contact_area(window, pressure), float(pressure.max()), depth)
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ _FEWEST = 4  # points that a cubic spline needs
 
 @dataclass(frozen=True, eq=False)
 class HeightMap(Indenter):
-    """A free surface given by its heights on a rectangular grid, x (the motion) along the first axis.
+    """A free surface given by its heights on a rectangular grid, x along the first axis, y along the second.
 
     Between the points it is the bicubic spline through them (no smoothing), beyond the outermost ones there is no
     surface; a contact that reaches them is refused.  The lowest point given is the origin of x, y and of heights, and
@@ -69,6 +69,10 @@ class HeightMap(Indenter):
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x at (x, y); zero beyond the map."""
         return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), dx=1, grid=False), 0.0)
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y); zero beyond the map."""
+        return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), dy=1, grid=False), 0.0)
 
     def check(self, contact: Extent, held: str) -> None:
         """Refuse a contact that reaches the outermost points of the map."""
@@ -162,6 +166,10 @@ class Profile(Indenter):
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x at (x, y); zero beyond the profile."""
         return np.where(self._inside(x), self._spline(x, 1), 0.0) + 0.0 * y
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y): zero."""
+        return 0.0 * x + 0.0 * y
 
     def check(self, contact: Extent, held: str) -> None:
         """Refuse a contact that reaches the outermost points of the profile."""

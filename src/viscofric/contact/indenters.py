@@ -50,13 +50,17 @@ class Indenter(ABC):
         """Slope of the height along x at (x, y)."""
 
     @abstractmethod
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y)."""
+
+    @abstractmethod
     def doubt(self, contact: Extent, indentation: float) -> str | None:
         """Return what is doubtful about small strain, if anything.
 
         Parameters
         ----------
         contact : Extent
-            In m.
+            Along x and y of the indenter, in m.
         indentation : float
             m.
 
@@ -77,7 +81,7 @@ class Indenter(ABC):
         Parameters
         ----------
         contact : Extent
-            In m.
+            Along x and y of the indenter, in m.
         held : str
             By what the indenter is held, such as "under 25 N".
 
@@ -140,6 +144,10 @@ class Ball(Indenter):
         """Slope of the height along x at (x, y)."""
         return x / self.radius + 0.0 * y  # type: ignore[operator]
 
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y)."""
+        return 0.0 * x + y / self.radius  # type: ignore[operator]
+
     @property
     def reach(self) -> float:
         """Half the largest width that a contact can have, m."""
@@ -181,6 +189,10 @@ class Cylinder(Indenter):
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x at (x, y)."""
         return x / self.radius + 0.0 * y  # type: ignore[operator]
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y): zero."""
+        return 0.0 * x + 0.0 * y
 
     @property
     def reach(self) -> float:

@@ -41,6 +41,9 @@ class Shape(Protocol):
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x."""
 
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y."""
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:
@@ -110,6 +113,12 @@ class Stage:
     def pressure_friction(self) -> float:
         """Friction coefficient from the lean of the pressure, ∫ p ∂h/∂x dA / F."""
         slope = self.problem.shape.slope(self.window.x[:, None], self.window.y)
+        return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / self.load
+
+    @cached_property
+    def lateral_friction(self) -> float:
+        """Coefficient of the force across the motion, ∫ p ∂h/∂y dA / F."""
+        slope = self.problem.shape.slope_across(self.window.x[:, None], self.window.y)
         return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / self.load
 
     @cached_property

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.contact.grids import Extent
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.geometry import Geometry
-    from viscofric.contact.grids import Extent
+    from viscofric.contact.grids import Grid
     from viscofric.contact.indenters import Indenter
 
     Array: TypeAlias = NDArray[np.float64]
@@ -106,10 +107,6 @@ class Scale:
         length = _crossing(lambda length: _depth_at(indenter, length), indentation)
         return cls(indenter.geometry, length, indentation, stiffness)
 
-    def extent(self, contact: Extent) -> Extent:
-        """Bring the extent of a contact to SI units."""
-        return contact._replace(**{name: self.length * value for name, value in contact._asdict().items()})
-
 
 @dataclass(frozen=True)
 class ScaledIndenter:
@@ -119,13 +116,13 @@ class ScaledIndenter:
     ----------
     indenter : Indenter
     scale : Scale
-    direction : float
-        1 for motion towards +x, −1 for motion towards −x.
+    toward : (float, float)
+        Direction of the motion over the indenter's own axes, of length one.
     """
 
     indenter: Indenter
     scale: Scale
-    direction: float = 1.0
+    toward: tuple[float, float] = (1.0, 0.0)
 
     @property
     def has_walls(self) -> bool:
@@ -134,14 +131,38 @@ class ScaledIndenter:
 
     def height(self, x: Array, y: Array) -> Array:
         """Height above the lowest point."""
-        length = self.scale.length
-        return self.indenter.height(self.direction * length * x, length * y) / self.scale.depth
+        return self.indenter.height(*self._turned(x, y)) / self.scale.depth
 
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along the motion."""
-        length = self.scale.length
-        slope = self.indenter.slope(self.direction * length * x, length * y)
-        return self.direction * slope / self.scale.slope
+        return self._slope_along(self.toward, x, y)
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height across the motion, to its left."""
+        return self._slope_along((-self.toward[1], self.toward[0]), x, y)
+
+    def extent(self, window: Grid, mask: NDArray[np.bool_]) -> Extent:
+        """Extent of a set of cells along the indenter's own axes, m."""
+        i, j = np.nonzero(mask)
+        x, y = self._turned(window.x[i], window.y[j])
+        half = 0.5 * self.scale.length * window.spacing * (abs(self.toward[0]) + abs(self.toward[1]))
+        side = float(np.abs(y).max()) + half if self.scale.geometry.dimension > 1 else 0.0
+        return Extent(half - float(x.min()), float(x.max()) + half, side)
+
+    def _turned(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return places on the indenter's own axes, m."""
+        along, across = (self.scale.length * one for one in self.toward)
+        if across == 0.0:
+            return along * x, along * y
+        return along * x - across * y, across * x + along * y
+
+    def _slope_along(self, direction: tuple[float, float], x: Array, y: Array) -> Array:
+        place = self._turned(x, y)
+        result = np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+        for part, slope in zip(direction, (self.indenter.slope, self.indenter.slope_across), strict=True):
+            if part != 0.0:
+                result += part * slope(*place)
+        return result / self.scale.slope
 
 
 def _depth_at(indenter: Indenter, length: float) -> float:

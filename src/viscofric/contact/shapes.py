@@ -27,7 +27,7 @@ class Ellipsoid(Indenter):
     Parameters
     ----------
     radius_x, radius_y : float, str or pint.Quantity
-        Radii of curvature at the lowest point along and across the motion, m.
+        Radii of curvature at the lowest point along x and along y, m.
 
     Raises
     ------
@@ -50,6 +50,10 @@ class Ellipsoid(Indenter):
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x at (x, y)."""
         return x / self.radius_x + 0.0 * y  # type: ignore[operator]
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y)."""
+        return 0.0 * x + y / self.radius_y  # type: ignore[operator]
 
     @property
     def reach(self) -> float:
@@ -95,6 +99,10 @@ class Cone(Indenter):
         radius = np.hypot(x, y)
         return np.asarray(self._steepness * x / np.where(radius > 0.0, radius, 1.0))
 
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y); zero at the tip."""
+        return self.slope(y, x)
+
     @property
     def _steepness(self) -> float:
         return math.tan(float(self.angle))
@@ -136,6 +144,10 @@ class FlatPunch(Indenter):
     def slope(self, x: Array, y: Array) -> Array:
         """Zero: the face is flat."""
         return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Zero: the face is flat."""
+        return self.slope(x, y)
 
     def doubt(self, contact: Extent, indentation: float) -> str | None:
         """Return what is doubtful about small strain, if anything."""

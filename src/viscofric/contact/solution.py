@@ -101,7 +101,8 @@ class Diagnostics:
 class ContactSolution:
     """Steady contact of an indenter moving at a constant velocity over a viscoelastic half-space or layer.
 
-    All in SI units.  The indenter moves towards +x for a positive speed.
+    All in SI units.  Here x is along `direction`, and y to the left of it: the indenter moves towards +x for a positive
+    speed, whatever the direction over its own axes.
 
     Attributes
     ----------
@@ -141,6 +142,11 @@ class ContactSolution:
         One sentence for each assumption that does not hold well.
     geometry : str
         "point" or "line".
+    direction : (float, float)
+        Of the motion at a positive speed over the indenter's own axes, of length one.
+    lateral_friction_coefficient : float
+        F_y/F_N, from the lean of the pressure on the finest grid: the force towards +y with which the indenter pushes
+        the solid, as F_t is that towards +x.  Zero where the indenter is its own mirror image about the line of motion.
     derivatives : FrictionDerivatives or None
         Of the friction coefficient, where they were asked for.
     """
@@ -164,6 +170,8 @@ class ContactSolution:
     diagnostics: Diagnostics
     warnings: tuple[str, ...] = ()
     geometry: str = "point"
+    direction: tuple[float, float] = (1.0, 0.0)
+    lateral_friction_coefficient: float = 0.0
     derivatives: FrictionDerivatives | None = None
 
     @property
@@ -189,6 +197,7 @@ class ContactSolution:
             },
             attrs={
                 "speed": self.speed,
+                "direction": list(self.direction),
                 "load": self.load,
                 "friction_coefficient": self.friction_coefficient,
                 "indentation": self.indentation,

@@ -16,6 +16,7 @@ from viscofric.contact.estimates import FEWEST_GRIDS
 from viscofric.contact.indenters import SMALL_STRAIN, Indenter
 from viscofric.contact.layer_operator import ScaledLayer
 from viscofric.contact.layers import Layer
+from viscofric.contact.motion import unit_direction
 from viscofric.contact.nested import COARSEST, find_window, refine
 from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.problem import Problem
@@ -25,10 +26,11 @@ from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from viscofric.contact.control import Control
-    from viscofric.contact.problem import Stage
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -57,6 +59,7 @@ def solve_steady(
     indenter_poisson_ratio: float = 0.3,
     layer: Layer | None = None,
     backend: Backend | str = "scipy",
+    direction: Sequence[float] = (1.0, 0.0),
     derivatives: bool = False,
 ) -> ContactSolution:
     """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space or layer.
@@ -67,8 +70,8 @@ def solve_steady(
     indenter : Indenter
         Ball, Ellipsoid, Cone, FlatPunch or HeightMap; for a line contact in plane strain, Cylinder or Profile.
     speed : float, str or pint.Quantity
-        Velocity along x at which the solid is deformed, m/s.  Zero and infinity are the elastic limits; a
-        negative one is motion towards −x.
+        Velocity along `direction` at which the solid is deformed, m/s.  Zero and infinity are the elastic limits; a
+        negative one is motion the other way.
     load : float, str or pint.Quantity, optional
         Normal load, N; of a line contact per unit of length, N/m.  Either it or the indentation is given.
     indentation : float, str or pint.Quantity, optional
@@ -92,6 +95,9 @@ def solve_steady(
         Thickness and base of the material; a half-space without.
     backend : Backend or str
         Arrays and FFTs to solve with, such as "ducc0" or "torch:cuda"; see `Backend`.
+    direction : (float, float)
+        Of the motion over the indenter's own axes x and y; its length does not matter.  A line contact moves along
+        its x only.
     derivatives : bool
         Whether the solution is to hold the derivatives of the friction coefficient with respect to every mode, the
         glass, the speed and the load or indentation; they cost about as much as the finest grid does.
@@ -138,6 +144,7 @@ def solve_steady(
     counterface = _indenter_compliance(indenter_modulus, indenter_poisson_ratio)
     plane_strain = 1.0 - material.poisson_ratio**2
     compliance = plane_strain / spectrum.E0 + counterface
+    toward = _toward(direction, indenter)
     if layer is not None and not isinstance(layer, Layer):
         raise InputError(f"layer = {layer!r}: must be a Layer, such as Layer(thickness='2 mm').")
     levelled = geometry.has_far_field or (layer is not None and counterface == 0.0)
@@ -145,25 +152,38 @@ def solve_steady(
     solid = _steady_material(
         spectrum, abs(velocity) / scale.length, plane_strain / compliance, counterface / compliance
     )
-    shape = ScaledIndenter(indenter, scale, math.copysign(1.0, velocity))
+    ahead = math.copysign(1.0, velocity)
+    shape = ScaledIndenter(indenter, scale, (ahead * toward[0], ahead * toward[1]))
     problem = Problem(geometry, solid, shape, control, tolerance, Backend.of(backend))
     if layer is not None:
         scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)
         problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)
     first = find_window(problem, problem.first_size)
-    indenter.check(scale.extent(first.extent), held)
+    indenter.check(shape.extent(first.window, first.result.pressure > 0.0), held)
     stages = refine(first, accuracy, finest)
     # What was given comes back as it was given, free of the rounding of sums and units.
-    solution = replace(assemble(stages, scale, velocity, kelvin), **given)
+    solution = replace(assemble(stages, scale, velocity, toward, kelvin), **given)
     if derivatives:
         solution = replace(solution, derivatives=differentiate(stages, scale, spectrum, plane_strain, velocity))
-    return _with_doubts(solution, indenter, layer, scale, stages[-1])
+    fine = stages[-1]
+    contact = shape.extent(fine.window, fine.result.pressure > 0.0)
+    return replace(solution, warnings=_doubts(solution, indenter, layer, contact))
 
 
 def _velocity(speed: Quantity) -> float:
     if isinstance(speed, float) and math.isinf(speed):
         return speed
     return to_si(speed, "m/s", "speed")
+
+
+def _toward(direction: Sequence[float], indenter: Indenter) -> tuple[float, float]:
+    toward = unit_direction(direction)
+    if toward[1] != 0.0 and indenter.geometry.dimension == 1:
+        raise InputError(
+            f"direction = {direction!r}: a {indenter.noun} makes a line contact, which moves along x only; "
+            "right would be (1.0, 0.0) or (-1.0, 0.0)."
+        )
+    return toward
 
 
 def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
@@ -244,10 +264,8 @@ def _steady_material(
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 
 
-def _with_doubts(
-    solution: ContactSolution, indenter: Indenter, layer: Layer | None, scale: Scale, finest: Stage
-) -> ContactSolution:
-    doubts = [indenter.doubt(scale.extent(finest.extent), solution.indentation)]
+def _doubts(solution: ContactSolution, indenter: Indenter, layer: Layer | None, contact: Extent) -> tuple[str, ...]:
+    doubts = [indenter.doubt(contact, solution.indentation)]
     if layer is not None:
         doubts.append(layer.doubt(solution.indentation))
-    return replace(solution, warnings=tuple(doubt for doubt in doubts if doubt))
+    return tuple(doubt for doubt in doubts if doubt)

@@ -11,6 +11,7 @@ import scipy.fft
 
 from viscofric.contact.backend import Backend
 from viscofric.contact.layers import Layer
+from viscofric.contact.motion import unit_direction
 from viscofric.contact.periodic.levels import Stage, coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
@@ -173,14 +174,7 @@ class _Units(NamedTuple):
 def _motion(speed: Quantity, direction: Sequence[float]) -> tuple[float, tuple[float, float]]:
     infinite = isinstance(speed, float) and math.isinf(speed)
     velocity = float(speed) if infinite else to_si(speed, "m/s", "speed")
-    try:
-        x, y = (float(one) for one in direction)
-        length = math.hypot(x, y)
-    except (TypeError, ValueError):
-        length = math.nan
-    if not (math.isfinite(length) and length > 0.0):
-        raise InputError(f"direction = {direction!r}: must be two numbers, not both zero, such as (1.0, 0.0).")
-    return velocity, (x / length, y / length)
+    return velocity, unit_direction(direction)
 
 
 def _component(velocity: float, part: float) -> float:
