@@ -88,7 +88,7 @@ def test_a_material_about_another_reference_is_the_same_material():
         solid.at_reference("80 degC")
 
 
-def test_a_table_is_a_material_without_modes():
+def test_a_table_is_a_material_too():
     solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
     omega = np.logspace(-4, 8, 400)
     modulus = solid.complex_modulus(omega)
@@ -101,8 +101,7 @@ def test_a_table_is_a_material_without_modes():
     )
     assert table.at() is table.spectrum
     assert rubber.modes_at("60 degC").tau == pytest.approx(rubber.at("60 degC").tau)
-    with pytest.raises(InputError, match="has no retardation modes"):
-        table.modes_at("60 degC")
+    assert rubber.notes_on_modes == ()
 
 
 def test_synthetic_fluoroelastomer_is_as_designed():

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.control import Control
+    from viscofric.contact.grids import Extent
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -67,6 +68,7 @@ def solve_steady(
     Parameters
     ----------
     material : Material
+        That of a table of moduli is described by modes fitted to it; how well, the solution's warnings tell.
     indenter : Indenter
         Ball, Ellipsoid, Cone, FlatPunch or HeightMap; for a line contact in plane strain, Cylinder or Profile.
     speed : float, str or pint.Quantity
@@ -167,7 +169,8 @@ def solve_steady(
         solution = replace(solution, derivatives=differentiate(stages, scale, spectrum, plane_strain, velocity))
     fine = stages[-1]
     contact = shape.extent(fine.window, fine.result.pressure > 0.0)
-    return replace(solution, warnings=_doubts(solution, indenter, layer, contact))
+    doubts = _doubts(solution, indenter, layer, contact)
+    return replace(solution, warnings=(*doubts, *material.notes_on_modes))
 
 
 def _velocity(speed: Quantity) -> float:

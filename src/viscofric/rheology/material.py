@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeVar
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.table_modes import modes_of_table, what_was_fitted
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from viscofric.units import Quantity
+
+Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +33,7 @@ class Material:
     ----------
     spectrum : RetardationSpectrum or ModulusTable
         At the shift's reference temperature.  A table has no modes: it has a modulus, a compliance and shifts, but no
-        creep, and a free contact cannot be solved with it (`modes_at`).
+        creep.  A free contact, which needs modes, fits them to it (`modes_at`).
     shift : ShiftLaw or ShiftFactors, optional
         α(T).  Without it the material is what it is, and cannot be asked for a temperature.
     poisson_ratio : float
@@ -122,8 +126,11 @@ class Material:
         InputError
             If a temperature is asked of a material without a shift, or one where a shift has no meaning.
         """
+        return self._moved(self.spectrum, temperature)  # type: ignore[type-var]
+
+    def _moved(self, spectrum: Spectrum, temperature: Quantity | None) -> Spectrum:
         if temperature is None:
-            return self.spectrum
+            return spectrum
         if self.shift is None:
             raise InputError(
                 f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be "
@@ -132,7 +139,7 @@ class Material:
         kelvin = positive(temperature, "K", "temperature")
         alpha = float(self.shift(kelvin))
         b = 1.0 if self.vertical_shift is None else float(self.vertical_shift(kelvin))
-        return self.spectrum if alpha == 1.0 and b == 1.0 else self.spectrum.shifted(alpha, b)
+        return spectrum if alpha == 1.0 and b == 1.0 else spectrum.shifted(alpha, b)
 
     def at_reference(self, reference: Quantity) -> Material:
         """Return the same material, described about another reference temperature.
@@ -154,6 +161,8 @@ class Material:
     def modes_at(self, temperature: Quantity | None = None) -> RetardationSpectrum:
         """Return the retardation modes at a temperature, for what cannot do without: creep and the free contact.
 
+        Those of a table are fitted to it once, at its reference (`notes_on_modes` tells how well).
+
         Parameters
         ----------
         temperature : float or quantity, optional
@@ -162,15 +171,21 @@ class Material:
         Raises
         ------
         InputError
-            If the material is a table, or for the reasons of `at`.
+            If the material is a table that no modes describe to 0.05 decades (rms of log10 E' and log10 E''), or for
+            the reasons of `at`.
         """
-        found = self.at(temperature)
-        if isinstance(found, ModulusTable):
-            raise InputError(
-                "this material is a table of moduli and has no retardation modes, which are needed here; "
-                "fit a spectrum to its master curve with fit_retardation_spectrum(…)."
-            )
-        return found
+        if isinstance(self.spectrum, RetardationSpectrum):
+            return self._moved(self.spectrum, temperature)
+        return self._moved(self._modes_of_table, temperature)
+
+    @property
+    def notes_on_modes(self) -> tuple[str, ...]:
+        """How well `modes_at` describes the material, one sentence each; empty where its modes are its own."""
+        return () if isinstance(self.spectrum, RetardationSpectrum) else what_was_fitted(self._modes_of_table)
+
+    @cached_property
+    def _modes_of_table(self) -> RetardationSpectrum:
+        return modes_of_table(self.spectrum)  # type: ignore[arg-type]
 
     def complex_modulus(
         self, angular_frequency: ArrayLike, temperature: Quantity | None = None
