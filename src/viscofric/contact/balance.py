@@ -60,7 +60,8 @@ def opening(window: Grid, pressure: Array, gap: Array) -> float:
     gap : (nx, ny) array
         Between surface and indenter, as the contact conditions see it.
     """
-    free = np.where(pressure > 0.0, 0.0, np.maximum(gap, 0.0))
+    # Beyond the edge of a height map the gap is infinite; a contact that reaches it is refused.
+    free = np.where((pressure > 0.0) | np.isinf(gap), 0.0, np.maximum(gap, 0.0))
     beside = np.vdot(pressure[1:], free[:-1]) + np.vdot(pressure[:-1], free[1:])
     return window.cell_area * float(beside) / window.spacing**2
 
