@@ -36,7 +36,7 @@ def test_a_table_rubs_like_the_spectrum_that_it_was_made_from(
     assert material.modes_at().complex_modulus(omega) == pytest.approx(spectrum.complex_modulus(omega), rel=1e-3)
     for speed in (0.01, 1.0):
         exact, found = (
-            vf.solve_steady(one, vf.Cylinder(radius=10e-3), speed=speed, load=100.0, accuracy=1e-4)
+            vf.solve_steady(one, vf.Cylinder(radius=10e-3), speed=speed, load=100.0, accuracy=1e-2)
             for one in (vf.Material(spectrum), material)
         )
         assert found.friction_coefficient == pytest.approx(exact.friction_coefficient, rel=1e-3)

@@ -78,8 +78,8 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
     if not error <= LARGEST_ERROR:
         raise InputError(
             f"no retardation modes describe this table of moduli: the best leave an rms error of {error:.2g} decades "
-            f"of E' and E'', more than {LARGEST_ERROR:g}, so that they are not one material's; smooth the table, or fit a "
-            "spectrum to its master curve with fit_retardation_spectrum(…)."
+            f"of E' and E'', more than {LARGEST_ERROR:g}, so that they are not one material's; smooth the table, or "
+            "fit a spectrum to its master curve with fit_retardation_spectrum(…)."
         )
     return judged(as_spectrum(modes), curve, method="non-negative")
 
