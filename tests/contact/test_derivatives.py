@@ -14,13 +14,14 @@ from hypothesis import strategies as st
 from viscofric.contact.adjoint import friction_gradient
 from viscofric.contact.control import GivenIndentation, GivenLoad
 from viscofric.contact.geometry import LINE, POINT
+from viscofric.contact.grids import Window
 from viscofric.contact.indenters import Ball, Cylinder, Indenter
 from viscofric.contact.influence import memory_influence
 from viscofric.contact.influence_moments import correlation, memory_moments
 from viscofric.contact.layers import Layer
 from viscofric.contact.line_influence import line_memory_changes, line_memory_influence
 from viscofric.contact.nested import find_window
-from viscofric.contact.operator import SteadyMaterial
+from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
 from viscofric.contact.problem import Problem, Stage
 from viscofric.contact.reference import hunter_line
 from viscofric.contact.scale import Scale, ScaledIndenter
@@ -336,6 +337,29 @@ def test_elastic_limits_are_refused(speed: float) -> None:
 def test_layers_are_refused() -> None:
     with pytest.raises(InputError, match="known for half-spaces only"):
         solved([6e-7], [1e-3], layer=Layer(thickness=1e-3))  # type: ignore[arg-type]
+
+
+def test_transposed_operator_has_the_transposed_matrix() -> None:
+    solid = SteadyMaterial(0.1, np.array([0.5, 0.4]), np.array([0.3, 5.0]))
+    operator = HalfSpaceOperator(Window(0.1, 5, 7, 4), solid, shift=0.2)
+    a, b = np.random.default_rng(4).normal(size=(2, 12, 8))
+    assert np.vdot(operator.transposed()(a), b) == pytest.approx(np.vdot(a, operator(b)), rel=1e-12)
+    assert np.vdot(operator.transposed().precondition(a), b) == pytest.approx(
+        np.vdot(a, operator.precondition(b)), rel=1e-12
+    )
+    # A quadratic form: exact for any step.
+    slope = (operator.dissipated_force(a + b) - operator.dissipated_force(a - b)) / 2.0
+    assert np.vdot(operator.dissipated_force_gradient(a), b) == pytest.approx(slope, rel=1e-10)
+
+
+def test_other_arrays_give_the_same_derivatives() -> None:
+    pytest.importorskip("array_api_strict")
+    arguments = {"indenter": CYLINDER, "accuracy": 0.1, "tolerance": 1e-11}
+    usual, strict = (solved([6e-7], [1e-3], **arguments, backend=name) for name in ("scipy", "array_api_strict"))  # type: ignore[arg-type]
+    assert (strict.C[0], strict.E_inf, strict.speed, strict.load) == pytest.approx(
+        (usual.C[0], usual.E_inf, usual.speed, usual.load),
+        rel=1e-6,  # the adjoint problem is solved to 1e-8
+    )
 
 
 def test_derivatives_are_left_out_unless_asked_for() -> None:
