@@ -17,6 +17,8 @@ from viscofric.contact.reference import hertz_ball
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.verification.ball import BallReference as Row
+from viscofric.verification.ball import ball_references
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -183,94 +185,17 @@ class BallReference:
     max_pressure: Known
 
 
-def _reference(problem: BallProblem, *pairs: tuple[float, float]) -> BallReference:
-    return BallReference(problem, *(Known(value, error) for value, error in pairs))
+def _reference(row: Row) -> BallReference:
+    if row.spectrum == "one time":
+        problem = standard_linear_solid(row.modulus_ratio, row.memory_length)
+    else:
+        problem = {"25 modes": broad_spectrum_25, "37 modes": broad_spectrum_37}[row.spectrum](row.memory_length)
+    known = {name: Known(value, row.errors[name]) for name, value in row.values.items()}
+    return BallReference(problem, side=known.pop("half_width"), **known)
 
 
-# friction, indentation, front, rear, side, area, largest pressure: (value, error bar).
-# Origin: independent dense solution.
-BALL_REFERENCES: tuple[BallReference, ...] = (
-    _reference(
-        standard_linear_solid(2.0, 10.0),
-        (0.041907273, 3.5e-07),
-        (0.70553044, 2.1e-06),
-        (0.82575641, 5.0e-04),
-        (0.74330413, 3.4e-04),
-        (0.81917773, 5.3e-04),
-        (0.64571677, 3.4e-04),
-        (1.5406437, 1.3e-05),
-    ),
-    _reference(
-        standard_linear_solid(10.0, 0.1),
-        (0.083720855, 5.9e-07),
-        (0.99766208, 3.0e-06),
-        (0.99856982, 3.0e-04),
-        (0.91168816, 2.0e-04),
-        (0.99768359, 6.2e-04),
-        (0.94274883, 4.1e-04),
-        (1.0027813, 1.1e-06),
-    ),
-    _reference(
-        standard_linear_solid(10.0, 1.0),
-        (0.39562283, 1.2e-06),
-        (0.86399192, 2.6e-06),
-        (0.9135956, 4.0e-04),
-        (0.33278436, 2.7e-04),
-        (0.89325, 5.6e-04),
-        (0.54255476, 3.0e-04),
-        (2.3921959, 6.5e-04),
-    ),
-    _reference(
-        standard_linear_solid(1000.0, 100.0),
-        (0.067697411, 2.0e-07),
-        (0.044723507, 1.3e-07),
-        (0.1563325, 6.2e-05),
-        (0.019646152, 4.1e-05),
-        (0.14196973, 3.2e-04),
-        (0.013027401, 2.9e-05),
-        (77.562463, 1.0e-03),
-    ),
-    _reference(
-        broad_spectrum_25(1),
-        (0.02136644, 7.2e-07),
-        (0.99248293, 3.0e-06),
-        (0.99450391, 2.4e-03),
-        (0.96636472, 4.0e-04),
-        (0.99491039, 1.2e-03),
-        (0.97460833, 6.0e-04),
-        (1.0158929, 1.0e-05),
-    ),
-    _reference(
-        broad_spectrum_25(1e06),
-        (0.045598038, 1.4e-06),
-        (0.6956817, 2.1e-06),
-        (0.82870312, 2.0e-03),
-        (0.76039451, 3.4e-04),
-        (0.82707849, 1.1e-03),
-        (0.65684641, 3.1e-04),
-        (1.4929855, 1.5e-05),
-    ),
-    _reference(
-        broad_spectrum_25(1e12),
-        (0.052495873, 4.1e-07),
-        (0.26826069, 8.0e-07),
-        (0.50780469, 1.2e-03),
-        (0.40940951, 2.0e-04),
-        (0.50121462, 6.6e-04),
-        (0.23136262, 1.6e-04),
-        (4.2666348, 2.8e-05),
-    ),
-    _reference(
-        broad_spectrum_37(10000),
-        (0.10696955, 1.8e-06),
-        (0.23328111, 7.0e-07),
-        (0.468, 1.1e-03),
-        (0.29695143, 1.8e-04),
-        (0.45780469, 1.0e-03),
-        (0.17532152, 1.2e-04),
-        (5.3697086, 5.5e-05),
-    ),
-)
+#: The table that `viscofric verify` is held against too.
+BALL_REFERENCES = tuple(_reference(row) for row in ball_references())
 
 
 CYLINDER_LOAD = np.pi * RUBBER_MODULUS * HERTZ_RADIUS**2 / (4.0 * BALL_RADIUS * (1.0 - POISSON_RATIO**2))  # N/m

@@ -31,6 +31,7 @@ ROOMS = {
     "contact": ("contact",),
     "roughness": ("roughness",),
     "friction": ("friction",),
+    "verification": ("verification",),
     "study": ("study",),
     "report": ("report",),
     "front door": ("",),

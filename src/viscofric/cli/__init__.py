@@ -30,6 +30,8 @@ _COMMANDS = {
     "run": "Run a study: DMA sweeps in, friction, figures and a report out.",
     "new": "Write a run file to start from, with synthetic data to replace.",
     "material": "Make a rubber of DMA sweeps, look at one, write it for other programs.",
+    "solve": "Solve one contact: friction, indentation, pressure, a picture.",
+    "verify": "Check the contact engine on this machine, in less than a minute.",
     "report": "Write figures and report of a finished study again.",
 }
 

@@ -1,0 +1,161 @@
+"""``viscofric solve``: one steady contact, in words, as JSON, as a picture."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.contact_options import chosen_indenter, chosen_layer, chosen_rubber, contact_options
+from viscofric.cli.errors import refuse_to_overwrite, told
+
+if TYPE_CHECKING:
+    from viscofric.cli.contact_options import NamedIndenter, NamedRubber
+    from viscofric.contact.solution import ContactSolution
+
+_FILE = click.Path(path_type=Path, dir_okay=False)
+_PICTURES, _FIELDS = (".png", ".svg", ".pdf"), (".nc", ".csv")
+_INFINITE = ("inf", "infinite", "infinity", "∞")
+
+
+_EXAMPLE = """\b
+Such as
+  viscofric solve --material "synthetic fluoroelastomer" --ball "9.525 mm" \\
+      --speed "100 mm/s" --load "25 N" --temperature "60 degC"
+"""
+
+
+@click.command(name="solve", epilog=_EXAMPLE)
+@contact_options
+@click.option("--speed", required=True, metavar="V", help="Such as '100 mm/s'; '0 m/s' and 'infinite' are elastic.")
+@click.option("--load", metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.")
+@click.option("--indentation", metavar="DEPTH", help="Instead of the load: depth of the lowest point.")
+@click.option("--temperature", metavar="T", help="Such as '60 degC' [default: the rubber's reference].")
+@click.option("--indenter-modulus", metavar="E", help="Of an elastic indenter, such as '200 GPa' [default: rigid].")
+@click.option("--indenter-poisson-ratio", type=float, default=0.3, show_default=True, help="Of an elastic indenter.")
+@click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Relative error of the friction.")
+@click.option("--tolerance", type=float, default=1e-8, show_default=True, help="Gap left, over the indentation.")
+@click.option("--finest", type=int, help="Most cells along the window's longer edge.")
+@click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda.")
+@click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
+@click.option("--picture", type=_FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
+@click.option("-o", "--output", type=_FILE, help="Write pressure and displacement (.nc or .csv).")
+def command(as_json: bool, picture: Path | None, output: Path | None, **asked: Any) -> None:
+    """Solve one steady contact of an indenter that slides or rolls over a rubber.
+
+    Quantities carry their unit.  Every result comes with the error that the refinement of the grid lets expect.
+    """
+    _check_name(picture, "--picture", _PICTURES)
+    _check_name(output, "--output", _FIELDS)
+    read = [path for path in (asked["height_map"], asked["profile"]) if path is not None]
+    if asked["material"] is not None and Path(asked["material"]).is_file():
+        read.append(Path(asked["material"]))
+    for target in (picture, output):
+        if target is not None:
+            refuse_to_overwrite(target, read)
+    with told():
+        from viscofric.contact.steady import solve_steady
+
+        rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
+        settings = {name: asked[name] for name in ("load", "indentation", "temperature", "accuracy", "tolerance")}
+        settings |= {name: asked[name] for name in ("finest", "indenter_modulus", "indenter_poisson_ratio", "backend")}
+        settings["layer"] = chosen_layer(asked)
+        began = time.perf_counter()
+        solution = solve_steady(rubber.material, shape.indenter, speed=_speed(asked["speed"]), **settings)
+        seconds = time.perf_counter() - began
+        if as_json:
+            from viscofric.report.contact_summary import contact_record
+
+            record = contact_record(_inputs(asked, rubber, shape, solution), solution, seconds)
+            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+        else:
+            _tell(rubber, shape, solution, seconds)
+        for written in _write(rubber, shape, solution, picture, output):
+            click.echo(written, err=as_json)
+
+
+def _check_name(path: Path | None, option: str, endings: tuple[str, ...]) -> None:
+    if path is not None and path.suffix.lower() not in endings:
+        raise click.BadParameter(f"{path}: must end in {', '.join(endings)}.", param_hint=option)
+
+
+def _speed(text: str) -> float | str:
+    plain = text.strip().lower()
+    if plain.removeprefix("-").removeprefix("+") in _INFINITE:
+        return -math.inf if plain.startswith("-") else math.inf
+    return text
+
+
+def _inputs(
+    asked: dict[str, Any], rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution
+) -> dict[str, Any]:
+    """Return what was asked for, in SI units; an infinite speed is the word."""
+    from viscofric.units import to_si
+
+    spectrum = rubber.material.modes_at(solution.temperature)
+    modulus, layer = asked["indenter_modulus"], chosen_layer(asked)
+    elastic = None
+    if modulus is not None:
+        elastic = {"modulus": to_si(modulus, "Pa"), "poisson_ratio": asked["indenter_poisson_ratio"]}
+    return {
+        "material": {
+            "name": rubber.name,
+            "synthetic": rubber.synthetic,
+            "poisson_ratio": rubber.material.poisson_ratio,
+            "modes": len(spectrum),
+            "E0": spectrum.E0,
+            "E_inf": spectrum.E_inf,
+        },
+        "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
+        "indenter": shape.record | {"elastic": elastic},
+        "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
+        "held": "load" if asked["load"] is not None else "indentation",
+        "load": solution.load if asked["load"] is not None else None,
+        "indentation": solution.indentation if asked["indentation"] is not None else None,
+        "temperature": solution.temperature,
+        "accuracy": asked["accuracy"],
+        "tolerance": asked["tolerance"],
+        "finest": asked["finest"],
+        "backend": asked["backend"],
+    }
+
+
+def _tell(rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution, seconds: float) -> None:
+    from viscofric.report.contact_summary import contact_lines, prefixed
+    from viscofric.units import celsius
+
+    speed = "at infinite speed" if math.isinf(solution.speed) else f"at {prefixed(solution.speed, None, 'm/s')}"
+    where = "" if solution.temperature is None else f", {celsius(solution.temperature):z.4g} °C"
+    synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
+    click.echo(f"{shape.words} on {rubber.name}{synthetic}, {speed}{where}")
+    click.echo()
+    lines = contact_lines(solution, seconds)
+    width = max(len(name) for name, _ in lines)
+    for name, value in lines:
+        click.echo(f"{name:<{width}}  {value}")
+    for warning in solution.warnings:
+        click.echo(f"Warning: {warning}", err=True)
+
+
+def _write(
+    rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution, picture: Path | None, output: Path | None
+) -> list[str]:
+    """Write the files that were asked for, and return what to say of them."""
+    said = []
+    if picture is not None:
+        from viscofric.report.contact_figures import draw_contact
+
+        draw_contact(
+            picture, solution, shape.indenter, title=f"{shape.words} on {rubber.name}", synthetic=rubber.synthetic
+        )
+        said.append(f"picture  {picture}")
+    if output is not None:
+        from viscofric.report.contact_fields import write_fields
+
+        write_fields(output, solution)
+        said.append(f"fields   {output}")
+    return said

@@ -1,0 +1,207 @@
+"""``viscofric verify``: closed forms, reference values, energy balance and refinement, on the user's own machine."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.errors import told
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from viscofric.verification import Check, Comparison, Outcome
+
+#: Columns that the table needs; a narrower terminal gets lines, as a file does.
+_TABLE_WIDTH = 110
+_SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
+
+
+@click.command(name="verify")
+@click.option("--only", "names", metavar="NAME", multiple=True, help="This check or group alone; any number of times.")
+@click.option("--list", "listed", is_flag=True, help="List the checks and leave.")
+@click.option("--details", is_flag=True, help="Print every comparison, and the reasons of the bounds.")
+@click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda.")
+@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON.")
+def command(names: tuple[str, ...], listed: bool, details: bool, backend: str, as_json: bool) -> None:
+    """Check the contact engine on this machine, in less than a minute.
+
+    Each check compares what is computed with a closed form, a reference value, or what must come out the same in
+    another way.  Its line shows the worst of its comparisons.  Exit status 1 if any check fails.
+    """
+    with told():
+        from viscofric.verification import CHECKS, run_checks, select
+
+        checks = select(CHECKS, names)
+        if listed:
+            _list(checks)
+            return
+        as_table = not as_json and sys.stdout.isatty() and shutil.get_terminal_size().columns >= _TABLE_WIDTH
+        outcomes = []
+        with _progress(len(checks), quiet=as_json) as begin:
+            for outcome in run_checks(checks, begin, backend):
+                outcomes.append(outcome)
+                if not as_json and not as_table:
+                    click.echo(_line(outcome))
+                    if details:
+                        _tell_details(outcome)
+    if as_json:
+        click.echo(json.dumps({"backend": backend} | _record(outcomes), indent=2, ensure_ascii=False, allow_nan=False))
+    else:
+        if as_table:
+            _table(outcomes, details)
+        _tell_verdict(outcomes)
+    if not all(outcome.passed for outcome in outcomes):
+        sys.exit(1)
+
+
+def _list(checks: tuple[Check, ...]) -> None:
+    group = ""
+    for check in checks:
+        if check.group != group:
+            group = check.group
+            click.echo(group)
+        click.echo(f"  {check.name:<18} {check.title}")
+        click.echo(f"  {'':<18} against {check.source}")
+
+
+@contextmanager
+def _progress(total: int, quiet: bool) -> Iterator[Callable[[Check], None]]:
+    """Show on a terminal which check runs; say nothing elsewhere."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(bar_width=24), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
+        task = bars.add_task("", total=total)
+        done = 0
+
+        def begin(check: Check) -> None:
+            nonlocal done
+            bars.update(task, description=check.title, completed=done)
+            done += 1
+
+        yield begin
+
+
+def _numbers(one: Comparison) -> tuple[str, str, str, str]:
+    """Return computed, expected, error and bound as they are printed."""
+    share = one.measure == "relative"
+    return (
+        f"{one.computed:.6g}",
+        f"{_SIGNS[one.measure]}{one.expected:.6g}",
+        f"{one.error:.1e}" if one.error else "0",
+        f"{one.bound:.1e}{' rel.' if share else ''}" if one.bound else "0",
+    )
+
+
+def _verdict(outcome: Outcome) -> str:
+    return "passed" if outcome.passed else "FAILED"
+
+
+def _line(outcome: Outcome) -> str:
+    """Return one line for a file or a pipe: name, numbers of the worst comparison, verdict, time."""
+    start = f"{outcome.check.name:<18} {_verdict(outcome)} {outcome.seconds:6.1f} s"
+    worst = outcome.worst
+    if outcome.trouble or worst is None:
+        return f"{start}  {outcome.trouble or 'nothing to compare'}"
+    computed, expected, error, bound = _numbers(worst)
+    count = len(outcome.comparisons)
+    return (
+        f"{start}  {count:3d} compared; worst: {worst.quantity} ({worst.case}): {computed}, expected {expected}, "
+        f"error {error}, bound {bound}"
+    )
+
+
+def _tell_details(outcome: Outcome) -> None:
+    click.echo(f"    {outcome.check.title}; against {outcome.check.source}")
+    click.echo(f"    bounds: {outcome.check.reason}")
+    for one in outcome.comparisons:
+        computed, expected, error, bound = _numbers(one)
+        mark = " " if one.passed else "!"
+        click.echo(
+            f"  {mark} {one.case}, {one.quantity}: {computed}, expected {expected}, error {error}, bound {bound}"
+        )
+
+
+def _table(outcomes: list[Outcome], details: bool) -> None:
+    """Print a table for a wide terminal."""
+    from rich import box
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    table.add_column("check", no_wrap=True)
+    table.add_column("what, and against what; " + ("all" if details else "the worst") + " of its comparisons", ratio=1)
+    for heading in ("computed", "expected", "error", "bound", "", "s"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for outcome in outcomes:
+        mark = "[green]passed[/green]" if outcome.passed else "[bold red]FAILED[/bold red]"
+        words = f"{escape(outcome.check.title)}\n[dim]{escape(outcome.check.source)}[/dim]"
+        if details:
+            words += f"\n[dim]Bounds: {escape(outcome.check.reason)}[/dim]"
+        if outcome.trouble or outcome.worst is None:
+            words += f"\n{escape(outcome.trouble or 'nothing to compare')}"
+        table.add_row(outcome.check.name, words, "", "", "", "", mark, f"{outcome.seconds:.1f}")
+        for one in outcome.comparisons if details else [one for one in (outcome.worst,) if one is not None]:
+            table.add_row("", escape(f"{one.case}: {one.quantity}"), *_numbers(one), "" if one.passed else "!", "")
+    Console().print(table)
+
+
+def _tell_verdict(outcomes: list[Outcome]) -> None:
+    seconds = sum(outcome.seconds for outcome in outcomes)
+    count = sum(len(outcome.comparisons) for outcome in outcomes)
+    failed = [outcome.check.name for outcome in outcomes if not outcome.passed]
+    if failed:
+        click.echo(f"{len(failed)} of {len(outcomes)} checks FAILED: {', '.join(failed)}.")
+        return
+    passed = f"All {len(outcomes)} checks passed" if len(outcomes) > 1 else "The check passed"
+    click.echo(f"{passed}, {count} comparisons, in {seconds:.0f} s.")
+
+
+def _record(outcomes: list[Outcome]) -> dict[str, Any]:
+    """Return everything in plain types; a number that is none is null."""
+    from viscofric import __version__
+
+    def number(value: float) -> float | None:
+        return float(value) if math.isfinite(value) else None
+
+    return {
+        "viscofric": __version__,
+        "passed": all(outcome.passed for outcome in outcomes),
+        "seconds": sum(outcome.seconds for outcome in outcomes),
+        "checks": [
+            {
+                "name": outcome.check.name,
+                "title": outcome.check.title,
+                "group": outcome.check.group,
+                "source": outcome.check.source,
+                "reason_of_bounds": outcome.check.reason,
+                "passed": outcome.passed,
+                "trouble": outcome.trouble,
+                "seconds": outcome.seconds,
+                "comparisons": [
+                    {
+                        "case": one.case,
+                        "quantity": one.quantity,
+                        "computed": number(one.computed),
+                        "expected": number(one.expected),
+                        "measure": one.measure,
+                        "error": number(one.error),
+                        "bound": one.bound,
+                        "passed": one.passed,
+                    }
+                    for one in outcome.comparisons
+                ],
+            }
+            for outcome in outcomes
+        ],
+    }

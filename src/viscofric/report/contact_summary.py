@@ -1,0 +1,239 @@
+"""One solved contact in words and numbers: lines for people, plain types for other programs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from viscofric.report.numbers import short, significant, with_error
+
+if TYPE_CHECKING:
+    from viscofric.contact.solution import ContactSolution, Diagnostics
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+
+# Relative: an error below it, and a lean of the pressure below it, is rounding.
+_ROUND_OFF = 1e-12
+
+#: Units of what `contact_record` holds.
+UNITS = {
+    "speed": "m/s",
+    "load": "N",
+    "temperature": "K",
+    "friction_force": "N",
+    "friction_coefficient": "1",
+    "indentation": "m",
+    "contact_area": "m^2",
+    "front": "m",
+    "rear": "m",
+    "half_width": "m",
+    "max_pressure": "Pa",
+    "mean_pressure": "Pa",
+    "centre_of_pressure": "m",
+    "spacing": "m",
+    "seconds": "s",
+}
+_UNITS_OF_A_LINE = {"load": "N/m", "friction_force": "N/m", "contact_area": "m"}
+
+
+def prefixed(value: float, error: float | None, unit: str, power: int = 1) -> str:
+    """Return a number with its error and its unit, in the prefix that suits its size.
+
+    Parameters
+    ----------
+    value : float
+    error : float or None
+        In the same unit; None where there is none.
+    unit : str
+        Such as "m"; the prefix stands before it.
+    power : int
+        Of the unit: 2 for an area.
+    """
+    size = abs(value)
+    # An area is written with decimals rather than in hundred thousands of a smaller unit.
+    least = 1.0 if power == 1 else 0.1
+    fits = ((factor, prefix) for factor, prefix in _PREFIXES if size >= least * factor**power)
+    factor, prefix = next(fits, (1.0, "") if size == 0.0 else _PREFIXES[-1])
+    scale = factor**power
+    raised = {1: "", 2: "²"}[power]
+    if error is None or not error > _ROUND_OFF * size:
+        return f"{short(value / scale)} {prefix}{unit}{raised}"
+    return f"{with_error(value / scale, error / scale)} {prefix}{unit}{raised}"
+
+
+def length(metres: float, error: float | None = None) -> str:
+    """Return a length in nm, µm, mm or m."""
+    return prefixed(metres, error, "m")
+
+
+def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, str]]:
+    """Return what an engineer wants to know of a contact, as pairs of name and value.
+
+    Parameters
+    ----------
+    solution : ContactSolution
+    seconds : float
+        That it took.
+    """
+    line = solution.geometry == "line"
+    diagnostics = solution.diagnostics
+    force = "N/m" if line else "N"
+    peak = prefixed(solution.max_pressure, diagnostics.max_pressure_error, "Pa")
+    if not diagnostics.peak_resolved:
+        peak = f"at least {prefixed(solution.max_pressure, None, 'Pa')} (not resolved by this grid)"
+    cells = " × ".join(str(count) for count in diagnostics.shape if count > 1)
+    edge = diagnostics.edge_error
+    lines = [
+        ("friction coefficient", _friction(solution)),
+        ("  from the pressure", _five(solution.pressure_friction_coefficient)),
+        ("  from the energy", f"{_five(solution.energy_friction_coefficient)}{_balance(solution)}"),
+        ("friction force", prefixed(_friction_force(solution), None, force)),
+        ("load", prefixed(solution.load, diagnostics.load_error, force)),
+        ("indentation", length(solution.indentation, diagnostics.indentation_error)),
+        (
+            "contact width" if line else "contact area",
+            prefixed(solution.contact_area, diagnostics.contact_area_error, "m", 1 if line else 2),
+        ),
+        ("  ahead of the axis", length(solution.front, edge)),
+        ("  behind the axis", length(solution.rear, edge)),
+    ]
+    if not line:
+        lines.append(("  half width across", length(solution.half_width, edge)))
+    lines += [
+        ("largest pressure", peak),
+        ("mean pressure", prefixed(solution.load / solution.contact_area, None, "Pa")),
+        ("centre of pressure", _centre(solution)),
+        ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
+        ("solver", _work(diagnostics)),
+        ("time", f"{seconds:.2f} s"),
+    ]
+    return lines
+
+
+def _friction(solution: ContactSolution) -> str:
+    value, error = solution.friction_coefficient, solution.diagnostics.friction_error
+    if value == 0.0:
+        return "0 (elastic: nothing is dissipated)"
+    return with_error(value, error)
+
+
+def _work(diagnostics: Diagnostics) -> str:
+    return (
+        f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, gap closed to "
+        f"{diagnostics.complementarity:.0e} of the indentation"
+    )
+
+
+def _five(friction: float) -> str:
+    return significant(friction if abs(friction) > _ROUND_OFF else 0.0, 5)
+
+
+def _balance(solution: ContactSolution) -> str:
+    if solution.friction_coefficient == 0.0:
+        return ""
+    if solution.diagnostics.energy == -1.0:
+        return " (all of it at the sharp edge)"
+    return f" (energy balance {100.0 * solution.diagnostics.energy:+.2g} %)".replace("-", "−")
+
+
+def _centre(solution: ContactSolution) -> str:
+    distance = solution.centre_of_pressure * math.copysign(1.0, solution.speed)
+    if abs(distance) < 1e-6 * solution.diagnostics.spacing:
+        return "on the axis"
+    return f"{length(abs(distance))} {'ahead of' if distance > 0.0 else 'behind'} the axis"
+
+
+def _friction_force(solution: ContactSolution) -> float:
+    return solution.friction_coefficient * solution.load
+
+
+def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: float) -> dict[str, Any]:
+    """Return a contact in plain types: inputs, results, errors, diagnostics, and the units of their names.
+
+    Parameters
+    ----------
+    inputs : dict
+        What was asked for, in SI units and plain types.
+    solution : ContactSolution
+    seconds : float
+        That it took.
+
+    Returns
+    -------
+    dict
+        Made for JSON: every number is finite, and what has no value, such as the half width of a line contact, is null.
+    """
+    from viscofric import __version__
+
+    diagnostics = solution.diagnostics
+    line = solution.geometry == "line"
+    results = {
+        "geometry": solution.geometry,
+        "friction_coefficient": solution.friction_coefficient,
+        "pressure_friction_coefficient": solution.pressure_friction_coefficient,
+        "energy_friction_coefficient": solution.energy_friction_coefficient,
+        "friction_force": _friction_force(solution),
+        "load": solution.load,
+        "indentation": solution.indentation,
+        "contact_area": solution.contact_area,
+        "front": solution.front,
+        "rear": solution.rear,
+        "half_width": solution.half_width,
+        "max_pressure": solution.max_pressure,
+        "mean_pressure": solution.load / solution.contact_area,
+        "centre_of_pressure": solution.centre_of_pressure,
+    }
+    errors = {
+        "friction_coefficient": diagnostics.friction_error,
+        "load": diagnostics.load_error,
+        "indentation": diagnostics.indentation_error,
+        "contact_area": diagnostics.contact_area_error,
+        "front": diagnostics.edge_error,
+        "rear": diagnostics.edge_error,
+        "half_width": None if line else diagnostics.edge_error,
+        "max_pressure": diagnostics.max_pressure_error,
+    }
+    work = {
+        "cells": list(diagnostics.shape),
+        "spacing": diagnostics.spacing,
+        "complementarity": diagnostics.complementarity,
+        "relative_load_error": diagnostics.load,
+        "energy_balance": diagnostics.energy,
+        "peak_resolved": diagnostics.peak_resolved,
+        "collocation_shift": diagnostics.collocation_shift,
+        "levels": [level._asdict() for level in diagnostics.levels],
+        "set_changes": diagnostics.set_changes,
+        "linear_iterations": diagnostics.linear_iterations,
+        "products": diagnostics.products,
+        "ffts": diagnostics.ffts,
+        "seconds": seconds,
+    }
+    record: dict[str, Any] = _plain(
+        {
+            "format": "viscofric contact 1",
+            "viscofric": __version__,
+            "inputs": inputs,
+            "results": results,
+            "errors": errors,
+            "diagnostics": work,
+            "warnings": list(solution.warnings),
+            "units": UNITS | (_UNITS_OF_A_LINE if line else {}),
+        }
+    )
+    return record
+
+
+def _plain(value: Any) -> Any:
+    """Turn NumPy's numbers into Python's, and those that are not finite into null."""
+    if isinstance(value, dict):
+        return {str(key): _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if value is None or isinstance(value, (str, bool)):
+        return value
+    if isinstance(value, int):
+        return int(value)
+    if type(value).__name__ in ("bool", "bool_"):
+        return bool(value)
+    number = float(value)
+    return number if math.isfinite(number) else None

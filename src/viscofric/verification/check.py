@@ -1,0 +1,194 @@
+"""A check: numbers that are computed, numbers that are known in another way, and how far they may differ, and why."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from viscofric.errors import InputError, ViscofricError
+from viscofric.verification.engine import checking
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+
+#: How a computed number is held against the expected one: its difference relative to the expected one, the difference
+#: itself, or only from one side.
+Measure: TypeAlias = Literal["relative", "absolute", "at least", "at most"]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One number against what it should be.
+
+    Attributes
+    ----------
+    case : str
+        The problem that was solved.
+    quantity : str
+        What is compared, with its unit or what it is counted in.
+    computed, expected : float
+    bound : float
+        Largest error with which it passes.
+    measure : {"relative", "absolute", "at least", "at most"}
+        What the error is.  With the last two it is what the number lacks of the expected one, or exceeds it by.
+    """
+
+    case: str
+    quantity: str
+    computed: float
+    expected: float
+    bound: float
+    measure: Measure = "relative"
+
+    @property
+    def error(self) -> float:
+        """Difference in the given measure; infinite where there is no number to compare."""
+        difference = self.computed - self.expected
+        if not math.isfinite(difference):
+            return math.inf
+        if self.measure == "at least":
+            return max(0.0, -difference)
+        if self.measure == "at most":
+            return max(0.0, difference)
+        if self.measure == "relative":
+            return abs(difference / self.expected) if self.expected != 0.0 else math.inf
+        return abs(difference)
+
+    @property
+    def passed(self) -> bool:
+        """Whether the error is within its bound."""
+        return self.error <= self.bound
+
+    @property
+    def severity(self) -> float:
+        """Error over bound; what is worst of a check is shown."""
+        if self.bound > 0.0:
+            return self.error / self.bound
+        return 0.0 if self.error == 0.0 else math.inf
+
+
+@dataclass(frozen=True)
+class Check:
+    """One witness: a set of comparisons of one kind.
+
+    Attributes
+    ----------
+    name : str
+        As the command line takes it.
+    title : str
+        What is checked, in a few words.
+    group : str
+        The kind of witness: closed forms, reference values, …
+    source : str
+        Where the expected numbers come from.
+    reason : str
+        Why the bounds are what they are.
+    compare : callable
+        Does the work and yields the comparisons.
+    """
+
+    name: str
+    title: str
+    group: str
+    source: str
+    reason: str
+    compare: Callable[[], Iterable[Comparison]]
+
+    def run(self, backend: str = "scipy") -> Outcome:
+        """Do the work; a contact that could not be solved is a failure and is told as such.
+
+        Parameters
+        ----------
+        backend : str
+            Arrays and FFTs that are checked; see `viscofric.contact.backend.Backend`.
+
+        Raises
+        ------
+        InputError
+            If there is no such library or device.
+        """
+        began = time.perf_counter()
+        found: list[Comparison] = []
+        trouble = ""
+        with checking(backend):
+            try:
+                found.extend(self.compare())
+            except ViscofricError as error:
+                trouble = str(error)
+        return Outcome(self, tuple(found), trouble, time.perf_counter() - began)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a check found.
+
+    Attributes
+    ----------
+    check : Check
+    comparisons : tuple of Comparison
+    trouble : str
+        Why it could not be finished; empty if it was.
+    seconds : float
+        Wall-clock time.
+    """
+
+    check: Check
+    comparisons: tuple[Comparison, ...]
+    trouble: str
+    seconds: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether there is something to compare and all of it is within its bounds."""
+        return not self.trouble and bool(self.comparisons) and all(one.passed for one in self.comparisons)
+
+    @property
+    def worst(self) -> Comparison | None:
+        """The comparison with the largest error over its bound."""
+        return max(self.comparisons, key=lambda one: one.severity, default=None)
+
+
+def run_checks(
+    checks: Sequence[Check], begin: Callable[[Check], None] | None = None, backend: str = "scipy"
+) -> Iterator[Outcome]:
+    """Run checks one after the other.
+
+    Parameters
+    ----------
+    checks : sequence of Check
+    begin : callable, optional
+        Told of each check before it starts.
+    backend : str
+        Arrays and FFTs that are checked.
+
+    Yields
+    ------
+    Outcome
+    """
+    for check in checks:
+        if begin is not None:
+            begin(check)
+        yield check.run(backend)
+
+
+def select(checks: Sequence[Check], names: Sequence[str]) -> tuple[Check, ...]:
+    """Return the checks of these names or groups, all of them for none.
+
+    Raises
+    ------
+    InputError
+        If there is none of a name; the sentence names the nearest.
+    """
+    if not names:
+        return tuple(checks)
+    known = {one.name for one in checks} | {one.group for one in checks}
+    for name in names:
+        if name not in known:
+            import difflib
+
+            near = difflib.get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(one.name for one in checks)}."
+            raise InputError(f"there is no check named {name!r}; {hint}")
+    return tuple(one for one in checks if one.name in names or one.group in names)

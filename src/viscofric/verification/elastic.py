@@ -1,0 +1,128 @@
+"""Elastic contacts at rest and at infinite speed against their closed forms: the limits of every viscoelastic one."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from viscofric.contact.reference import flat_punch, hertz_ball, hertz_ellipse, hertz_line, sneddon_cone
+from viscofric.contact.shapes import Cone, Ellipsoid, FlatPunch
+from viscofric.verification.check import Check, Comparison
+from viscofric.verification.engine import solve_steady
+from viscofric.verification.model_problems import (
+    BALL_LOAD,
+    CYLINDER_LOAD,
+    HERTZ_RADIUS,
+    POISSON_RATIO,
+    RADIUS,
+    RUBBER_MODULUS,
+    one_time,
+    solve_ball,
+    solve_cylinder,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_RATIO = 10.0
+_RUBBER = one_time(_RATIO, 1.0)
+_LIMITS = (("v = 0", 0.0, RUBBER_MODULUS), ("v = ∞", math.inf, _RATIO * RUBBER_MODULUS))
+_EDGE = 0.005  # a quarter of a cell on the 128 cells of an elastic contact's grid, 49 of them to a radius
+_ANGLE = math.radians(5.0)
+_ROUND_OFF = 1e-12
+
+
+def _ball() -> Iterator[Comparison]:
+    for case, speed, modulus in _LIMITS:
+        known = hertz_ball(BALL_LOAD, RADIUS, modulus, POISSON_RATIO)
+        found = solve_ball(_RUBBER, speed)
+        yield Comparison(case, "indentation (m)", found.indentation, known.indentation, 5e-4)
+        yield Comparison(case, "front edge (m)", found.front, known.radius, _EDGE)
+        yield Comparison(case, "contact area (m²)", found.contact_area, math.pi * known.radius**2, 0.004)
+        yield Comparison(case, "largest pressure (Pa)", found.max_pressure, known.max_pressure, 0.002)
+        yield Comparison(
+            case, "lean of the pressure μ", found.pressure_friction_coefficient, 0.0, _ROUND_OFF, "absolute"
+        )
+
+
+def _cylinder() -> Iterator[Comparison]:
+    for case, speed, modulus in _LIMITS:
+        known = hertz_line(CYLINDER_LOAD, RADIUS, modulus, POISSON_RATIO)
+        found = solve_cylinder(_RUBBER, speed)
+        yield Comparison(case, "contact width (m)", found.contact_area, 2.0 * known.half_width, _EDGE)
+        yield Comparison(case, "largest pressure (Pa)", found.max_pressure, known.max_pressure, 0.002)
+
+
+def _ellipsoid() -> Iterator[Comparison]:
+    for ratio in (0.25, 4.0):
+        known = hertz_ellipse(BALL_LOAD, RADIUS, ratio * RADIUS, RUBBER_MODULUS, POISSON_RATIO)
+        found = solve_steady(_RUBBER, Ellipsoid(RADIUS, ratio * RADIUS), speed=0.0, load=BALL_LOAD)
+        case = f"R_y/R_x = {ratio:g}, v = 0"
+        area = math.pi * known.semi_axis_x * known.semi_axis_y
+        yield Comparison(case, "indentation (m)", found.indentation, known.indentation, 1e-3)
+        yield Comparison(case, "half width along (m)", found.front, known.semi_axis_x, 2.0 * _EDGE)
+        yield Comparison(case, "half width across (m)", found.half_width, known.semi_axis_y, 2.0 * _EDGE)
+        yield Comparison(case, "contact area (m²)", found.contact_area, area, 0.01)
+
+
+def _cone() -> Iterator[Comparison]:
+    for case, speed, modulus in _LIMITS:
+        known = sneddon_cone(BALL_LOAD, math.tan(_ANGLE), modulus, POISSON_RATIO)
+        found = solve_steady(_RUBBER, Cone(_ANGLE), speed=speed, load=BALL_LOAD)
+        yield Comparison(case, "indentation (m)", found.indentation, known.indentation, 1e-3)
+        yield Comparison(case, "contact area (m²)", found.contact_area, math.pi * known.radius**2, 0.005)
+
+
+def _punch() -> Iterator[Comparison]:
+    depth = 1e-5
+    for case, speed, modulus in _LIMITS:
+        known = flat_punch(depth, HERTZ_RADIUS, modulus, POISSON_RATIO)
+        found = solve_steady(_RUBBER, FlatPunch(HERTZ_RADIUS), speed=speed, indentation=depth)
+        yield Comparison(case, "load (N)", found.load, known.load, 0.01)
+
+
+_GROUP = "elastic limits"
+
+CHECKS = (
+    Check(
+        "hertz-ball",
+        "Ball at rest and at infinite speed",
+        _GROUP,
+        "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22-4.24, with E0 and with E∞",
+        "128 cells: a quarter of a cell at an edge, a tenth all around the rim; depth and pressure converge faster. "
+        "The lean of a symmetric pressure is round-off.",
+        _ball,
+    ),
+    Check(
+        "hertz-cylinder",
+        "Cylinder at rest and at infinite speed",
+        _GROUP,
+        "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.43-4.45",
+        "128 cells: a quarter of a cell at an edge.",
+        _cylinder,
+    ),
+    Check(
+        "hertz-ellipsoid",
+        "Ellipsoids at rest",
+        _GROUP,
+        "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.24-4.27",
+        "A quarter of a cell at an edge, of which the shorter axis has 30.",
+        _ellipsoid,
+    ),
+    Check(
+        "sneddon-cone",
+        "Cone at rest and at infinite speed",
+        _GROUP,
+        "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 5",
+        "128 cells, as for the ball; the tip's infinite pressure does not spoil depth and area.",
+        _cone,
+    ),
+    Check(
+        "flat-punch",
+        "Flat punch, depth given, at rest and at infinite speed",
+        _GROUP,
+        "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 6: F = 2aE*δ",
+        "The edge is a staircase under an infinite pressure: first order in the cell, of which the radius has 49.",
+        _punch,
+    ),
+)

@@ -1,0 +1,276 @@
+"""`viscofric solve` as users meet it: words, JSON, pictures, fields, and how it fails."""
+
+from __future__ import annotations
+
+import json
+import math
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import CliRunner, Result
+
+import viscofric as vf
+from viscofric.cli import main
+from viscofric.contact import steady
+from viscofric.report.contact_figures import contact_figure, draw_contact
+from viscofric.report.contact_summary import UNITS
+
+RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
+BALL = ("--ball", "10 mm", "--speed", "1 m/s", "--load", "1 N")
+
+
+def call(*arguments: object) -> Result:
+    return CliRunner().invoke(main, ["solve", *map(str, arguments)])
+
+
+@cache
+def record(*arguments: object) -> dict[str, Any]:
+    done = call(*arguments, "--json")
+    assert done.exit_code == 0, done.output
+    found: dict[str, Any] = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+    return found
+
+
+@cache
+def expected(**arguments: Any) -> vf.ContactSolution:
+    rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+    return vf.solve_steady(rubber, vf.Ball("10 mm"), **{"speed": "1 m/s", "load": "1 N", **arguments})
+
+
+def test_json_holds_what_python_gives() -> None:
+    found, solution = record(*RUBBER, *BALL), expected()
+    for name, value in found["results"].items():
+        if name not in ("friction_force", "mean_pressure"):
+            assert value == getattr(solution, name), name
+    assert found["results"]["friction_force"] == solution.friction_coefficient * 1.0
+    assert found["errors"]["friction_coefficient"] == solution.diagnostics.friction_error
+    assert found["diagnostics"]["cells"] == list(solution.diagnostics.shape)
+    assert found["diagnostics"]["levels"][-1]["cells"] == max(solution.diagnostics.shape)
+    assert found["inputs"]["material"] | {"name": ""} == {
+        "name": "",
+        "synthetic": False,
+        "poisson_ratio": 0.5,
+        "modes": 1,
+        "E0": 1e6,
+        "E_inf": 1e7,
+    }
+    assert found["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01, "elastic": None}
+    assert found["inputs"]["held"] == "load"
+    assert set(found["errors"]) <= set(found["results"])
+
+
+def test_every_number_has_a_unit() -> None:
+    found = record(*RUBBER, *BALL)
+    dimensionless = {"geometry", "pressure_friction_coefficient", "energy_friction_coefficient"}
+    assert set(found["results"]) - dimensionless <= set(found["units"]) == set(UNITS)
+    line = record(*RUBBER, "--cylinder", "10 mm", "--speed", "1 m/s", "--load", "100 N/m")
+    assert line["units"]["load"] == "N/m"
+    assert line["results"]["half_width"] is None
+    assert line["errors"]["half_width"] is None
+
+
+def test_words_tell_the_numbers_and_their_errors() -> None:
+    done = call(*RUBBER, *BALL)
+    assert done.exit_code == 0, done.output
+    solution = expected()
+    lines = dict(line.split("  ", 1) for line in done.stdout.splitlines()[2:] if not line.startswith(" "))
+    friction = float(lines["friction coefficient"].split("±")[0])
+    assert friction == pytest.approx(solution.friction_coefficient, abs=solution.diagnostics.friction_error)
+    assert "± 0.0000" in lines["friction coefficient"]
+    assert lines["indentation"].strip().startswith("298.")
+    assert lines["indentation"].endswith("µm")
+    assert lines["load"].strip() == "1 N"
+    assert lines["contact area"].strip().startswith("7.0")
+    assert lines["contact area"].endswith("mm²")
+    assert "not resolved" in lines["largest pressure"]
+    assert lines["centre of pressure"].strip() == "575.5 µm ahead of the axis"
+    assert lines["grid"].strip().startswith("128 × 128 cells")
+
+
+def test_a_contact_that_dissipates_nothing_has_no_friction() -> None:
+    done = call(*RUBBER, "--cone", "5 deg", "--speed", "inf", "--indentation", "50 um")
+    assert done.exit_code == 0, done.output
+    assert "0 (elastic: nothing is dissipated)" in done.stdout
+    assert "on the axis" in done.stdout
+    found = record(*RUBBER, "--cone", "5 deg", "--speed", "-inf", "--indentation", "50 um")
+    assert found["inputs"]["speed"] == "infinite"
+    assert found["inputs"]["held"] == "indentation"
+    assert found["inputs"]["indentation"] == pytest.approx(5e-5, rel=1e-15)
+    assert found["inputs"]["load"] is None
+    assert found["results"]["load"] == pytest.approx(0.2426, rel=1e-3)
+
+
+def test_the_catalogues_rubber_is_shifted_and_called_synthetic() -> None:
+    arguments = (
+        "--material",
+        "synthetic fluoroelastomer",
+        "--ball",
+        "9.525 mm",
+        "--speed",
+        "100 mm/s",
+        "--load",
+        "25 N",
+    )
+    done = call(*arguments, "--temperature", "60 degC", "--accuracy", "0.01", "--tolerance", "1e-6")
+    assert done.exit_code == 0, done.output
+    assert "SYNTHETIC" in done.stdout
+    assert "60 °C" in done.stdout
+    # An independent solution goes from 0.0251 at 20 mm/s to 0.0158 at 200 mm/s.
+    friction = float(done.stdout.split("friction coefficient")[1].split("±")[0])
+    assert 0.0158 < friction < 0.0251
+    wide = call(*arguments[:-1], "60 N", "--accuracy", "0.01", "--tolerance", "1e-6")
+    assert wide.exit_code == 0
+    assert "Warning: The contact reaches" in wide.stderr
+
+
+def test_rubbers_come_from_files_too(tmp_path: Path) -> None:
+    rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+    vf.write_card(rubber, tmp_path / "rubber.json", format="json")
+    found = record("--material", tmp_path / "rubber.json", *BALL)
+    assert found["results"]["friction_coefficient"] == pytest.approx(expected().friction_coefficient, rel=1e-9)
+    # The [material] of a run file, and the file that it names, beside it.
+    (tmp_path / "study.toml").write_text(
+        '[material]\nfile = "rubber.json"\n[indenter]\nradius = "1 mm"\n'
+        '[conditions]\nload = "1 N"\nspeed = "1 m/s"\ntemperature = "20 degC"\n',
+        encoding="utf-8",
+    )
+    again = record("--material", tmp_path / "study.toml", *BALL)
+    assert again["results"] == found["results"]
+
+
+def test_a_layer_stiffens_the_contact() -> None:
+    found = record(*RUBBER, *BALL, "--layer", "1 mm", "--sliding-base", "--accuracy", 0.01)
+    half_space = record(*RUBBER, *BALL)
+    assert found["inputs"]["layer"] == {"thickness": 1e-3, "bonded": False}
+    assert half_space["inputs"]["layer"] is None
+    assert found["results"]["indentation"] < 0.9 * half_space["results"]["indentation"]
+
+
+def test_elastic_indenter_softens_the_contact() -> None:
+    found = record(*RUBBER, *BALL, "--indenter-modulus", "5 MPa", "--indenter-poisson-ratio", 0.4)
+    solution = expected(indenter_modulus="5 MPa", indenter_poisson_ratio=0.4)
+    assert found["results"]["indentation"] == solution.indentation
+    assert found["inputs"]["indenter"]["elastic"] == {"modulus": 5e6, "poisson_ratio": 0.4}
+
+
+def test_heights_of_a_ball_are_a_ball(tmp_path: Path) -> None:
+    x = np.arange(-3.0, 3.01, 0.2)  # mm
+    z = 1e3 * (x[:, None] ** 2 + x**2) / 20.0 + 5.0  # µm
+    np.savetxt(tmp_path / "ball.csv", z, delimiter=",")
+    np.save(tmp_path / "ball.npy", 1e-6 * z)
+    found = record(
+        *RUBBER, *BALL[2:], "--height-map", tmp_path / "ball.csv", "--spacing", "0.2 mm,200 um", "--height-unit", "um"
+    )
+    # A spline through a paraboloid is the paraboloid, but for rounding.
+    assert found["results"]["friction_coefficient"] == pytest.approx(expected().friction_coefficient, rel=1e-6)
+    assert found["inputs"]["indenter"]["points"] == [31, 31]
+    again = record(*RUBBER, *BALL[2:], "--height-map", tmp_path / "ball.npy", "--spacing", "0.2 mm")
+    assert again["results"]["indentation"] == pytest.approx(found["results"]["indentation"], rel=1e-9)
+
+
+def test_a_profile_of_a_cylinder_is_a_cylinder(tmp_path: Path) -> None:
+    x = np.arange(-3.0, 3.01, 0.1)
+    np.savetxt(tmp_path / "profile.txt", x**2 / 20.0)
+    line = ("--speed", "1 m/s", "--load", "100 N/m")
+    found = record(*RUBBER, *line, "--profile", tmp_path / "profile.txt", "--spacing", "0.1 mm", "--height-unit", "mm")
+    cylinder = record(*RUBBER, *line, "--cylinder", "10 mm")
+    assert found["results"]["friction_coefficient"] == pytest.approx(
+        cylinder["results"]["friction_coefficient"], rel=1e-6
+    )
+    ellipsoid = record(*RUBBER, *BALL[2:], "--ellipsoid", "10 mm, 1 cm")
+    assert ellipsoid["results"]["friction_coefficient"] == pytest.approx(expected().friction_coefficient, rel=1e-9)
+
+
+def test_pictures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
+    done = call(*RUBBER, *BALL, "--picture", tmp_path / "a.svg")
+    assert done.exit_code == 0, done.output
+    assert f"picture  {tmp_path / 'a.svg'}" in done.stdout
+    draw_contact(
+        tmp_path / "b.svg", expected(), vf.Ball("10 mm"), title="Ball of radius 10 mm on standard linear solid"
+    )
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+def test_pictures_of_line_contacts_have_no_map() -> None:
+    rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+    cylinder = vf.Cylinder("10 mm")
+    line = vf.solve_steady(rubber, cylinder, speed="-1 m/s", load="100 N/m")
+    assert [axes.get_ylabel() for axes in contact_figure(line, cylinder).axes] == ["pressure $p$ (kPa)", "height (µm)"]
+    assert len(contact_figure(expected(), vf.Ball("10 mm")).axes) == 4  # the map, its bar, two profiles
+
+
+def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
+    done = call(*RUBBER, *BALL, "--json", "-o", tmp_path / "fields.nc")
+    assert done.exit_code == 0, done.output
+    assert json.loads(done.stdout)["results"]  # files are named on the other stream
+    with xarray.open_dataset(tmp_path / "fields.nc", engine="h5netcdf") as data:
+        cell = float(data.x[1] - data.x[0]) * float(data.y[1] - data.y[0])
+        assert data.pressure.attrs["units"] == "Pa"
+        assert float(data.pressure.sum()) * cell == pytest.approx(1.0, rel=1e-9)  # rounding: the load is given
+    assert call(*RUBBER, *BALL, "-o", tmp_path / "fields.csv").exit_code == 0
+    table = np.loadtxt(tmp_path / "fields.csv", delimiter=",", skiprows=1)
+    assert table[:, 2].sum() * cell == pytest.approx(1.0, rel=1e-8)  # ten digits
+    assert math.isclose(table[:, 3].max(), expected().indentation, rel_tol=1e-2)  # beside the axis by half a cell
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "told"),
+    [
+        ((*RUBBER, "--ball", "10 mm", "--speed", "1", "--load", "1 N"), 1, "speed = '1': has no unit"),
+        ((*RUBBER, "--ball", "10", "--speed", "1 m/s", "--load", "1 N"), 1, "radius = '10'"),
+        ((*RUBBER, *BALL, "--indentation", "1 mm"), 1, "both given"),
+        ((*RUBBER, *BALL[:-2]), 1, "neither given"),
+        ((*RUBBER, *BALL, "--temperature", "60 degC"), 1, "this material has no shift"),
+        ((*RUBBER, *BALL, "--accuracy", "2"), 1, "accuracy = 2.0"),
+        ((*RUBBER, *BALL, "--accuracy", "1e-6", "--tolerance", "1e-10", "--finest", "128"), 1, "finest grid allowed"),
+        ((*RUBBER, "--ball", "10 mm", "--speed", "1 m/s", "--load", "1 MN"), 1, "wider than the ball"),
+        ((*RUBBER, *BALL, "--cone", "5 deg"), 2, "--ball and --cone are both given"),
+        ((*RUBBER, "--speed", "1 m/s", "--load", "1 N"), 2, "nothing says what the indenter is"),
+        (BALL, 2, "nothing says what the rubber is"),
+        ((*RUBBER[:4], *BALL), 2, "--E0, --E-inf and --tau"),
+        ((*RUBBER, "--material", "VHB 4910", *BALL), 2, "--material and --E0 are both given"),
+        (("--material", "VHB 491", *BALL), 1, "did you mean 'VHB 4910'"),
+        (("--material", "none.json", *BALL), 1, "none.json: no such file"),
+        ((*RUBBER, "--ellipsoid", "10 mm", *BALL[2:]), 2, "two radii"),
+        ((*RUBBER, *BALL, "--spacing", "1 um"), 2, "--spacing is for"),
+        ((*RUBBER, *BALL, "--sliding-base"), 2, "--sliding-base is for"),
+        ((*RUBBER, *BALL, "--layer", "1"), 1, "thickness of the layer = '1': has no unit"),
+        ((*RUBBER, "--profile", "none.txt", *BALL[2:]), 2, "needs --spacing"),
+        ((*RUBBER, "--profile", "none.txt", "--spacing", "1 um", *BALL[2:]), 1, "none.txt: no such file"),
+        ((*RUBBER, *BALL, "--picture", "a.gif"), 2, "must end in .png, .svg, .pdf"),
+        ((*RUBBER, *BALL, "-o", "a.txt"), 2, "must end in .nc, .csv"),
+    ],
+    ids=lambda value: str(value)[:40],
+)
+def test_mistakes_are_one_sentence(
+    arguments: tuple[str, ...], status: int, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = call(*arguments)
+    assert done.exit_code == status, done.output
+    assert told in done.output
+    assert "Traceback" not in done.output
+    assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
+
+
+def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
+    path = tmp_path / "heights.csv"
+    path.write_bytes((Path(str(files("viscofric"))) / "example" / "mtm.csv").read_bytes())
+    done = call(*RUBBER, *BALL[2:], "--height-map", path, "--spacing", "1 um", "-o", path)
+    assert done.exit_code == 1
+    assert "would be overwritten" in done.output
+
+
+def test_ctrl_c_is_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*arguments: object, **settings: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(steady, "solve_steady", interrupted)
+    done = call(*RUBBER, *BALL)
+    assert done.exit_code == 130
+    assert done.output.split() == ["Interrupted."]

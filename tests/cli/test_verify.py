@@ -1,0 +1,112 @@
+"""`viscofric verify` as users meet it: what it prints, in which form, and when it fails."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+from click.testing import CliRunner, Result
+
+from viscofric.cli import main
+from viscofric.cli.verify import _table
+from viscofric.contact.periodic.transfer import SlidingSolid
+from viscofric.errors import ConvergenceError
+from viscofric.verification import CHECKS, Comparison, select
+
+CHEAP = ("--only", "hertz-cylinder", "--only", "full-contact-wave", "--only", "thin-layers")
+
+
+def call(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["verify", *arguments])
+
+
+def test_each_check_is_a_line_with_its_worst_number() -> None:
+    done = call(*CHEAP)
+    assert done.exit_code == 0, done.output
+    lines = done.stdout.splitlines()
+    assert [line.split()[:2] for line in lines[:-1]] == [
+        ["hertz-cylinder", "passed"],
+        ["full-contact-wave", "passed"],
+        ["thin-layers", "passed"],
+    ]
+    assert all("expected" in line and "bound" in line for line in lines[:-1])
+    assert lines[-1].startswith("All 3 checks passed, 34 comparisons")
+    assert done.stderr == ""
+
+
+def test_details_tell_every_comparison_and_the_reasons() -> None:
+    done = call("--only", "hertz-cylinder", "--details")
+    assert done.exit_code == 0, done.output
+    assert done.stdout.count("contact width (m)") == 3  # the worst, and both
+    assert "bounds: 128 cells" in done.stdout
+    assert "Johnson" in done.stdout
+
+
+@pytest.mark.parametrize("details", [False, True])
+def test_a_wide_terminal_gets_a_table(
+    details: bool, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "130")
+
+    def broken() -> list[Comparison]:
+        raise ConvergenceError("no window was found [at all].")
+
+    (check,) = select(CHECKS, ["hertz-cylinder"])
+    _table([check.run(), replace(check, name="broken", compare=broken).run()], details)
+    told = " ".join(capsys.readouterr().out.split())
+    assert "hertz-cylinder" in told
+    assert "passed" in told
+    assert "FAILED" in told
+    assert "no window" in told
+    assert told.count("5.0e-03 rel.") == (2 if details else 1)
+
+
+def test_json_holds_everything() -> None:
+    done = call(*CHEAP, "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert found["passed"] is True
+    assert [one["name"] for one in found["checks"]] == list(CHEAP[1::2])
+    for check in found["checks"]:
+        assert check["source"]
+        assert check["reason_of_bounds"]
+        for one in check["comparisons"]:
+            assert one["passed"] == (one["error"] <= one["bound"])
+
+
+def test_a_wrong_engine_is_told_with_status_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    original = SlidingSolid.transfer
+    monkeypatch.setattr(SlidingSolid, "transfer", lambda *arguments: 1.03 * original(*arguments))
+    done = call(*CHEAP)
+    assert done.exit_code == 1
+    assert "full-contact-wave  FAILED" in done.stdout
+    assert "2 of 3 checks FAILED: full-contact-wave, thin-layers." in done.stdout
+    assert "Traceback" not in done.output
+    assert json.loads(call(*CHEAP, "--json").stdout)["passed"] is False
+
+
+def test_another_backend_is_checked() -> None:
+    done = call("--only", "hertz-cylinder", "--only", "full-contact-wave", "--backend", "array_api_strict", "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert found["backend"] == "array_api_strict"
+    assert found["passed"] is True
+    wrong = call("--only", "hertz-cylinder", "--backend", "fortran")
+    assert wrong.exit_code == 1
+    assert wrong.output.startswith("Error: backend = 'fortran': not known")
+
+
+def test_checks_are_listed_with_their_sources() -> None:
+    done = call("--list")
+    assert done.exit_code == 0, done.output
+    for check in CHECKS:
+        assert check.name in done.stdout
+        assert check.title in done.stdout
+        assert check.source in done.stdout
+
+
+def test_an_unknown_check_is_one_sentence() -> None:
+    done = call("--only", "hertz")
+    assert done.exit_code == 1
+    assert done.output.startswith("Error: there is no check named 'hertz'; did you mean 'hertz-ball'?")

@@ -1,0 +1,214 @@
+"""The checks behind `viscofric verify`: they fail where the engine is wrong, and they tell what they found."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from viscofric.contact import steady
+from viscofric.contact.layers import Layer
+from viscofric.contact.line_operator import LineOperator
+from viscofric.contact.operator import ConvolutionOperator, HalfSpaceOperator
+from viscofric.contact.periodic.transfer import SlidingSolid
+from viscofric.contact.scale import Scale, ScaledIndenter
+from viscofric.errors import ConvergenceError, InputError
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.verification import CHECKS, Check, Comparison, run_checks, select
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+NAMES = [check.name for check in CHECKS]
+
+
+def scaled(patch: pytest.MonkeyPatch, owner: type, name: str, factor: float) -> None:
+    """Let a method return its result times a factor."""
+    original = getattr(owner, name)
+    patch.setattr(owner, name, lambda *arguments: factor * original(*arguments))
+
+
+# What may be wrong with an engine, and which check must see it.  3 % of compliance is what a Poisson ratio of 0.48 adds
+# to that of 0.5.
+
+
+def stiff_half_space(patch: pytest.MonkeyPatch) -> None:
+    softer(patch, HalfSpaceOperator)
+
+
+def stiff_line(patch: pytest.MonkeyPatch) -> None:
+    softer(patch, LineOperator)
+
+
+def softer(patch: pytest.MonkeyPatch, owner: type) -> None:
+    original = owner._influence  # type: ignore[attr-defined]
+
+    def influence(operator: Any) -> tuple[NDArray[Any], ...]:
+        displacement, *dissipation = original(operator)
+        return 1.03 * displacement, *dissipation
+
+    patch.setattr(owner, "_influence", influence)
+
+
+def soft_waves(patch: pytest.MonkeyPatch) -> None:
+    scaled(patch, SlidingSolid, "transfer", 1.03)
+
+
+def soft_layer(patch: pytest.MonkeyPatch) -> None:
+    scaled(patch, Layer, "yielding", 1.03)
+
+
+def relaxation_for_retardation_time(patch: pytest.MonkeyPatch) -> None:
+    """Take the relaxation time τ E0/E∞ where τ belongs, the commonest mistake of all."""
+    original = steady._steady_material
+
+    def material(spectrum: RetardationSpectrum, speed: float, *rest: float) -> Any:
+        return original(spectrum, speed * spectrum.E0 / spectrum.E_inf, *rest)
+
+    patch.setattr(steady, "_steady_material", material)
+
+
+def lost_energy(patch: pytest.MonkeyPatch) -> None:
+    scaled(patch, ConvolutionOperator, "dissipated_force", 0.9)
+
+
+def absolute_number(patch: pytest.MonkeyPatch) -> None:
+    """Add a small number of Pa, harmless in the units of the one who wrote it."""
+    original = Scale.for_load
+
+    def for_load(*arguments: Any) -> Scale:
+        scale = original(*arguments)
+        return replace(scale, stiffness=scale.stiffness + 10.0)
+
+    patch.setattr(Scale, "for_load", for_load)
+
+
+def one_way(patch: pytest.MonkeyPatch) -> None:
+    """Do not mirror the indenter with the motion."""
+    patch.setattr(steady, "ScaledIndenter", lambda indenter, scale, direction: ScaledIndenter(indenter, scale, 1.0))
+
+
+def merged_modes(patch: pytest.MonkeyPatch) -> None:
+    """Let modes of equal times overwrite each other instead of adding up."""
+    original = steady._steady_material
+
+    def material(spectrum: RetardationSpectrum, *rest: float) -> Any:
+        times = {float(tau): float(C) for C, tau in zip(spectrum.C, spectrum.tau, strict=True)}
+        kept = RetardationSpectrum.__new__(RetardationSpectrum)
+        object.__setattr__(kept, "__dict__", dict(spectrum.__dict__))
+        object.__setattr__(kept, "C", list(times.values()))
+        object.__setattr__(kept, "tau", list(times))
+        return original(kept, *rest)
+
+    patch.setattr(steady, "_steady_material", material)
+
+
+def half_a_shift(patch: pytest.MonkeyPatch) -> None:
+    original = RetardationSpectrum.shifted
+    patch.setattr(RetardationSpectrum, "shifted", lambda self, alpha, b=1.0: original(self, alpha, math.sqrt(b)))
+
+
+SEEN_BY: dict[str, Callable[[pytest.MonkeyPatch], None]] = {
+    "hertz-ball": stiff_half_space,
+    "hertz-cylinder": stiff_line,
+    "hertz-ellipsoid": stiff_half_space,
+    "sneddon-cone": stiff_half_space,
+    "flat-punch": stiff_half_space,
+    "full-contact-wave": soft_waves,
+    "westergaard": soft_waves,
+    "johnson-waves": soft_waves,
+    "thick-layer": soft_layer,
+    "thin-layers": soft_layer,
+    "rolling-on-layer": soft_layer,
+    "single-layers": relaxation_for_retardation_time,
+    "hunter": relaxation_for_retardation_time,
+    "ball-reference": relaxation_for_retardation_time,
+    "low-speed": relaxation_for_retardation_time,
+    "high-speed": relaxation_for_retardation_time,
+    "energy-balance": lost_energy,
+    "units": absolute_number,
+    "mirror": one_way,
+    "split-modes": merged_modes,
+    "shifted-friction": half_a_shift,
+    "orders": stiff_half_space,
+    "large-windows": relaxation_for_retardation_time,
+}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_check_fails_where_the_engine_is_wrong(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    SEEN_BY[name](monkeypatch)
+    (check,) = select(CHECKS, [name])
+    try:
+        seen = any(not one.passed for one in check.compare())  # stops at the first
+    except ConvergenceError:
+        seen = True
+    assert seen
+
+
+def test_names_are_told_apart_and_all_is_said() -> None:
+    assert len(set(NAMES)) == len(NAMES)
+    assert not set(NAMES) & {check.group for check in CHECKS}
+    for check in CHECKS:
+        assert check.title, check.name
+        assert check.source, check.name
+        assert check.reason.endswith("."), check.name
+
+
+# --- what a comparison is -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("measure", "computed", "expected", "error"),
+    [
+        ("relative", 1.1, 1.0, 0.1),
+        ("relative", 0.0, 0.0, math.inf),
+        ("relative", math.nan, 1.0, math.inf),
+        ("absolute", -1.0, 0.0, 1.0),
+        ("at least", 1.5, 2.0, 0.5),
+        ("at least", 2.5, 2.0, 0.0),
+        ("at most", 2.5, 2.0, 0.5),
+        ("at most", math.inf, 2.0, math.inf),
+    ],
+)
+def test_error_is_that_of_its_measure(measure: Any, computed: float, expected: float, error: float) -> None:
+    one = Comparison("case", "quantity", computed, expected, 0.2, measure)
+    assert one.error == pytest.approx(error)
+    assert one.passed == (error <= 0.2)
+
+
+def test_nothing_to_compare_and_what_cannot_be_solved_are_failures() -> None:
+    def fails() -> list[Comparison]:
+        raise ConvergenceError("no window was found.")
+
+    base = Check("name", "title", "group", "source", "reason.", list)
+    empty, broken = run_checks([base, replace(base, compare=fails)])
+    assert not empty.passed
+    assert empty.worst is None
+    assert not broken.passed
+    assert broken.trouble == "no window was found."
+
+
+def test_the_worst_is_the_largest_error_over_its_bound() -> None:
+    rows = [
+        Comparison("a", "x", 1.0, 2.0, 1.0),
+        Comparison("b", "x", 1.1, 1.0, 0.1001),
+        Comparison("c", "x", 1.0, 1.0, 0.0),
+    ]
+    check = Check("name", "title", "group", "source", "reason.", lambda: rows)
+    outcome = check.run()
+    assert outcome.passed
+    assert outcome.worst is rows[1]
+    assert not replace(check, compare=lambda: [*rows, replace(rows[2], computed=2.0)]).run().passed
+
+
+def test_checks_are_chosen_by_name_or_group() -> None:
+    assert select(CHECKS, []) == CHECKS
+    assert [one.name for one in select(CHECKS, ["hunter", "hertz-ball"])] == ["hertz-ball", "hunter"]
+    assert {one.group for one in select(CHECKS, ["invariances"])} == {"invariances"}
+    with pytest.raises(InputError, match="did you mean 'hunter'"):
+        select(CHECKS, ["hunters"])
