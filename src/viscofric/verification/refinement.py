@@ -72,6 +72,9 @@ class _Parabola:
     def slope(self, x: Array, y: Array) -> Array:
         return np.asarray(x + 0.0 * y)
 
+    def slope_across(self, x: Array, y: Array) -> Array:
+        return np.asarray(y + 0.0 * x)
+
 
 def stages(geometry: Geometry, solid: SteadyMaterial, extent: tuple[float, float, float], grids: int) -> list[Stage]:
     """Solve on nested grids of 32, 64, … cells over −rear … front and ±side, in units of Hertz's contact at E0."""
