@@ -207,7 +207,23 @@ def test_surface_of_a_layer_is_that_of_the_solution_and_at_rest_far_away(line: b
 
 def test_layer_too_thin_for_any_grid_is_refused() -> None:
     with pytest.raises(vf.ConvergenceError, match="thinner than the grid resolves"):
-        vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), speed=1.0, load=10.0, layer=vf.Layer(1e-6))
+        vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), speed=1.0, load=10.0, layer=vf.Layer(1e-8))
+
+
+def test_surface_of_a_layer_needs_cells_that_resolve_it() -> None:
+    x = 1e-4 * np.arange(4.0)
+    with pytest.raises(vf.InputError, match="too large for the layer"):
+        surface_displacement(
+            x,
+            x,
+            np.ones((4, 4)),
+            speed=0.0,
+            E_inf=E_INF,
+            C=[0.0],
+            tau=[TAU],
+            poisson_ratio=0.4,
+            layer=vf.Layer(1e-5),
+        )
 
 
 def test_layer_must_be_a_layer() -> None:

@@ -138,9 +138,9 @@ def test_rectangular_cells_keep_their_shape_and_their_edges() -> None:
 
 def test_wide_contact_has_wide_cells_and_a_round_one_square_ones() -> None:
     rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
-    wide, narrow = (
+    wide, round_one = (
         vf.solve_steady(rubber, vf.Ellipsoid(*radii), speed=1.0, load=1.0, accuracy=1e-2)
-        for radii in ((1e-3, 3e-2), (3e-2, 1e-3))
+        for radii in ((1e-3, 3e-2), (1e-2, 1e-2))
     )
     step_x, step_y = np.diff(wide.x)[0], np.diff(wide.y)[0]
     slenderness = 2.0 * wide.half_width / (wide.front + wide.rear)
@@ -149,4 +149,4 @@ def test_wide_contact_has_wide_cells_and_a_round_one_square_ones() -> None:
     # On squares, at an accuracy of 1e-4: 0.166199.
     assert wide.friction_coefficient == pytest.approx(0.166199, rel=2e-3)
     assert wide.pressure.sum() * step_x * step_y == pytest.approx(1.0, rel=1e-9)
-    assert np.diff(narrow.x)[0] == pytest.approx(np.diff(narrow.y)[0])
+    assert np.diff(round_one.x)[0] == pytest.approx(np.diff(round_one.y)[0])

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.contact.geometry import LINE, Geometry
-from viscofric.contact.layer_potentials import LayerCell, LayerStrip
+from viscofric.contact.layer_potentials import THINNEST, LayerCell, LayerStrip
 from viscofric.contact.layers import Layer
 from viscofric.contact.line_influence import strip_potential
 from viscofric.contact.operator import ConvolutionOperator, Influence, cell_influence
@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     Array: TypeAlias = NDArray[np.float64]
-
-#: Thinnest layer, in cells.  Of a thinner one the cells' own edges would be felt more than the contact.
-THINNEST = 0.25
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+#: Thinnest layer, in cells.  Of a thinner one the cells' own edges would be felt more than the contact.
+THINNEST = 0.25
 # Waves that are integrated over: panels in Q of 24 Gauss points.  Beyond, 1 − Θ is below 1e-15.
 _WAVE_PANELS = np.linspace(0.0, 40.0, 81)
 _POINTS = 24

@@ -43,6 +43,8 @@ _PATIENCE = 8  # looks at the contact set without headway that end one step's at
 _MOST_SLENDER = 4
 # A contact that is wider than long has cells as slender as half of that, in powers of two up to this one.
 _WIDE, _WIDEST = math.sqrt(2.0), 4
+# Of a thin layer the coarsest grid has cells no longer than twice its thickness, if that takes no more than so many.
+_LAYER_CELLS, _FINEST_START = 0.5, 256
 # First windows that are tried, in units of the contact's size as it is guessed.
 _FIRST_WINDOWS = (1.0, 2.5, 5.0, 1.6, 0.6)
 _MOST_WINDOWS = 20
@@ -111,14 +113,14 @@ def find_window(problem: Problem, size: float) -> Stage:
 
 
 def _fitted_window(problem: Problem, size: float) -> Stage:
-    window = problem.geometry.grid.around(1.5 * size, 1.5 * size, 1.5 * size, COARSEST)
+    window = problem.geometry.grid.around(1.5 * size, 1.5 * size, 1.5 * size, _coarsest(problem))
     guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / size**2))
     stage = _solve_on(window, problem, guess)
     for _ in range(_MOST_WINDOWS):
         old = stage.window
         if old.cuts(stage.result.pressure > 0.0):
             wider = old.whole.widened(0.3 * old.spacing * max(old.shape))
-            window = problem.geometry.grid.around(*wider, COARSEST)
+            window = problem.geometry.grid.around(*wider, _coarsest(problem))
         else:
             window = _around(stage)
             if window.spacing > 0.8 * old.spacing:
@@ -127,16 +129,27 @@ def _fitted_window(problem: Problem, size: float) -> Stage:
     raise ConvergenceError(_NO_WINDOW)
 
 
+def _coarsest(problem: Problem) -> int:
+    """Cells along the longer edge of the coarsest window: so many that they resolve a thin layer, if there is one."""
+    cells = COARSEST
+    while problem.layer is not None and cells < _FINEST_START:
+        spacing = 3.0 * problem.first_size / cells
+        if problem.layer.thickness >= _LAYER_CELLS * spacing:
+            break
+        cells *= 2
+    return cells
+
+
 def _around(stage: Stage) -> Grid:
-    contact, grid = stage.extent, stage.problem.geometry.grid
+    contact, grid, cells = stage.extent, stage.problem.geometry.grid, _coarsest(stage.problem)
     length, width = contact.rear + contact.front, 2.0 * contact.side
     if (wide := 0.5 * width / length) > _WIDE:
         # Along the motion much changes within the contact's length, across it little within the same distance.
         margins = contact.widened(MARGIN * length)._replace(side=(1.0 + 2.0 * MARGIN) * contact.side)
-        return grid.around(*margins, COARSEST, 2.0 ** min(round(math.log2(wide)), _WIDEST))
+        return grid.around(*margins, cells, 2.0 ** min(round(math.log2(wide)), _WIDEST))
     narrow = min(length, width) or contact.longest
     slender = min(_MOST_SLENDER, max(1, int(0.5 * contact.longest / narrow)))
-    return grid.around(*contact.widened(MARGIN * contact.longest), COARSEST * slender)
+    return grid.around(*contact.widened(MARGIN * contact.longest), cells * slender)
 
 
 def _solve_in_window(window: Grid, before: Stage) -> Stage:

@@ -73,7 +73,7 @@ class Problem:
     backend: Backend = field(default_factory=Backend)
     layer: ScaledLayer | None = None
 
-    @property
+    @cached_property
     def first_size(self) -> float:
         """First guess of the contact's size.
 

@@ -123,7 +123,8 @@ def solve_steady(
     An elastic indenter is a second half-space, which adds (1 − ν_i²)/E_i to the compliance without memory.
 
     A layer yields by the factor Θ(qH) less than a half-space to each wave of pressure (see `Layer`); its influence
-    coefficients are as exact.
+    coefficients are as exact.  One hundreds of times thinner than the contact is wide, which no grid resolves, is
+    refused (ConvergenceError): it is a foundation.
 
     Examples
     --------

@@ -11,7 +11,7 @@ import scipy.fft
 
 from viscofric.contact.fields._cells import on_cells, spacing
 from viscofric.contact.influence import memory_influence
-from viscofric.contact.layer_potentials import LayerCell, LayerStrip
+from viscofric.contact.layer_potentials import THINNEST, LayerCell, LayerStrip
 from viscofric.contact.line_influence import line_memory_influence, strip_potential
 from viscofric.contact.potentials import HalfSpaceCell
 from viscofric.errors import InputError
@@ -160,6 +160,8 @@ def _cell(layer: Layer | None, is_line: bool, step: float, aspect: float, poisso
     if layer is None:
         return HalfSpaceCell(aspect)
     thickness = float(layer.thickness) / step
+    if thickness < THINNEST * max(1.0, aspect):
+        raise InputError(f"the cells are too large for the layer: it must be at least {THINNEST} of them thick.")
     if is_line:
         return LayerStrip(thickness, layer.bonded, poisson_ratio)
     return LayerCell(thickness, layer.bonded, poisson_ratio, aspect)
