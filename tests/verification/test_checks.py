@@ -88,8 +88,10 @@ def absolute_number(patch: pytest.MonkeyPatch) -> None:
 
 
 def one_way(patch: pytest.MonkeyPatch) -> None:
-    """Do not mirror the indenter with the motion."""
-    patch.setattr(steady, "ScaledIndenter", lambda indenter, scale, direction: ScaledIndenter(indenter, scale, 1.0))
+    """Do not turn the indenter round with the motion."""
+    patch.setattr(
+        steady, "ScaledIndenter", lambda indenter, scale, _toward: ScaledIndenter(indenter, scale, (1.0, 0.0))
+    )
 
 
 def merged_modes(patch: pytest.MonkeyPatch) -> None:

@@ -147,10 +147,10 @@ def _adjoint_field(stage: Stage, by_pressure: Array, *, fixed_load: bool) -> tup
         if size <= _TOLERANCE * first:
             return field, level
         reduction = 0.5 * _TOLERANCE * first / size
+        wanted = contact.gathered(backend.asarray(-residual))
         correction, _, _ = solve_on_contact(
-            mirrored, backend.asarray(-residual), contact, reduction=reduction, floor=0.0, directions=_DIRECTIONS,
-            fixed_load=fixed_load,
-        )  # fmt: skip
+            mirrored, wanted, contact, reduction=reduction, floor=0.0, directions=_DIRECTIONS, fixed_load=fixed_load
+        )
         field += backend.to_numpy(contact.scattered(correction))
         residual = by_pressure - backend.to_numpy(mirrored(field))
     raise ConvergenceError(

@@ -145,8 +145,10 @@ class ScaledIndenter:
         """Extent of a set of cells along the indenter's own axes, m."""
         i, j = np.nonzero(mask)
         x, y = self._turned(window.x[i], window.y[j])
-        half = 0.5 * self.scale.length * window.spacing * (abs(self.toward[0]) + abs(self.toward[1]))
-        side = float(np.abs(y).max()) + half if self.scale.geometry.dimension > 1 else 0.0
+        along, across = (0.5 * self.scale.length * abs(one) for one in self.toward)
+        half = along * window.spacing + across * window.width
+        beside = across * window.spacing + along * window.width
+        side = float(np.abs(y).max()) + beside if self.scale.geometry.dimension > 1 else 0.0
         return Extent(half - float(x.min()), float(x.max()) + half, side)
 
     def _turned(self, x: Array, y: Array) -> tuple[Array, Array]:
