@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 import viscofric as vf
 from contact.dense_reference import solve_dense_contact
 from contact.made_surfaces import self_affine
+from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.layers import Layer
+from viscofric.contact.periodic.blocks import Blocks, block_size
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.splitting import split_steps
@@ -296,6 +299,63 @@ def test_speed_limits_are_elastic() -> None:
     np.testing.assert_allclose(high.pressure, limit.pressure, atol=1e-4 * limit.max_pressure)
 
 
+@pytest.mark.parametrize("direction", [(1.0, 2.0), (-3.0, 1.0), (1.0, 1.0), (0.3, -0.7)])
+def test_infinite_speed_is_the_limit_in_any_direction(direction: tuple[float, float]) -> None:
+    surface = rough(32)
+    limit = solve_periodic(broad(), surface, speed=math.inf, pressure=0.5, direction=direction)
+    high = solve_periodic(broad(), surface, speed=1e9, pressure=0.5, direction=direction)
+    # Terms of the order 1/(q v τ), and the tolerance.
+    np.testing.assert_allclose(high.pressure, limit.pressure, atol=1e-4 * limit.max_pressure)
+    assert abs(limit.friction_coefficient) < 1e-12
+
+
+@pytest.mark.parametrize("speed", [0.5, -0.5])
+@pytest.mark.parametrize("angle", [0.4, 1.2, 2.5])
+def test_oblique_ridges_push_along_their_wave_vector(angle: float, speed: float) -> None:
+    """In full contact with one wave the force is along q: F⊥/F∥ = tan of the angle between q and the motion."""
+    points = 32
+    x = np.arange(points) / points
+    ridges = 1e-4 * np.cos(2.0 * np.pi * (2.0 * x[:, None] + x))
+    across = math.atan2(1.0, 2.0)
+    direction = (math.cos(across + angle), math.sin(across + angle))
+    solution = solve_periodic(
+        broad(), PeriodicSurface(ridges, 1.0 / points), speed=speed, pressure=1.0, direction=direction
+    )
+    assert solution.diagnostics.full_contact
+    lateral, along = solution.lateral_friction_coefficient, solution.friction_coefficient
+    assert along * speed > 0.0
+    assert lateral == pytest.approx(along * math.tan(-angle), rel=1e-9)
+
+
+def test_lateral_friction_is_that_of_the_turned_axes() -> None:
+    """The force is a vector; in partial contact its parts from energy and from the slopes agree as the grid allows."""
+    surface = PeriodicSurface(_refined(self_affine(32, points_per_shortest_wave=8.0), 128), 1.0 / 128)
+    solution = solve_periodic(broad(), surface, speed=0.5, pressure=0.05, direction=(1.0, 2.0))
+    x, y = solution.direction
+    by_slopes = -float(np.vdot(solution.pressure, surface.slope((-y, x)))) / solution.pressure.sum()
+    assert solution.lateral_friction_coefficient == pytest.approx(by_slopes, abs=5e-3 * solution.friction_coefficient)
+    assert abs(by_slopes) > 0.02 * solution.friction_coefficient
+
+
+def test_estimated_friction_error_is_of_the_order_of_the_error() -> None:
+    z = self_affine(64, points_per_shortest_wave=4.0)
+    solutions = {
+        points: solve_periodic(broad(), PeriodicSurface(_refined(z, points), 1.0 / points), speed=1.0, pressure=0.2)
+        for points in (64, 128, 256, 512)
+    }
+    reference = solutions[512].friction_coefficient
+    for points in (64, 128, 256):
+        error = abs(solutions[points].friction_coefficient - reference)
+        # Neither is precise: factors of 0.8 to 9 were seen here, 0.3 to 10 for other materials and speeds.
+        assert 0.3 * error < solutions[points].diagnostics.friction_error < 30.0 * error
+
+
+def test_friction_in_full_contact_has_no_error_of_the_grid() -> None:
+    solution = solve_periodic(broad(), rough(64), speed=0.3, pressure=300.0)
+    assert solution.diagnostics.full_contact
+    assert solution.diagnostics.friction_error < 1e-8 * solution.friction_coefficient
+
+
 def test_elastic_indenter_adds_its_compliance() -> None:
     """As stiff as a relaxed rubber of the same Poisson ratio, it halves the contact's modulus at rest."""
     surface = rough(64)
@@ -392,13 +452,65 @@ def test_few_points_and_all_but_few_touch(pressure: float) -> None:
     assert area < 1e-3 if pressure < 1.0 else area > 0.999
 
 
-def test_work_does_not_grow_with_the_grid() -> None:
-    counts = []
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+@pytest.mark.parametrize("kind", ["the same surface", "a rougher one"])
+def test_work_does_not_grow_with_the_grid(kind: str, speed: float) -> None:
+    """On a refined surface, and on one whose shortest wave is always eight points long."""
+    z = self_affine(64, points_per_shortest_wave=4.0)
+    ffts, steps = [], []
     for points in (128, 256, 512):
-        solution = solve_periodic(standard(), rough(points), speed=0.0, pressure=0.05 * reduced())
-        counts.append(solution.diagnostics.ffts)
-    # 90 to 150 were seen, two in each of the steps; conjugate gradients without nested grids double theirs.
-    assert max(counts) < 200
+        surface = rough(points) if kind == "a rougher one" else PeriodicSurface(_refined(z, points), 1.0 / points)
+        diagnostics = solve_periodic(broad(), surface, speed=speed, pressure=0.05 * reduced()).diagnostics
+        ffts.append(diagnostics.ffts)
+        steps.append(diagnostics.linear_iterations)
+    # 70 to 80 were seen at rest, 80 to 120 in motion, and 16 to 18, or 16 to 28, steps.  Without blocks and splitting,
+    # conjugate gradients double their steps whenever the points along an edge double twice.
+    assert max(ffts) < (100 if speed == 0.0 else 150)
+    assert max(steps) < (24 if speed == 0.0 else 36)
+
+
+@pytest.mark.parametrize("velocity", [(0.0, 0.0), (0.6, -0.8)])
+def test_blocks_answer_one_another_as_their_cells_do(velocity: tuple[float, float]) -> None:
+    """Mean displacements under pressures uniform on whole blocks: exactly those that the grid's own operator gives."""
+    transfer = SlidingSolid(broad().at(), POISSON_RATIO, velocity).transfer((128, 96), (0.01, 0.01))
+    operator = PeriodicOperator(transfer, (128, 96))
+    blocks = Blocks(operator, (8, 6))
+    pressure = np.random.default_rng(0).random((16, 16))
+    cells = np.repeat(np.repeat(pressure, 8, 0), 6, 1)
+    means = operator(cells).reshape(16, 8, 16, 6).mean(axis=(1, 3))
+    np.testing.assert_allclose(blocks.operator(pressure), means, atol=1e-12 * np.abs(means).max())
+
+
+@pytest.mark.parametrize("fixed_load", [True, False])
+def test_blocks_spare_ffts(fixed_load: bool) -> None:
+    """On many spots of contact, each of which alone is answered well by the inverse symbol."""
+    points, random = 256, np.random.default_rng(0)
+    transfer = SlidingSolid(broad().at(), POISSON_RATIO, (1.0, 0.0)).transfer((points, points), (1 / points,) * 2)
+    operator = PeriodicOperator(transfer / np.abs(transfer).max(), (points, points))
+    centres = np.zeros((points, points))
+    centres[random.integers(points, size=300), random.integers(points, size=300)] = 1.0
+    contact = operator.backend.cells(ndimage.grey_dilation(centres, size=(5, 5), mode="wrap") > 0.0)
+    gap = operator(contact.scattered(random.random(len(contact))).copy())
+    ffts, found = [], []
+    for coarse in (None, Blocks(operator, (8, 8))):
+        before = operator.ffts
+        correction, _, residual = solve_on_contact(
+            operator, gap, contact, reduction=1e-9, floor=0.0, directions=40, fixed_load=fixed_load, coarse=coarse
+        )
+        assert residual <= 1e-9
+        ffts.append(operator.ffts - before)
+        found.append(correction)
+    # 72 of 112 were seen to be left: every second step costs half, and there are fewer.
+    assert ffts[1] < 0.75 * ffts[0]
+    # Residuals of 1e-9 take pressures of that times the condition of the problem, some hundreds.
+    np.testing.assert_allclose(found[1], found[0], atol=1e-6 * np.abs(found[0]).max())
+
+
+def test_blocks_divide_the_grid() -> None:
+    assert block_size((1024, 1000)) == (8, 8)
+    assert block_size((150, 128)) == (6, 8)
+    assert block_size((127, 128)) is None  # a prime number
+    assert block_size((64, 1024)) is None  # too few blocks
 
 
 def test_failure_is_an_error() -> None:

@@ -74,6 +74,8 @@ class Work:
         On the finest grid.
     grids : tuple of (int, int, int)
         Points along x and y, and FFTs, of every grid, coarsest first.
+    coarser_pressure : (mx, my) array or None
+        On the grid before the finest one, if there is one.
     """
 
     products: int
@@ -83,6 +85,7 @@ class Work:
     set_changes: int
     linear_iterations: int
     grids: tuple[tuple[int, int, int], ...]
+    coarser_pressure: Array | None
 
 
 def coarser_shapes(shape: tuple[int, int]) -> list[tuple[int, int]]:
@@ -125,6 +128,7 @@ def solve_on_levels(
         If the finest grid does not converge.
     """
     pressure: Array | None = None
+    coarser: Array | None = None
     grids: list[tuple[int, int, int]] = []
     stage = next(stages)
     while True:
@@ -139,7 +143,8 @@ def solve_on_levels(
         grids.append((*level.shape, ffts))
         logger.debug("%s points: %s FFTs, residual %.1e", level.shape, ffts, result.complementarity)
         if finer is not None:
-            pressure = interpolated(result.pressure, finer.height.shape)
+            coarser = result.pressure
+            pressure = interpolated(coarser, finer.height.shape)
             stage = finer
             continue
         if not result.converged:
@@ -156,6 +161,7 @@ def solve_on_levels(
             set_changes=level.set_changes,
             linear_iterations=level.linear_iterations,
             grids=tuple(grids),
+            coarser_pressure=coarser,
         )
 
 

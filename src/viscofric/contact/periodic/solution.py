@@ -28,6 +28,11 @@ class PeriodicDiagnostics:
     energy : float
         Energy balance: friction from the pressure on the slopes less that from the dissipated energy, over the larger
         of them (or over 1e-3 times 2π rms heights per period, a slope).
+    friction_error : float
+        Estimated error of the friction coefficient that the grid makes: how far the coefficients from the energy and
+        from the pressure on the slopes differ, which in full contact they do not, or, if that is more, how far that
+        from the next coarser grid does, where it has all the waves of the surface.  It tells the order of magnitude
+        and is no bound: edges of the contact may err alike in all of them.
     full_contact : bool
         Whether everything is in contact; then the problem is linear and solved directly.
     products, ffts, single_ffts : int
@@ -43,6 +48,7 @@ class PeriodicDiagnostics:
     load: float
     linear: float
     energy: float
+    friction_error: float
     full_contact: bool
     products: int
     ffts: int
@@ -79,6 +85,10 @@ class PeriodicSolution:
     pressure_friction_coefficient : float
         The same from the pressure on the slopes of the surface; how far it differs shows how well the grid resolves
         the edges of the contact.
+    lateral_friction_coefficient : float
+        Force across the motion over the load: the component along `direction` turned by a right angle, from x to y, of
+        the force that `friction_coefficient` is the other component of.  Positive where it must be pushed that way to
+        slide straight; ridges that run obliquely to the motion steer it.
     contact_area_fraction : float
         Points under pressure over all.
     max_pressure : float
@@ -98,6 +108,7 @@ class PeriodicSolution:
     indentation: float
     friction_coefficient: float
     pressure_friction_coefficient: float
+    lateral_friction_coefficient: float
     contact_area_fraction: float
     max_pressure: float
     x: Array
@@ -130,6 +141,7 @@ class PeriodicSolution:
                 "mean_pressure": self.mean_pressure,
                 "mean_gap": self.mean_gap,
                 "friction_coefficient": self.friction_coefficient,
+                "lateral_friction_coefficient": self.lateral_friction_coefficient,
                 "contact_area_fraction": self.contact_area_fraction,
             },
         )

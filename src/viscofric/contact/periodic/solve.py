@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 TIGHTEST, LOOSEST = 1e-12, 1e-2  # of the complementarity, in rms heights
 #: Friction is resolved relative to its own value, but not below this fraction of the slope of the longest wave.
 FRICTION_FLOOR = 1e-3
+#: Relative loss of rms height up to which a coarser surface counts as the same.
+LIKENESS = 1e-10
 
 
 @one_blas_thread
@@ -125,6 +127,7 @@ def solve_periodic(
         (_component(velocity, toward[0]), _component(velocity, toward[1])),
         layer,
         _indenter_compliance(indenter_modulus, indenter_poisson_ratio),
+        toward,
     )
     given = _Given.of(surface, pressure, gap)
     depth = surface.rms_height
@@ -215,8 +218,14 @@ def _assemble(
     slope = surface.slope(toward)
     slope *= -1.0
     by_pressure = float(np.vdot(pressure, slope)) / pressure.size
+    del slope
+    transfer *= units.compliance
     waves = scipy.fft.rfft2(pressure)
-    by_energy = units.compliance * dissipation(transfer, surface.shape, surface.spacing, toward, waves)
+    by_energy = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
+    lateral = dissipation(transfer, surface.shape, surface.spacing, (-toward[1], toward[0]), waves)
+    del waves
+    coarser = _coarser_friction(surface, solid, work, units, toward)
+    error = max(abs(by_pressure - by_energy), 0.0 if coarser is None else abs(coarser - by_energy))
     floor = FRICTION_FLOOR * mean_pressure * 2.0 * math.pi * units.depth / max(surface.period)
     mean_gap = float(gap.mean())
     asked, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
@@ -229,6 +238,7 @@ def _assemble(
         indentation=units.depth * result.indentation + compression,
         friction_coefficient=by_energy / mean_pressure,
         pressure_friction_coefficient=by_pressure / mean_pressure,
+        lateral_friction_coefficient=lateral / mean_pressure,
         contact_area_fraction=float(np.count_nonzero(pressure > 0.0)) / pressure.size,
         max_pressure=float(pressure.max()),
         x=surface.x,
@@ -241,6 +251,7 @@ def _assemble(
             load=abs(found / asked - 1.0),  # type: ignore[operator]
             linear=result.linear,
             energy=(by_pressure - by_energy) / max(abs(by_pressure), abs(by_energy), floor),
+            friction_error=error / mean_pressure,
             full_contact=bool(np.all(pressure > 0.0)),
             products=work.products,
             ffts=work.ffts,
@@ -251,3 +262,17 @@ def _assemble(
             grids=work.grids,
         ),
     )
+
+
+def _coarser_friction(
+    surface: PeriodicSurface, solid: SlidingSolid, work: Work, units: _Units, toward: tuple[float, float]
+) -> float | None:
+    """Return the friction force per area on the next coarser grid, if that has all the waves of the surface."""
+    if work.coarser_pressure is None:
+        return None
+    shape = work.coarser_pressure.shape
+    z, spacing = surface.coarser(shape)
+    if float(z.std()) < (1.0 - LIKENESS) * surface.rms_height:
+        return None
+    waves = scipy.fft.rfft2((units.depth / units.compliance) * work.coarser_pressure)
+    return dissipation(solid.transfer(shape, spacing), shape, spacing, toward, waves)

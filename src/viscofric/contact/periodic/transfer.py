@@ -40,11 +40,13 @@ class SlidingSolid:
         The rubber at its temperature: a RetardationSpectrum or a ModulusTable.
     poisson_ratio : float
     velocity : (float, float)
-        Of the pressure along x and y, m/s; where it is infinite, the limit is taken.
+        Of the pressure along x and y, m/s.  Where one is infinite, the limit of high speeds along `toward` is taken.
     layer : Layer, optional
         Thickness and base; a half-space without.
     indenter_compliance : float
         (1−ν²)/E of an elastic indenter, 1/Pa.
+    toward : (float, float)
+        Unit vector of the velocity, for infinite ones only.
     """
 
     spectrum: Compliant
@@ -52,6 +54,11 @@ class SlidingSolid:
     velocity: tuple[float, float]
     layer: Layer | None = None
     indenter_compliance: float = 0.0
+    toward: tuple[float, float] = (1.0, 0.0)
+
+    @property
+    def _is_infinite(self) -> bool:
+        return any(map(math.isinf, self.velocity))
 
     @property
     def is_elastic(self) -> bool:
@@ -88,11 +95,11 @@ class SlidingSolid:
 
     def _compliance(self, qx: Array, qy: Array, shape: tuple[int, int]) -> ComplexArray:
         """S(−q·v), averaged over the two senses of a Nyquist wave, in a shape that broadcasts to the grid's."""
-        (nx, ny), (vx, vy) = shape, self.velocity
+        (nx, ny), (vx, vy) = shape, self.toward if self._is_infinite else self.velocity
         # The grid is not filled where the compliance varies along one axis only.
         still = np.zeros((1, 1))
-        ahead = still if vx == 0.0 else _product(qx, vx)
-        across = still if vy == 0.0 else _product(qy, vy)
+        ahead = still if vx == 0.0 else qx * vx
+        across = still if vy == 0.0 else qy * vy
         found = self._response(ahead + across, (nx, qy.shape[1]))
         if nx % 2 == 0 and vx != 0.0:
             row = self._response(across - ahead[nx // 2])[0]
@@ -110,23 +117,18 @@ class SlidingSolid:
         if self.is_elastic:
             relaxed = float(self.spectrum.compliance(0.0).real)
             return np.full((1, 1), relaxed, complex)
-        infinite = np.isinf(frequency)
-        if infinite.any():
-            found = np.full(frequency.shape, 1.0 / self.spectrum.E_inf, complex)
-            if not infinite.all():
-                found[~infinite] = self.spectrum.compliance(frequency[~infinite]).conj()
-            return found
-        if frequency.shape == grid and frequency.size > 1:
-            # The mean needs no compliance, which a table may not have at rest.
+        # The mean needs no compliance, which a table may not have at rest.
+        whole = frequency.shape == grid and frequency.size > 1
+        if self._is_infinite:
+            # Waves across the motion are at rest at any speed; their frequencies cancel but for rounding.
+            moving = np.abs(frequency) > 1e-12 * np.abs(frequency).max(initial=0.0)
+            if whole:
+                moving.flat[0] = True
+            at_rest = 0.0 if moving.all() else complex(self.spectrum.compliance(0.0))
+            return np.where(moving, complex(1.0 / self.spectrum.E_inf), at_rest)
+        if whole:
             frequency.flat[0] = frequency.flat[-1]
         return np.conj(self.spectrum.compliance(frequency))
-
-
-def _product(wave_numbers: Array, velocity: float) -> Array:
-    """Return q v, with 0 · ∞ = 0: waves across the motion are at rest at any speed."""
-    if not math.isinf(velocity):
-        return wave_numbers * velocity
-    return np.where(wave_numbers == 0.0, 0.0, np.copysign(np.inf, wave_numbers * np.sign(velocity)))
 
 
 def dissipation(
