@@ -15,13 +15,14 @@ import numpy as np
 
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.periodic.blocks import Blocks, block_size
+from viscofric.contact.periodic.continuation import continued
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.contact.periodic.surface import interpolated
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
@@ -37,6 +38,7 @@ COARSE_TOLERANCE = 1e-3  # a coarser surface is another one: more would be waste
 _PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
 _FEW_DIRECTIONS = (4, 6)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
+_FEW_PRODUCTS = 300  # enough for most contacts, where what follows is not needed
 _FIRST_STEPS = (5, 10)  # of the splitting on each grid, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
 _STIFFNESSES = (0.2, 1.0)  # ρ of the splitting, in turn; the first suits most contacts
@@ -53,10 +55,13 @@ class Stage:
     height : (nx, ny) array
         Above the lowest point.
     transfer : (nx, ny//2 + 1) array
+    relaxed : callable
+        Gives the real transfer function of an elastic solid of the same geometry, with the same largest value.
     """
 
     height: Array
     transfer: NDArray[Any]
+    relaxed: Callable[[], Array]
 
 
 @dataclass(frozen=True)
@@ -184,6 +189,7 @@ class _Level:
         self.cells = math.prod(self.shape)
         self.exact = PeriodicOperator(stage.transfer, self.shape, backend=backend)
         self.single = self.exact.for_corrections()
+        self.relaxed = stage.relaxed
         self.elastic = not np.iscomplexobj(stage.transfer)
         self.load = None if mean_pressure is None else mean_pressure * self.cells
         self.indentation = None if gap is None else self.mean_height - gap
@@ -202,11 +208,15 @@ class _Level:
         kind = 0 if self.elastic else 1
         few = _FEW_DIRECTIONS[kind]
         pressure = self._split(self.single, pressure, _FIRST_STEPS[kind], _STIFFNESSES[0])
-        result = self._active_set(pressure, 2 * _PATIENCE, few, self.most_products)
+        result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
         if not result.converged and self.products < self.most_products:
             # A little more of the cheap kind brings most of those that remain near enough.
             pressure = self._split(self.single, pressure, _MORE_STEPS, _STIFFNESSES[0])
-            result = self._active_set(pressure, 2 * _PATIENCE, few, self.most_products)
+            result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
+        if not (result.converged or self.elastic) and self.products < self.most_products:
+            allowed = (self.most_products - self.products) // 2
+            found, pressure = continued(self.exact, self.relaxed(), pressure, self._tight_active_set, allowed)
+            result = result if found is None else found
         steps, turn = 2 * _MORE_STEPS, 0
         while not result.converged and self.products < self.most_products:
             # Not from where the active set went: only its own steps bring the splitting nearer and nearer.
@@ -245,6 +255,26 @@ class _Level:
             directions=directions,
             coarse=self.blocks,
         )
+        return self._counted(result)
+
+    def _tight_active_set(
+        self, operator: PeriodicOperator, pressure: AnyArray, tolerance: float | None, most: int
+    ) -> ComplementaritySolution:
+        result = solve_complementarity(
+            operator,
+            self.height,
+            self.load,
+            pressure,
+            indentation=self.indentation,
+            tolerance=self.tolerance if tolerance is None else tolerance,
+            most_products=most,
+            depth=1.0,
+            patience=2 * _PATIENCE,
+            directions=_MANY_DIRECTIONS,
+        )
+        return self._counted(result)
+
+    def _counted(self, result: ComplementaritySolution) -> ComplementaritySolution:
         self.set_changes += result.set_changes
         self.linear_iterations += result.linear_iterations
         return result

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import scipy.fft
@@ -136,7 +136,7 @@ def solve_periodic(
     unit = float(np.abs(finest).max())
     finest /= unit
     coarse = (_stage(surface, solid, depth, unit, shape) for shape in reversed(coarser_shapes(surface.shape)))
-    fine = (Stage((surface.z.max() - surface.z) / depth, finest) for _ in range(1))
+    fine = (_finest_stage(surface, solid, depth, finest) for _ in range(1))
     result, work = solve_on_levels(
         itertools.chain(coarse, fine),
         mean_pressure=None if given.pressure is None else given.pressure * unit / depth,
@@ -194,7 +194,14 @@ def _indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> floa
 
 def _stage(surface: PeriodicSurface, solid: SlidingSolid, depth: float, unit: float, shape: tuple[int, int]) -> Stage:
     z, spacing = surface.coarser(shape)
-    return Stage((z.max() - z) / depth, solid.transfer(shape, spacing) / unit)
+    return Stage(
+        (z.max() - z) / depth, solid.transfer(shape, spacing) / unit, lambda: solid.relaxed_shape(shape, spacing)
+    )
+
+
+def _finest_stage(surface: PeriodicSurface, solid: SlidingSolid, depth: float, transfer: NDArray[Any]) -> Stage:
+    height = (surface.z.max() - surface.z) / depth
+    return Stage(height, transfer, lambda: solid.relaxed_shape(surface.shape, surface.spacing))
 
 
 def _assemble(

@@ -83,6 +83,16 @@ class SlidingSolid:
         found[0, 0] = 0.0
         return found.real.copy() if self.is_elastic else found
 
+    def relaxed_shape(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
+        """Return Θ(qH)/|q| over its largest value for each wave of a grid: how an elastic solid answers; mean zero."""
+        magnitude = np.hypot(*wave_number(shape, spacing))
+        magnitude[0, 0] = 1.0
+        found = 1.0 / magnitude
+        if self.layer is not None:
+            found *= self.layer.yielding(magnitude, self.poisson_ratio)
+        found[0, 0] = 0.0
+        return np.asarray(found / found.max())
+
     def mean_compression(self) -> float:
         """Return the displacement under a uniform pressure over that pressure, m/Pa.
 
