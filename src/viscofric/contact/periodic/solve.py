@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
+import functools
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -12,7 +12,8 @@ import scipy.fft
 from viscofric.contact.backend import Backend
 from viscofric.contact.layers import Layer
 from viscofric.contact.motion import unit_direction
-from viscofric.contact.periodic.levels import Stage, coarser_shapes, solve_on_levels
+from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
+from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError
@@ -20,7 +21,7 @@ from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -135,10 +136,8 @@ def solve_periodic(
     # The unit of compliance, m/Pa: that of the wave which yields most.
     unit = float(np.abs(finest).max())
     finest /= unit
-    coarse = (_stage(surface, solid, depth, unit, shape) for shape in reversed(coarser_shapes(surface.shape)))
-    fine = (_finest_stage(surface, solid, depth, finest) for _ in range(1))
     result, work = solve_on_levels(
-        itertools.chain(coarse, fine),
+        _stages(surface, solid, depth, unit, finest),
         mean_pressure=None if given.pressure is None else given.pressure * unit / depth,
         offset=None if given.gap is None else given.gap / depth,
         tolerance=tolerance,
@@ -192,16 +191,16 @@ def _indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> floa
     return (1.0 - poisson_ratio**2) / positive(modulus, "Pa", "indenter_modulus")
 
 
-def _stage(surface: PeriodicSurface, solid: SlidingSolid, depth: float, unit: float, shape: tuple[int, int]) -> Stage:
-    z, spacing = surface.coarser(shape)
-    return Stage(
-        (z.max() - z) / depth, solid.transfer(shape, spacing) / unit, lambda: solid.relaxed_shape(shape, spacing)
-    )
-
-
-def _finest_stage(surface: PeriodicSurface, solid: SlidingSolid, depth: float, transfer: NDArray[Any]) -> Stage:
-    height = (surface.z.max() - surface.z) / depth
-    return Stage(height, transfer, lambda: solid.relaxed_shape(surface.shape, surface.spacing))
+def _stages(
+    surface: PeriodicSurface, solid: SlidingSolid, depth: float, unit: float, finest: NDArray[Any]
+) -> Iterator[Stage]:
+    """Yield the contact on each grid, coarsest first, given the transfer function of the finest."""
+    for shape in reversed(coarser_shapes(surface.shape)):
+        z, spacing = surface.coarser(shape)
+        relaxed = functools.partial(solid.relaxed_shape, shape, spacing)
+        yield Stage((z.max() - z) / depth, solid.transfer(shape, spacing) / unit, relaxed)
+    relaxed = functools.partial(solid.relaxed_shape, surface.shape, surface.spacing)
+    yield Stage((surface.z.max() - surface.z) / depth, finest, relaxed)
 
 
 def _assemble(

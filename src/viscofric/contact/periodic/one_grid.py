@@ -1,0 +1,219 @@
+"""The periodic contact on one grid: some splitting, then the active set; where that fails, what is slower but surer.
+
+Everything here is dimensionless: depths in rms heights of the surface, compliances relative to the largest.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.periodic.blocks import Blocks, block_size
+from viscofric.contact.periodic.continuation import continued
+from viscofric.contact.periodic.operator import PeriodicOperator
+from viscofric.contact.periodic.splitting import split_steps
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from viscofric.contact.backend import AnyArray, Backend
+
+    Array: TypeAlias = NDArray[np.float64]
+
+_PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
+_FEW_DIRECTIONS = (4, 6)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
+_MANY_DIRECTIONS = 40
+_FEW_PRODUCTS = 300  # enough for most contacts, where what follows is not needed
+_FIRST_STEPS = (5, 10)  # of the splitting on each grid, likewise
+_MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
+_STIFFNESSES = (0.2, 1.0)  # ρ of the splitting, in turn; the first suits most contacts
+_GROWTH = 2.0  # of the splitting's steps from round to round
+
+
+@dataclass(frozen=True)
+class Stage:
+    """The contact problem on one of the nested grids.
+
+    Attributes
+    ----------
+    height : (nx, ny) array
+        Above the lowest point.
+    transfer : (nx, ny//2 + 1) array
+    relaxed : callable
+        Gives the real transfer function of an elastic solid of the same geometry, with the same largest value.
+    """
+
+    height: Array
+    transfer: NDArray[Any]
+    relaxed: Callable[[], Array]
+
+
+class OneGrid:
+    """One grid: its operators, and the work that they have done."""
+
+    def __init__(
+        self,
+        stage: Stage,
+        mean_pressure: float | None,
+        gap: float | None,
+        tolerance: float,
+        most_products: int,
+        backend: Backend,
+    ) -> None:
+        self.backend = backend
+        self.height = backend.asarray(stage.height)
+        self.mean_height = float(stage.height.mean())
+        self.shape: tuple[int, int] = stage.height.shape
+        self.cells = math.prod(self.shape)
+        self.exact = PeriodicOperator(stage.transfer, self.shape, backend=backend)
+        self.single = self.exact.for_corrections()
+        self.relaxed = stage.relaxed
+        self.elastic = not np.iscomplexobj(stage.transfer)
+        self.load = None if mean_pressure is None else mean_pressure * self.cells
+        self.indentation = None if gap is None else self.mean_height - gap
+        self.tolerance = tolerance
+        self.most_products = most_products
+        self.splitting_steps = self.set_changes = self.linear_iterations = 0
+
+    def solve(self, pressure: AnyArray | None) -> ComplementaritySolution:
+        """Solve from the coarser grid's pressure, or from nothing."""
+        full = self._full_contact() if pressure is None or self._nearly_full(pressure) else None
+        if full is not None:
+            return full
+        if pressure is None or not self._loaded(pressure):
+            pressure = self._first_guess()
+        # These find most of the contact set, and cost half of a linear step each.
+        kind = 0 if self.elastic else 1
+        few = _FEW_DIRECTIONS[kind]
+        pressure = self._split(self.single, pressure, _FIRST_STEPS[kind], _STIFFNESSES[0])
+        result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
+        if not result.converged and self.products < self.most_products:
+            # A little more of the cheap kind brings most of those that remain near enough.
+            pressure = self._split(self.single, pressure, _MORE_STEPS, _STIFFNESSES[0])
+            result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
+        if not (result.converged or self.elastic) and self.products < self.most_products:
+            allowed = (self.most_products - self.products) // 2
+            found, pressure = continued(self.exact, self.relaxed(), pressure, self._tight_active_set, allowed)
+            result = result if found is None else found
+        steps, turn = 2 * _MORE_STEPS, 0
+        while not result.converged and self.products < self.most_products:
+            # Not from where the active set went: only its own steps bring the splitting nearer and nearer.
+            turn += 1
+            allowed = min(steps, self.most_products - self.products)
+            pressure = self._split(self.exact, pressure, allowed, _STIFFNESSES[turn % 2], accelerated=True)
+            # The active set gets as much to spend as the splitting, which may well be the one to converge.
+            result = self._active_set(pressure, _PATIENCE, _MANY_DIRECTIONS, allowed)
+            steps = int(_GROWTH * steps)
+        return result
+
+    @cached_property
+    def blocks(self) -> Blocks | None:
+        """Coarse correction of the linear problems."""
+        size = block_size(self.shape)
+        return None if size is None else Blocks(self.single, size)
+
+    @property
+    def products(self) -> int:
+        """Products with the transfer function so far."""
+        return self.exact.products + self.single.products
+
+    def _active_set(self, pressure: AnyArray, patience: int, directions: int, most: int) -> ComplementaritySolution:
+        result = solve_complementarity(
+            self.exact,
+            self.height,
+            self.load,
+            pressure,
+            indentation=self.indentation,
+            tolerance=self.tolerance,
+            most_products=max(min(most, self.most_products - self.products), 1),
+            depth=1.0,
+            inner=self.single,
+            patience=patience,
+            tighten="near the end",
+            directions=directions,
+            coarse=self.blocks,
+        )
+        return self._counted(result)
+
+    def _tight_active_set(
+        self, operator: PeriodicOperator, pressure: AnyArray, tolerance: float | None, most: int
+    ) -> ComplementaritySolution:
+        result = solve_complementarity(
+            operator,
+            self.height,
+            self.load,
+            pressure,
+            indentation=self.indentation,
+            tolerance=self.tolerance if tolerance is None else tolerance,
+            most_products=most,
+            depth=1.0,
+            patience=2 * _PATIENCE,
+            directions=_MANY_DIRECTIONS,
+        )
+        return self._counted(result)
+
+    def _counted(self, result: ComplementaritySolution) -> ComplementaritySolution:
+        self.set_changes += result.set_changes
+        self.linear_iterations += result.linear_iterations
+        return result
+
+    def _split(
+        self, operator: PeriodicOperator, pressure: AnyArray, steps: int, stiffness: float, accelerated: bool = False
+    ) -> AnyArray:
+        self.splitting_steps += steps
+        found = split_steps(
+            operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
+            stiffness=stiffness, accelerated=accelerated,
+        )  # fmt: skip
+        return found if self._loaded(found) else pressure
+
+    def _nearly_full(self, pressure: AnyArray) -> bool:
+        return self._loaded(pressure) > 0.9 * self.cells
+
+    def _loaded(self, pressure: AnyArray) -> int:
+        return int(self.backend.xp.count_nonzero(pressure > 0.0))
+
+    def _full_contact(self) -> ComplementaritySolution | None:
+        """Return the linear solution if it needs no tension anywhere."""
+        if self.load is None:
+            return None  # a given mean gap above zero
+        xp, mean = self.backend.xp, self.load / self.cells
+        level = self.mean_height - self.height
+        pressure = self.exact.precondition(level)
+        pressure += mean - xp.mean(pressure)
+        if float(xp.min(pressure)) < 0.0:
+            return None
+        displacement = self.exact(pressure)
+        error = float(xp.max(xp.abs(displacement - level)))
+        return ComplementaritySolution(
+            pressure=pressure,
+            displacement=displacement,
+            indentation=self.mean_height,
+            converged=error <= self.tolerance,
+            complementarity=error,
+            load=abs(float(xp.mean(pressure)) / mean - 1.0),
+            set_changes=1,
+            linear_iterations=0,
+            products=1,
+        )
+
+    def _first_guess(self) -> AnyArray:
+        """Return the pressure of full contact less what makes it meet the load (or less its mean, for a given gap)."""
+        xp = self.backend.xp
+        pressure = self.exact.precondition(self.mean_height - self.height)
+        if self.load is None:
+            return self.backend.positive_part(pressure)
+        mean = self.load / self.cells
+        low, high = float(xp.min(pressure)) - mean, float(xp.max(pressure))
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            enough = float(xp.mean(self.backend.positive_part(pressure - middle))) <= mean
+            low, high = (low, middle) if enough else (middle, high)
+        return self.backend.positive_part(pressure - low)
