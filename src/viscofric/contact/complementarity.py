@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from viscofric.contact.backend import AnyArray, Backend, Cells
 
 # How far a linear residual is reduced while more than the given part of the contact's cells is wrongly classified.
-_REDUCTIONS = ((0.02, 0.3), (0.0003, 0.1), (0.0, 1e-4))
+_REDUCTIONS = ((0.02, 0.3), (0.0003, 0.1), (1e-5, 1e-2), (0.0, 1e-4))
 _FIRST_REDUCTION = 1e-1
 _LEAST_REDUCTION = 1e-7
 _DIRECTIONS = 40  # search directions that GCR keeps
