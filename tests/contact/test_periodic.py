@@ -501,7 +501,7 @@ def test_blocks_spare_ffts(fixed_load: bool) -> None:
     centres = np.zeros((points, points))
     centres[random.integers(points, size=300), random.integers(points, size=300)] = 1.0
     contact = operator.backend.cells(ndimage.grey_dilation(centres, size=(5, 5), mode="wrap") > 0.0)
-    gap = operator(contact.scattered(random.random(len(contact))).copy())
+    gap = contact.gathered(operator(contact.scattered(random.random(len(contact))).copy()))
     ffts, found = [], []
     for coarse in (None, Blocks(operator, (8, 8))):
         before = operator.ffts
