@@ -70,11 +70,12 @@ def print_table(title: str, rows: Sequence[dict[str, Any]], columns: Sequence[Co
     print(" " * width + "".join(f"{heading:>{_width(heading)}}" for heading, _, _ in columns))
     for row in rows:
         if "error" in row:
-            print(f"{row['case']:{width}}{row['error']}")
+            print(f"{row['case']:{width}}{row['error']}", flush=True)
             continue
         print(
             f"{row['case']:{width}}"
-            + "".join(f"{_shown(row.get(key), form):>{_width(heading)}}" for heading, key, form in columns)
+            + "".join(f"{_shown(row.get(key), form):>{_width(heading)}}" for heading, key, form in columns),
+            flush=True,
         )
 
 

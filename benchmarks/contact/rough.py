@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     import viscofric as vf
 
 COLUMNS = (
-    ("points", "points", "d"),
     ("CPU s", "seconds", ".3f"),
     ("ratio", "ratio", ".3f"),
     ("FFT pairs", "fft_pairs", ".1f"),
@@ -78,7 +77,7 @@ def peer(
     try:
         answers = others.ask(tool, given, surface.z, others.python_of(environment), limit)
     except others.PeerError as error:
-        return [{"case": tool, "points": points, "error": f"{points} points: {error}"}]
+        return [{"case": tool, "points": points, "error": str(error)}]
     return [
         {
             "case": row.pop("tool"),
@@ -124,8 +123,9 @@ def main(arguments: list[str] | None = None) -> None:
             if "seconds" in row:
                 row["ratio"] = row["seconds"] / elastic["seconds"]
         rows += these
-    measuring.print_table("rough periodic contact; ratio: to viscofric's elastic one of the same size", rows, COLUMNS)
-    measuring.write_json(options.json, {"rows": rows})
+        title = f"rough periodic contact, {points} x {points}; ratio: to viscofric's elastic one"
+        measuring.print_table(title, these, COLUMNS)
+        measuring.write_json(options.json, {"rows": rows})
 
 
 if __name__ == "__main__":
