@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,14 +21,7 @@ from gallery import (
     LOAD,
     POISSON_RATIO,
     RUBBER_MODULUS,
-    BallProblem,
 )
-from viscofric.contact import nested
-from viscofric.contact.control import GivenLoad
-from viscofric.contact.geometry import POINT
-from viscofric.contact.operator import SteadyMaterial
-from viscofric.contact.problem import Problem, Stage
-from viscofric.contact.scale import Scale, ScaledIndenter
 
 PRESSURE = 0.05
 VISCOELASTIC_PRESSURE = 0.1  # that of about a tenth of the area
@@ -40,25 +32,6 @@ ELASTIC = vf.Material(vf.RetardationSpectrum(1.0, 2.0, [0.5], [1.0]), poisson_ra
 VISCOELASTIC = vf.Material(
     vf.RetardationSpectrum(1.0, 100.0, np.full(20, 0.99 / 20), np.logspace(-4, 1, 20)), poisson_ratio=0.0
 )
-
-
-def ball_on_grids(problem: BallProblem, cells: int, tolerance: float = TOLERANCE) -> list[Stage]:
-    """Solve a ball on nested grids up to a given number of cells along the window's longer edge, coarsest first."""
-    spectrum = problem.material.spectrum
-    stiffness = spectrum.E0 / (1.0 - problem.material.poisson_ratio**2)
-    scale = Scale.for_load(problem.ball, stiffness, problem.load)
-    solid = SteadyMaterial(
-        spectrum.E0 / spectrum.E_inf, spectrum.E0 * spectrum.C, problem.speed * spectrum.tau / scale.length
-    )
-    control = GivenLoad(POINT.parabolic_load)
-    question = Problem(POINT, solid, ScaledIndenter(problem.ball, scale), control, tolerance)
-    found = nested.find_window(question, question.first_size)
-    holds = found.extent.widened(nested.MARGIN * found.extent.longest)
-    levels = max(int(math.log2(cells / nested.COARSEST)), 0)
-    stages = [nested._solve_in_window(POINT.grid.around(*holds, cells / 2**levels), found)]
-    for _ in range(levels):
-        stages.append(nested._solve_in_window(stages[-1].window.refined(), stages[-1]))
-    return stages
 
 
 def rough_surface(points: int) -> vf.PeriodicSurface:

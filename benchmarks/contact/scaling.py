@@ -42,7 +42,7 @@ def work(name: str, points: int) -> Callable[[], tuple[int, ...]]:
     """Return what solves a problem with so many points along an edge, and gives the shape of its transforms."""
     if name == "ball":
         ball = broad_spectrum_37(MEMORY_LENGTH)
-        return lambda: measuring.padded_shape(problems.ball_on_grids(ball, points)[-1].window.shape)
+        return lambda: measuring.padded_shape(ball.solve(grid=points).diagnostics.shape)
     surface = problems.rough_surface(points)
     solve = problems.elastic_rough if name == "elastic" else problems.viscoelastic_rough
     return lambda: solve(surface).pressure.shape

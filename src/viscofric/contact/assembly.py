@@ -95,6 +95,7 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
                 pressure_friction=slope * one.pressure_friction,
                 energy_friction=slope * one.energy_friction,
                 indentation=scale.depth * one.indentation,
+                products=one.result.products,
             )
             for one in stages
         ),

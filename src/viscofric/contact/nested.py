@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.contact.estimates import friction_estimate
+from viscofric.contact.given_grid import COARSEST, GivenGrid
 from viscofric.contact.operator import collocation_shift
 from viscofric.contact.problem import Problem, Stage
-from viscofric.errors import ConvergenceError
+from viscofric.errors import ConvergenceError, InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 
 logger = logging.getLogger(__name__)
 
-COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
 MARGIN = 0.15  # free space left around the contact, relative to its size
 
 # Step of the continuation in the glassy compliance, which leads into the hard corner (one mode, E∞ >> E0).
@@ -50,10 +50,21 @@ _FIRST_WINDOWS = (1.0, 2.5, 5.0, 1.6, 0.6)
 _MOST_WINDOWS = 20
 _MOST_RESTARTS = 5
 _NO_WINDOW = "no window was found that holds the contact; the indenter may be too blunt."
+_TOUCHES = "window: the contact touches its edge; give one that leaves some space around the contact."
 
 
-def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
-    """Halve the cells until the friction coefficient is known to a relative accuracy.
+def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None = None) -> list[Stage]:
+    """Halve the cells until the friction coefficient is known to a relative accuracy, or down to given cells.
+
+    Parameters
+    ----------
+    first : Stage
+        In a window that fits the contact.
+    accuracy : float
+    finest : int
+        Most cells along the window's longer edge.
+    given : GivenGrid, optional
+        Window that is kept, and cells, with which the accuracy and `finest` do not matter.
 
     Returns
     -------
@@ -64,12 +75,15 @@ def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
     ------
     ConvergenceError
         If a grid does not converge, or the accuracy is not reached with `finest` cells along the longer edge.
+    InputError
+        If the contact touches the edge of the window given.
     """
-    stages, restarts = [first], 0
+    given = GivenGrid() if given is None else given
+    stages, restarts = [_start(first, given)], 0
     while True:
         coarse = stages[-1]
         window = coarse.window.refined()
-        if max(window.shape) > finest:
+        if given.cells is None and max(window.shape) > finest:
             raise ConvergenceError(
                 f"the friction coefficient is known to {friction_estimate(stages).relative_error:.1e} of itself on "
                 f"the finest grid allowed ({finest} cells); ask for less accuracy than {accuracy:g} or a finer grid."
@@ -77,15 +91,29 @@ def refine(first: Stage, accuracy: float, finest: int) -> list[Stage]:
         stage = _solve_in_window(window, coarse)
         if window.cuts(stage.result.pressure > 0.0):
             # The coarse contact was a little too small: start again from a window around the finer one.
+            if given.window is not None:
+                raise InputError(_TOUCHES)
             if restarts == _MOST_RESTARTS:
                 raise ConvergenceError(_NO_WINDOW)
-            stages, restarts = [_solve_in_window(_around(stage), stage)], restarts + 1
+            stages, restarts = [_start(_solve_in_window(_around(stage), stage), given)], restarts + 1
             continue
         stages.append(stage)
         estimate = friction_estimate(stages)
         logger.debug("grid %s: friction %.6g ± %.1g, %d products", window.shape, *estimate, stage.result.products)
-        if estimate.relative_error <= accuracy:
+        if len(stages) > given.halvings if given.halvings else estimate.relative_error <= accuracy:
             return stages
+
+
+def _start(found: Stage, given: GivenGrid) -> Stage:
+    """Solve on the coarsest of the grids that lead to the given one; where nothing is given, it is that found."""
+    if given.window is None and given.cells is None:
+        return found
+    extent = found.extent
+    kept = extent.widened(MARGIN * extent.longest) if given.window is None else given.window
+    stage = _solve_in_window(found.problem.geometry.grid.around(*kept, given.coarsest), found)
+    if given.window is not None and stage.window.cuts(stage.result.pressure > 0.0):
+        raise InputError(_TOUCHES)
+    return stage
 
 
 def find_window(problem: Problem, size: float) -> Stage:

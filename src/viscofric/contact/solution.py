@@ -26,12 +26,15 @@ class Level(NamedTuple):
         Friction coefficient from the lean of the pressure and from the dissipated energy.
     indentation : float
         m.
+    products : int
+        With the influence matrix, on this grid alone.
     """
 
     cells: int
     pressure_friction: float
     energy_friction: float
     indentation: float
+    products: int
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,12 @@ from viscofric.contact.assembly import assemble
 from viscofric.contact.backend import Backend
 from viscofric.contact.control import GivenIndentation, GivenLoad
 from viscofric.contact.derivatives import differentiate
-from viscofric.contact.estimates import FEWEST_GRIDS
+from viscofric.contact.given_grid import LEAST_FINEST, GivenGrid
 from viscofric.contact.indenters import SMALL_STRAIN, Indenter
 from viscofric.contact.layer_operator import ScaledLayer
 from viscofric.contact.layers import Layer
 from viscofric.contact.motion import unit_direction
-from viscofric.contact.nested import COARSEST, find_window, refine
+from viscofric.contact.nested import find_window, refine
 from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.problem import Problem
 from viscofric.contact.scale import Scale, ScaledIndenter
@@ -40,7 +40,6 @@ if TYPE_CHECKING:
 
 __all__ = ["SMALL_STRAIN", "solve_steady"]
 
-LEAST_FINEST = COARSEST * 2 ** (FEWEST_GRIDS - 1)
 TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
 
 
@@ -56,6 +55,8 @@ def solve_steady(
     accuracy: float = 1e-3,
     tolerance: float = 1e-8,
     finest: int | None = None,
+    window: Sequence[Quantity] | None = None,
+    grid: int | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
     layer: Layer | None = None,
@@ -89,6 +90,13 @@ def solve_steady(
         to a thousandth of the accuracy.
     finest : int, optional
         Most cells along the window's longer edge: 2048 if not given, 65536 for a line contact.
+    window : three lengths, optional
+        Distances from the indenter's axis to the rear, the front and the sides of the window of cells, m (rear and
+        front for a line contact); found around the contact if not given.
+    grid : int, optional
+        Cells along the window's longer edge, from 128, on which the solution is wanted whatever its accuracy, which
+        its error estimate tells (a few more, so that the axis lies between two of them and halving leads there);
+        found by the accuracy if not given.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of an elastic indenter, Pa; rigid without it.
     indenter_poisson_ratio : float
@@ -161,9 +169,11 @@ def solve_steady(
     if layer is not None:
         scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)
         problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)
+    given_grid = GivenGrid.of(window, grid, scale)
     first = find_window(problem, problem.first_size)
     indenter.check(shape.extent(first.window, first.result.pressure > 0.0), held)
-    stages = refine(first, accuracy, finest)
+    given_grid.check(first.extent, first.window.spacing, scale.length)
+    stages = refine(first, accuracy, finest, given_grid)
     # What was given comes back as it was given, free of the rounding of sums and units.
     solution = replace(assemble(stages, scale, velocity, toward, kelvin), **given)
     if derivatives:

@@ -1,0 +1,80 @@
+"""A window and a grid that the user gives instead of an accuracy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from viscofric.contact.grids import Extent
+from viscofric.errors import InputError
+from viscofric.units import Quantity, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.contact.scale import Scale
+
+COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
+LEAST_FINEST = 128  # three grids, so that the friction has an error estimate
+
+
+@dataclass(frozen=True)
+class GivenGrid:
+    """What the user says of the window and the cells; what is None is found.
+
+    Attributes
+    ----------
+    window : Extent or None
+        In the units of the problem.
+    cells : int or None
+        Along the window's longer edge on the finest grid.
+    """
+
+    window: Extent | None = None
+    cells: int | None = None
+
+    @classmethod
+    def of(cls, window: Sequence[Quantity] | None, cells: int | None, scale: Scale) -> GivenGrid:
+        """Check what a user gives, in SI units or with its own."""
+        if cells is not None and (type(cells) is not int or cells < LEAST_FINEST):
+            raise InputError(
+                f"grid = {cells!r}: must be the number of cells along the window's longer edge, {LEAST_FINEST} or more."
+            )
+        return cls(None if window is None else _extent(window, scale), cells)
+
+    @property
+    def halvings(self) -> int:
+        """How often the cells of the coarsest grid are halved; none if the cells are not given."""
+        return 0 if self.cells is None else int(math.log2(self.cells / COARSEST))
+
+    @property
+    def coarsest(self) -> int:
+        """Cells along the window's longer edge on the coarsest grid."""
+        return COARSEST if self.cells is None else math.ceil(self.cells / 2**self.halvings)
+
+    def check(self, contact: Extent, cell: float, unit: float) -> None:
+        """Refuse a window that a contact reaches beyond, as a coarse grid saw it (in the units of the problem)."""
+        if self.window is None:
+            return
+        beyond = [there - edge for there, edge in zip(contact, self.window, strict=True)]
+        if max(beyond) > cell:
+            rear, front, side = (1e3 * unit * distance for distance in contact)
+            sides = f" and {side:.4g} mm to either side" if self.window.side > 0.0 else ""
+            raise InputError(
+                f"window: the contact reaches about {rear:.4g} mm behind the axis, {front:.4g} mm ahead of it{sides}; "
+                "give a window that leaves some space around it."
+            )
+
+
+def _extent(window: Sequence[Quantity], scale: Scale) -> Extent:
+    names = ("rear", "front", "side")[: scale.geometry.dimension + 1]
+    if isinstance(window, str) or len(window) != len(names):
+        raise InputError(f"window = {window!r}: must be {len(names)} lengths ({', '.join(names)}).")
+    lengths = [
+        to_si(length, "m", f"{name} of the window") / scale.length for length, name in zip(window, names, strict=True)
+    ]
+    found = Extent(*lengths, *([0.0] if len(lengths) == 2 else []))
+    if not (found.rear + found.front > 0.0 and (len(lengths) == 2 or found.side > 0.0)):
+        raise InputError(f"window = {window!r}: is empty; the front must lie ahead of the rear, the sides apart.")
+    return found
