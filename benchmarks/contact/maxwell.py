@@ -111,8 +111,8 @@ def time_step(surface: vf.PeriodicSurface, substeps: int) -> float:
 
 
 def substeps_needed(surface: vf.PeriodicSurface) -> int:
-    """Return the steps per point, a power of two, with which the friction is right to 1 %."""
-    exact, substeps = steady_friction(surface), 1
+    """Return the steps per point, a power of two from eight on, with which the friction is right to 1 %."""
+    exact, substeps = steady_friction(surface), 8
     while abs(steady_friction(surface, time_step(surface, substeps)) / exact - 1.0) > ERROR:
         substeps *= 2
         if substeps > MOST_SUBSTEPS:

@@ -80,7 +80,7 @@ def print_table(title: str, rows: Sequence[dict[str, Any]], columns: Sequence[Co
 
 
 def _width(heading: str) -> int:
-    return max(len(heading), 8) + 2
+    return max(len(heading), 9) + 2
 
 
 def _shown(value: Any, form: str) -> str:

@@ -1,6 +1,7 @@
 """Rough periodic contact beside its peers, on the same surfaces and in the same run.
 
-Usage: python benchmarks/contact/rough.py [--sizes 512 1024] [--peers [FOLDER]] [--limit SECONDS] [--json FILE]
+Usage: python benchmarks/contact/rough.py [--sizes 512 1024] [--peers [FOLDER]] [--tools tamaas] [--limit SECONDS]
+       [--json FILE]
 
 Elastic: E* = 1, H = 0.8, eight points per shortest wave, rms slope 1, mean pressure 0.05, complementarity 1e-8 of the
 rms height.  Viscoelastic (viscofric alone): the same surface, 20 modes over five decades, E_inf/E0 = 100.
@@ -107,6 +108,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument(
         "--peers", type=Path, nargs="?", const=others.DEFAULT_ENVIRONMENT, help="run the peers too, from this folder"
     )
+    parser.add_argument("--tools", nargs="+", choices=others.TOOLS, default=others.TOOLS, help="which of the peers")
     parser.add_argument("--limit", type=float, default=900.0, help="seconds for each peer and size")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
@@ -117,7 +119,7 @@ def main(arguments: list[str] | None = None) -> None:
         elastic, solution = own(surface, viscoelastic=False)
         these = [elastic, own(surface, viscoelastic=True)[0]]
         if options.peers:
-            for tool in others.TOOLS:
+            for tool in options.tools:
                 these += peer(tool, surface, solution, options.peers, options.limit)
         for row in these:
             if "seconds" in row:
