@@ -62,7 +62,8 @@ def test_window_is_mirrored_with_the_motion() -> None:
     forth = solve(**window)
     back = vf.solve_steady(PROBLEM.material, PROBLEM.ball, speed=-PROBLEM.speed, load=PROBLEM.load, **window)
     np.testing.assert_allclose(back.x, -forth.x[::-1])
-    np.testing.assert_array_equal(back.pressure, forth.pressure[::-1])
+    # the same cells; the indenter's heights differ in their last digits, which the tolerance of 1e-8 does not see
+    np.testing.assert_allclose(back.pressure, forth.pressure[::-1], atol=1e-6 * forth.max_pressure)
 
 
 def test_line_contact_takes_rear_and_front() -> None:

@@ -43,15 +43,13 @@ class GivenGrid:
             )
         return cls(None if window is None else _extent(window, scale), cells)
 
-    @property
-    def halvings(self) -> int:
-        """How often the cells of the coarsest grid are halved; none if the cells are not given."""
-        return 0 if self.cells is None else int(math.log2(self.cells / COARSEST))
+    def halvings(self, coarsest: int) -> int:
+        """How often cells are halved from a grid of about so many along the longer edge; at least twice."""
+        return 0 if self.cells is None else max(2, int(math.log2(self.cells / coarsest)))
 
-    @property
-    def coarsest(self) -> int:
-        """Cells along the window's longer edge on the coarsest grid."""
-        return COARSEST if self.cells is None else math.ceil(self.cells / 2**self.halvings)
+    def start(self, coarsest: int) -> int:
+        """Cells along the window's longer edge of the first grid, where one would start from so many."""
+        return coarsest if self.cells is None else math.ceil(self.cells / 2 ** self.halvings(coarsest))
 
     def check(self, contact: Extent, cell: float, unit: float) -> None:
         """Refuse a window that a contact reaches beyond, as a coarse grid saw it (in the units of the problem)."""

@@ -79,6 +79,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
         If the contact touches the edge of the window given.
     """
     given = GivenGrid() if given is None else given
+    halvings = given.halvings(_coarsest(first.problem))
     stages, restarts = [_start(first, given)], 0
     while True:
         coarse = stages[-1]
@@ -100,7 +101,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
         stages.append(stage)
         estimate = friction_estimate(stages)
         logger.debug("grid %s: friction %.6g ± %.1g, %d products", window.shape, *estimate, stage.result.products)
-        if len(stages) > given.halvings if given.halvings else estimate.relative_error <= accuracy:
+        if len(stages) > halvings if halvings else estimate.relative_error <= accuracy:
             return stages
 
 
@@ -108,9 +109,10 @@ def _start(found: Stage, given: GivenGrid) -> Stage:
     """Solve on the coarsest of the grids that lead to the given one; where nothing is given, it is that found."""
     if given.window is None and given.cells is None:
         return found
-    extent = found.extent
-    kept = extent.widened(MARGIN * extent.longest) if given.window is None else given.window
-    stage = _solve_in_window(found.problem.geometry.grid.around(*kept, given.coarsest), found)
+    kept = found.window.whole if given.window is None else given.window
+    aspect = found.window.width / found.window.spacing
+    cells = given.start(_coarsest(found.problem))
+    stage = _solve_in_window(found.problem.geometry.grid.around(*kept, cells, aspect), found)
     if given.window is not None and stage.window.cuts(stage.result.pressure > 0.0):
         raise InputError(_TOUCHES)
     return stage
