@@ -58,7 +58,10 @@ def test_json_holds_what_python_gives() -> None:
         "modes": 1,
         "E0": 1e6,
         "E_inf": 1e7,
+        "C": [pytest.approx(9e-7)],
+        "tau": [1e-3],
     }
+    assert found["derivatives"] is None
     assert found["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01, "elastic": None}
     assert found["inputs"]["held"] == "load"
     assert set(found["errors"]) <= set(found["results"])
@@ -68,6 +71,7 @@ def test_every_number_has_a_unit() -> None:
     found = record(*RUBBER, *BALL)
     dimensionless = {"geometry", "pressure_friction_coefficient", "energy_friction_coefficient"}
     assert set(found["results"]) - dimensionless <= set(found["units"]) == set(UNITS)
+    assert set(found["inputs"]["material"]) - {"name", "synthetic", "poisson_ratio", "modes"} <= set(UNITS)
     line = record(*RUBBER, "--cylinder", "10 mm", "--speed", "1 m/s", "--load", "100 N/m")
     assert line["units"]["load"] == "N/m"
     assert line["results"]["half_width"] is None
@@ -151,6 +155,77 @@ def test_a_layer_stiffens_the_contact() -> None:
     assert found["results"]["indentation"] < 0.9 * half_space["results"]["indentation"]
 
 
+OBLIQUE = (*RUBBER, "--ellipsoid", "10 mm,30 mm", "--speed", "0.5 m/s", "--load", "1 N")
+
+
+def test_a_direction_is_an_angle_or_two_numbers() -> None:
+    by_angle, by_numbers = record(*OBLIQUE, "--direction", "90 deg"), record(*OBLIQUE, "--direction", "0,2")
+    assert by_angle["inputs"]["direction"] == [0.0, 1.0]
+    assert by_angle["results"] == by_numbers["results"]
+    exchanged = record(*RUBBER, "--ellipsoid", "30 mm,10 mm", *OBLIQUE[-4:])
+    # Two solutions of one problem differ by what the solver leaves, 1e-8 of the indentation.
+    for name in ("friction_coefficient", "indentation", "front", "rear"):
+        assert by_angle["results"][name] == pytest.approx(exchanged["results"][name], rel=1e-6), name
+
+
+def test_the_force_across_the_motion_is_told_with_its_side() -> None:
+    found = record(*OBLIQUE, "--direction", "30 deg")
+    assert found["results"]["lateral_friction_coefficient"] < 0.0
+    assert "(it takes a push to the right to keep its course)" in call(*OBLIQUE, "--direction", "30 deg").stdout
+    # The other way along the same line: the same force at the other side, since the motion has turned round.
+    back = call(*OBLIQUE[:-3], "-0.5 m/s", *OBLIQUE[-2:], "--direction", "30 deg")
+    assert "towards 30° from its x axis" in back.stdout
+    assert "push to the right" in back.stdout
+    assert "push to the left" in call(*OBLIQUE, "--direction", "-30 deg").stdout
+    assert "lateral friction      0 (it" in call(*RUBBER, *BALL, "--direction", "1,1").stdout
+    assert "lateral" not in call(*RUBBER, *BALL).stdout
+
+
+def test_derivatives_are_told_as_slopes_in_logarithms() -> None:
+    solution = expected(derivatives=True)
+    assert solution.derivatives is not None
+    found = record(*RUBBER, *BALL, "--derivatives")["derivatives"]
+    for name in ("C", "tau"):
+        assert found[name] == getattr(solution.derivatives, name).tolist()
+        assert found["logarithmic"][name] == getattr(solution.derivatives.logarithmic, name).tolist()
+    for name in ("E_inf", "speed", "load", "indentation", "error", "way"):
+        assert found[name] == getattr(solution.derivatives, name)
+    words = call(*RUBBER, *BALL, "--derivatives").stdout
+
+    def told(start: str, column: int = -1) -> float:
+        (line,) = (line for line in words.splitlines() if line.startswith(f"  {start}"))
+        return float(line.split()[column].replace("−", "-"))
+
+    # By other solves, a tenth up and down: friction to 1e-3 over the step, and its square.
+    def slope(name: str, unit: str) -> float:
+        up, down = (expected(**{name: f"{factor} {unit}"}).friction_coefficient for factor in (1.1, 1.0 / 1.1))
+        return math.log(up / down) / (2.0 * math.log(1.1))
+
+    error = solution.derivatives.error / solution.friction_coefficient
+    assert 0.0 < error < 0.03
+    assert told("speed") == pytest.approx(slope("speed", "m/s"), abs=error + 1e-2)
+    assert told("load") == pytest.approx(slope("load", "N"), abs=error + 1e-2)
+    # One mode: times and speed have one effect.
+    assert told("1 ms") == told("speed")
+    assert "glass modulus" in words
+
+
+def test_of_many_modes_those_that_matter_are_shown() -> None:
+    done = call(
+        "--material", "synthetic fluoroelastomer", *BALL[2:4], "--ball", "9.525 mm", "--load", "25 N",
+        "--temperature", "60 degC", "--accuracy", "0.02", "--tolerance", "1e-6", "--derivatives",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.output
+    assert "those that matter most of 37:" in done.stdout
+    head, table = done.stdout.split("d ln μ/d ln τ\n")
+    assert len(table.splitlines()) == 5
+    # Held by an indentation, it is that which is differentiated.
+    held = call(*RUBBER, *BALL[:-2], "--indentation", "0.1 mm", "--accuracy", "0.02", "--derivatives")
+    assert "indentation          d ln μ/d ln δ" in held.stdout
+    assert "d ln μ/d ln F" in head
+    assert "d ln μ/d ln F" not in held.stdout
+
+
 def test_elastic_indenter_softens_the_contact() -> None:
     found = record(*RUBBER, *BALL, "--indenter-modulus", "5 MPa", "--indenter-poisson-ratio", 0.4)
     solution = expected(indenter_modulus="5 MPa", indenter_poisson_ratio=0.4)
@@ -204,6 +279,33 @@ def test_pictures_of_line_contacts_have_no_map() -> None:
     assert len(contact_figure(expected(), vf.Ball("10 mm")).axes) == 4  # the map, its bar, two profiles
 
 
+def test_a_picture_turns_the_indenter_with_its_motion() -> None:
+    from viscofric.report.contact_figures import plot_surface_profile
+    from viscofric.report.house_style import new_figure
+
+    rubber, ellipsoid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms"), vf.Ellipsoid("10 mm", "30 mm")
+    solution = vf.solve_steady(rubber, ellipsoid, speed="0.5 m/s", load="1 N", direction=(1, 2), accuracy=1e-2)
+    axes = new_figure(4.0, 3.0).subplots()
+    plot_surface_profile(axes, solution, ellipsoid)
+    filled = axes.collections[0].get_paths()[0].vertices
+    x, surface = axes.lines[0].get_data()
+    lower = filled[1 : len(x) + 1, 1]
+    middle = solution.pressure.shape[1] // 2
+    touching = (solution.pressure[:, middle - 1] > 0.0) & (solution.pressure[:, middle] > 0.0)
+    assert touching.sum() > 20
+    assert filled[1 : len(x) + 1, 0] == pytest.approx(np.asarray(x))
+    # In µm of some 200: what the solver leaves of a gap.
+    assert lower[touching] == pytest.approx(np.asarray(surface)[touching], abs=1e-3)
+
+
+def test_pictures_tell_the_conditions() -> None:
+    figure = contact_figure(expected(speed="-1 m/s"), vf.Ball("10 mm"), title="A ball")
+    assert figure.get_suptitle() == "A ball\n−1 m/s, 1 N: $\\mu$ = −0.05755"
+    assert figure.axes[0].get_xlabel() == "← along the motion $x$ (mm)"
+    rest = contact_figure(expected(speed=0.0), vf.Ball("10 mm"))
+    assert rest.axes[0].get_xlabel() == "along the motion $x$ (mm)"
+
+
 def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
     done = call(*RUBBER, *BALL, "--json", "-o", tmp_path / "fields.nc")
     assert done.exit_code == 0, done.output
@@ -240,6 +342,16 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
         ((*RUBBER, *BALL, "--spacing", "1 um"), 2, "--spacing is for"),
         ((*RUBBER, *BALL, "--sliding-base"), 2, "--sliding-base is for"),
         ((*RUBBER, *BALL, "--layer", "1"), 1, "thickness of the layer = '1': has no unit"),
+        ((*RUBBER, *BALL, "--direction", "north"), 1, "direction = 'north'"),
+        ((*RUBBER, *BALL, "--direction", "30"), 1, "direction = '30': has no unit"),
+        ((*RUBBER, *BALL, "--direction", "1,2,3"), 2, "give an angle, '30 deg', or two numbers, '0,1'"),
+        ((*RUBBER, *BALL, "--direction", "0,0"), 1, "must be two numbers, not both zero"),
+        (
+            (*RUBBER, "--cylinder", "1 cm", "--speed", "1 m/s", "--load", "1 N/m", "--direction", "0,1"),
+            1,
+            "along x only",
+        ),
+        ((*RUBBER, "--ball", "1 cm", "--speed", "inf", "--load", "1 N", "--derivatives"), 1, "no friction to diff"),
         ((*RUBBER, "--profile", "none.txt", *BALL[2:]), 2, "needs --spacing"),
         ((*RUBBER, "--profile", "none.txt", "--spacing", "1 um", *BALL[2:]), 1, "none.txt: no such file"),
         ((*RUBBER, *BALL, "--picture", "a.gif"), 2, "must end in .png, .svg, .pdf"),

@@ -34,7 +34,7 @@ _MATERIAL = (
 _INDENTER = (
     click.option("--ball", metavar="RADIUS", help="A ball, such as '9.525 mm'."),
     click.option("--cylinder", metavar="RADIUS", help="A long cylinder across the motion; its load is per length."),
-    click.option("--ellipsoid", metavar="RX,RY", help="Radii of curvature along and across the motion."),
+    click.option("--ellipsoid", metavar="RX,RY", help="Radii of curvature along its x and y (the motion is along x)."),
     click.option("--cone", metavar="ANGLE", help="A cone; angle between flank and surface, such as '5 deg'."),
     click.option("--punch", metavar="RADIUS", help="A flat circular punch with a sharp edge."),
     click.option(
@@ -133,6 +133,29 @@ def chosen_layer(asked: dict[str, Any]) -> Layer | None:
     return Layer(asked["layer"], not asked["sliding_base"])
 
 
+def chosen_direction(text: str) -> tuple[float, float]:
+    """Return the direction of the motion that an angle or two components name.
+
+    Raises
+    ------
+    click.UsageError
+        If it is neither.
+    InputError
+        If the angle has no unit.
+    """
+    if "," in text:
+        try:
+            x, y = (float(part) for part in text.split(","))
+        except ValueError:
+            raise click.UsageError(f"--direction {text!r}: give an angle, '30 deg', or two numbers, '0,1'.") from None
+        return x, y
+    from viscofric.units import to_si
+
+    angle = to_si(text, "rad", "direction")
+    # So that a right angle is one, and 180° is motion along x.
+    return round(math.cos(angle), 15), round(math.sin(angle), 15)
+
+
 class NamedIndenter(NamedTuple):
     """An indenter, and what it is in words and in plain types."""
 
@@ -172,11 +195,11 @@ def _simple(shape: str, text: str) -> NamedIndenter:
     if shape == "ellipsoid":
         parts = text.split(",")
         if len(parts) != 2:
-            raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along and across: '10 mm,40 mm'.")
+            raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along x and y: '10 mm,40 mm'.")
         ellipsoid = Ellipsoid(*(part.strip() for part in parts))
-        along, across = float(ellipsoid.radius_x), float(ellipsoid.radius_y)
-        words = f"Ellipsoid, radii {length(along)} along and {length(across)} across"
-        return NamedIndenter(ellipsoid, words, {"shape": shape, "radius_x": along, "radius_y": across})
+        x, y = float(ellipsoid.radius_x), float(ellipsoid.radius_y)
+        words = f"Ellipsoid, radii {length(x)} along x and {length(y)} along y"
+        return NamedIndenter(ellipsoid, words, {"shape": shape, "radius_x": x, "radius_y": y})
     if shape == "cone":
         cone = Cone(text)
         angle = float(cone.angle)

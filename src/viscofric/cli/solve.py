@@ -10,17 +10,36 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.contact_options import chosen_indenter, chosen_layer, chosen_rubber, contact_options
+from viscofric.cli.contact_options import (
+    chosen_direction,
+    chosen_indenter,
+    chosen_layer,
+    chosen_rubber,
+    contact_options,
+)
 from viscofric.cli.errors import refuse_to_overwrite, told
 
 if TYPE_CHECKING:
     from viscofric.cli.contact_options import NamedIndenter, NamedRubber
+    from viscofric.contact.layers import Layer
     from viscofric.contact.solution import ContactSolution
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _PICTURES, _FIELDS = (".png", ".svg", ".pdf"), (".nc", ".csv")
 _INFINITE = ("inf", "infinite", "infinity", "∞")
-
+#: Options that are settings of `solve_steady` as they stand.
+_SETTINGS = (
+    "load",
+    "indentation",
+    "temperature",
+    "indenter_modulus",
+    "indenter_poisson_ratio",
+    "accuracy",
+    "tolerance",
+    "finest",
+    "backend",
+    "derivatives",
+)
 
 _EXAMPLE = """\b
 Such as
@@ -32,6 +51,13 @@ Such as
 @click.command(name="solve", epilog=_EXAMPLE)
 @contact_options
 @click.option("--speed", required=True, metavar="V", help="Such as '100 mm/s'; '0 m/s' and 'infinite' are elastic.")
+@click.option(
+    "--direction",
+    metavar="ANGLE|DX,DY",
+    default="1,0",
+    show_default=True,
+    help="Of the motion over the indenter's own axes: from its x towards its y, such as '30 deg' or '0,1'.",
+)
 @click.option("--load", metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.")
 @click.option("--indentation", metavar="DEPTH", help="Instead of the load: depth of the lowest point.")
 @click.option("--temperature", metavar="T", help="Such as '60 degC' [default: the rubber's reference].")
@@ -41,6 +67,7 @@ Such as
 @click.option("--tolerance", type=float, default=1e-8, show_default=True, help="Gap left, over the indentation.")
 @click.option("--finest", type=int, help="Most cells along the window's longer edge.")
 @click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda.")
+@click.option("--derivatives", is_flag=True, help="How the friction changes with speed, load and each mode.")
 @click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
 @click.option("--picture", type=_FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
 @click.option("-o", "--output", type=_FILE, help="Write pressure and displacement (.nc or .csv).")
@@ -61,20 +88,20 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
         from viscofric.contact.steady import solve_steady
 
         rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
-        settings = {name: asked[name] for name in ("load", "indentation", "temperature", "accuracy", "tolerance")}
-        settings |= {name: asked[name] for name in ("finest", "indenter_modulus", "indenter_poisson_ratio", "backend")}
-        settings["layer"] = chosen_layer(asked)
+        settings = {name: asked[name] for name in _SETTINGS}
+        settings |= {"layer": chosen_layer(asked), "direction": chosen_direction(asked["direction"])}
         began = time.perf_counter()
         solution = solve_steady(rubber.material, shape.indenter, speed=_speed(asked["speed"]), **settings)
         seconds = time.perf_counter() - began
+        name = _named(rubber, shape, settings["layer"])
         if as_json:
             from viscofric.report.contact_summary import contact_record
 
             record = contact_record(_inputs(asked, rubber, shape, solution), solution, seconds)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         else:
-            _tell(rubber, shape, solution, seconds)
-        for written in _write(rubber, shape, solution, picture, output):
+            _tell(name, rubber, solution, seconds)
+        for written in _write(name, rubber, shape, solution, picture, output):
             click.echo(written, err=as_json)
 
 
@@ -109,10 +136,13 @@ def _inputs(
             "modes": len(spectrum),
             "E0": spectrum.E0,
             "E_inf": spectrum.E_inf,
+            "C": [float(one) for one in spectrum.C],
+            "tau": [float(one) for one in spectrum.tau],
         },
         "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
         "indenter": shape.record | {"elastic": elastic},
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
+        "direction": list(solution.direction),
         "held": "load" if asked["load"] is not None else "indentation",
         "load": solution.load if asked["load"] is not None else None,
         "indentation": solution.indentation if asked["indentation"] is not None else None,
@@ -121,37 +151,59 @@ def _inputs(
         "tolerance": asked["tolerance"],
         "finest": asked["finest"],
         "backend": asked["backend"],
+        "derivatives": asked["derivatives"],
     }
 
 
-def _tell(rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution, seconds: float) -> None:
+def _named(rubber: NamedRubber, shape: NamedIndenter, layer: Layer | None) -> str:
+    """Return what is in contact, in words."""
+    if layer is None:
+        return f"{shape.words} on {rubber.name}"
+    from viscofric.report.contact_summary import length
+
+    base = "bonded" if layer.bonded else "sliding on its base"
+    return f"{shape.words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
+
+
+def _tell(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:
+    from viscofric.report.contact_derivatives import derivative_lines
     from viscofric.report.contact_summary import contact_lines, prefixed
     from viscofric.units import celsius
 
     speed = "at infinite speed" if math.isinf(solution.speed) else f"at {prefixed(solution.speed, None, 'm/s')}"
+    if solution.direction != (1.0, 0.0):
+        angle = math.degrees(math.atan2(solution.direction[1], solution.direction[0]))
+        speed += f" towards {angle:z.4g}° from its x axis".replace("-", "−")
     where = "" if solution.temperature is None else f", {celsius(solution.temperature):z.4g} °C"
     synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
-    click.echo(f"{shape.words} on {rubber.name}{synthetic}, {speed}{where}")
+    click.echo(f"{name}{synthetic}, {speed}{where}")
     click.echo()
     lines = contact_lines(solution, seconds)
-    width = max(len(name) for name, _ in lines)
-    for name, value in lines:
-        click.echo(f"{name:<{width}}  {value}")
+    width = max(len(quantity) for quantity, _ in lines)
+    for quantity, value in lines:
+        click.echo(f"{quantity:<{width}}  {value}")
+    if solution.derivatives is not None:
+        click.echo()
+        for line in derivative_lines(solution, rubber.material.modes_at(solution.temperature)):
+            click.echo(line)
     for warning in solution.warnings:
         click.echo(f"Warning: {warning}", err=True)
 
 
 def _write(
-    rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution, picture: Path | None, output: Path | None
+    name: str,
+    rubber: NamedRubber,
+    shape: NamedIndenter,
+    solution: ContactSolution,
+    picture: Path | None,
+    output: Path | None,
 ) -> list[str]:
     """Write the files that were asked for, and return what to say of them."""
     said = []
     if picture is not None:
         from viscofric.report.contact_figures import draw_contact
 
-        draw_contact(
-            picture, solution, shape.indenter, title=f"{shape.words} on {rubber.name}", synthetic=rubber.synthetic
-        )
+        draw_contact(picture, solution, shape.indenter, title=name, synthetic=rubber.synthetic)
         said.append(f"picture  {picture}")
     if output is not None:
         from viscofric.report.contact_fields import write_fields

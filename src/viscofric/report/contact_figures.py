@@ -11,7 +11,10 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from viscofric.files import write_atomically
+from viscofric.report.contact_summary import prefixed
 from viscofric.report.house_style import BLUE, GREY, INK, STYLE, VERMILION, mark_synthetic, new_figure
+from viscofric.report.numbers import significant
+from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,6 +32,8 @@ if TYPE_CHECKING:
 _DOTS_PER_INCH = 180
 #: More cells along an edge than this do not show; the map draws every n-th.
 _MOST_CELLS = 256
+#: Share of the loaded cells within the colours of a pressure whose largest value means nothing.
+_SHARE_SHOWN = 0.98
 
 
 class Unit(NamedTuple):
@@ -48,6 +53,14 @@ def _unit(largest: float, base: str) -> Unit:
 
 def _along(solution: ContactSolution) -> Unit:
     return _unit(float(np.abs(solution.x).max()), "m")
+
+
+def _label_along(solution: ContactSolution) -> str:
+    """Return the label of the axis along the motion, with an arrow that shows where the indenter goes."""
+    label = f"along the motion $x$ ({_along(solution).name})"
+    if solution.speed == 0.0:
+        return label
+    return f"{label} →" if solution.speed > 0.0 else f"← {label}"
 
 
 def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
@@ -70,14 +83,18 @@ def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
     pressure = solution.pressure[::every, ::every].T / pressure_unit.size
     shown = np.ma.masked_equal(pressure, 0.0)
     colours = matplotlib.colormaps["viridis"]
-    mesh: QuadMesh = axes.pcolormesh(x, y, shown, cmap=colours, vmin=0.0, shading="nearest", rasterized=True)
+    # One cell at a sharp edge would leave all others dark.
+    highest = None if solution.diagnostics.peak_resolved else float(np.quantile(shown.compressed(), _SHARE_SHOWN))
+    mesh: QuadMesh = axes.pcolormesh(
+        x, y, shown, cmap=colours, vmin=0.0, vmax=highest, shading="nearest", rasterized=True
+    )
     # Averaged over three cells, the staircase of the loaded cells is a curve.
     loaded = uniform_filter((pressure > 0.0).astype(float), 3, mode="constant")
     axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
     axes.plot([0.0], [0.0], marker="+", color=VERMILION, markersize=9, linestyle="none")
     axes.set_aspect("equal")
     axes.grid(visible=False)
-    axes.set_xlabel(f"along the motion $x$ ({unit.name})")
+    axes.set_xlabel(_label_along(solution))
     axes.set_ylabel(f"across $y$ ({unit.name})")
     _tell_motion(axes, solution)
     return mesh
@@ -115,7 +132,7 @@ def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
     axes.axvline(centre, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="centre of pressure")
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel(f"pressure $p$ ({pressure_unit.name})")
-    axes.set_xlabel(f"along the motion $x$ ({unit.name})")
+    axes.set_xlabel(_label_along(solution))
     axes.legend(loc="best")
 
 
@@ -145,7 +162,7 @@ def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indent
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle=(0, (1.5, 1.5)))
     axes.set_ylim(bottom - 0.12 * reach, ceiling)
     axes.set_xlim(float(x[0]), float(x[-1]))
-    axes.set_xlabel(f"along the motion $x$ ({unit.name})")
+    axes.set_xlabel(_label_along(solution))
     axes.set_ylabel(f"height ({depth_unit.name})")
     axes.legend(loc="upper center", ncols=2)
 
@@ -159,7 +176,9 @@ def _centre(values: Array) -> Array:
 def _beneath(solution: ContactSolution, indenter: Indenter) -> Array:
     """Height of the indenter's surface along the centre line, from the level of the indentation, m."""
     rows = solution.y[[0]] if len(solution.y) == 1 else solution.y[len(solution.y) // 2 - 1 : len(solution.y) // 2 + 1]
-    heights = np.asarray(indenter.height(solution.x[:, None], rows)).mean(axis=1)
+    # The solution's x lies along the direction, and its y to the left of it; the heights have axes of their own.
+    (ahead, aside), x = solution.direction, solution.x[:, None]
+    heights = np.asarray(indenter.height(ahead * x - aside * rows, aside * x + ahead * rows)).mean(axis=1)
     return np.asarray(heights - solution.indentation)
 
 
@@ -179,15 +198,27 @@ def contact_figure(solution: ContactSolution, indenter: Indenter, title: str = "
         figure = new_figure(9.6, 4.8)
         left, right = figure.subfigures(1, 2, width_ratios=[1.15, 1.0], squeeze=False)[0]
         above = left.subplots()
-        bar = left.colorbar(plot_pressure_map(above, solution), ax=above, shrink=0.85, pad=0.02)
+        beyond = "neither" if solution.diagnostics.peak_resolved else "max"
+        bar = left.colorbar(plot_pressure_map(above, solution), ax=above, shrink=0.85, pad=0.02, extend=beyond)
         bar.set_label(f"pressure $p$ ({_unit(solution.max_pressure, 'Pa').name})")
         profile, surface = right.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
     plot_pressure_profile(profile, solution)
     profile.set_xlabel("")
     plot_surface_profile(surface, solution, indenter)
-    if title:
-        figure.suptitle(f"{title}: $\\mu$ = {solution.friction_coefficient:.4g}", fontsize=10.5)
+    figure.suptitle("\n".join(line for line in (title, _conditions(solution)) if line), fontsize=10.5)
     return figure
+
+
+def _conditions(solution: ContactSolution) -> str:
+    """Return speed, load, temperature and what friction came of them."""
+    force = "N/m" if solution.geometry == "line" else "N"
+    parts = [
+        "infinite speed" if math.isinf(solution.speed) else prefixed(solution.speed, None, "m/s"),
+        prefixed(solution.load, None, force),
+    ]
+    if solution.temperature is not None:
+        parts.append(f"{celsius(solution.temperature):z.4g} °C".replace("-", "−"))
+    return f"{', '.join(parts)}: $\\mu$ = {significant(solution.friction_coefficient, 4)}"
 
 
 def draw_contact(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from viscofric.report.contact_derivatives import derivative_record
 from viscofric.report.numbers import short, significant, with_error
 
 if TYPE_CHECKING:
@@ -15,13 +16,22 @@ _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, 
 # Relative: an error below it, and a lean of the pressure below it, is rounding.
 _ROUND_OFF = 1e-12
 
+# Relative to the friction: a lateral one below it is what the solver's tolerance leaves of none.
+_LEAST_LATERAL = 1e-5
+
 #: Units of what `contact_record` holds.
 UNITS = {
     "speed": "m/s",
     "load": "N",
+    "direction": "1",
     "temperature": "K",
+    "E0": "Pa",
+    "E_inf": "Pa",
+    "C": "1/Pa",
+    "tau": "s",
     "friction_force": "N",
     "friction_coefficient": "1",
+    "lateral_friction_coefficient": "1",
     "indentation": "m",
     "contact_area": "m^2",
     "front": "m",
@@ -88,6 +98,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         ("  from the pressure", _five(solution.pressure_friction_coefficient)),
         ("  from the energy", f"{_five(solution.energy_friction_coefficient)}{_balance(solution)}"),
         ("friction force", prefixed(_friction_force(solution), None, force)),
+        *_lateral(solution),
         ("load", prefixed(solution.load, diagnostics.load_error, force)),
         ("indentation", length(solution.indentation, diagnostics.indentation_error)),
         (
@@ -115,6 +126,17 @@ def _friction(solution: ContactSolution) -> str:
     if value == 0.0:
         return "0 (elastic: nothing is dissipated)"
     return with_error(value, error)
+
+
+def _lateral(solution: ContactSolution) -> list[tuple[str, str]]:
+    """Return the line of the force across the motion, where an indenter may have one."""
+    # Looking along the motion, whose sense is that of the speed.
+    value = solution.lateral_friction_coefficient * math.copysign(1.0, solution.speed)
+    if abs(value) <= _LEAST_LATERAL * abs(solution.friction_coefficient):
+        oblique = 0.0 not in solution.direction and solution.geometry == "point"
+        return [("lateral friction", "0 (it keeps its course by itself)")] if oblique else []
+    side = "left" if value > 0.0 else "right"
+    return [("lateral friction", f"{short(abs(value))} (it takes a push to the {side} to keep its course)")]
 
 
 def _work(diagnostics: Diagnostics) -> str:
@@ -173,6 +195,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
         "pressure_friction_coefficient": solution.pressure_friction_coefficient,
         "energy_friction_coefficient": solution.energy_friction_coefficient,
         "friction_force": _friction_force(solution),
+        "lateral_friction_coefficient": solution.lateral_friction_coefficient,
         "load": solution.load,
         "indentation": solution.indentation,
         "contact_area": solution.contact_area,
@@ -215,6 +238,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
             "inputs": inputs,
             "results": results,
             "errors": errors,
+            "derivatives": derivative_record(solution),
             "diagnostics": work,
             "warnings": list(solution.warnings),
             "units": UNITS | (_UNITS_OF_A_LINE if line else {}),
