@@ -46,9 +46,9 @@ if TYPE_CHECKING:
     from viscofric.friction.agreement import Agreement as Agreement
     from viscofric.friction.agreement import compare as compare
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
-    from viscofric.friction.curves import predict_friction as predict_friction
     from viscofric.friction.master_curve import FrictionMasterCurve as FrictionMasterCurve
     from viscofric.friction.master_curve import shift_friction as shift_friction
+    from viscofric.friction.prediction import predict_friction as predict_friction
     from viscofric.friction.tribometry import separate as separate
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
@@ -134,7 +134,7 @@ _HOME = {
     "Agreement": "viscofric.friction.agreement",
     "compare": "viscofric.friction.agreement",
     "FrictionCurves": "viscofric.friction.curves",
-    "predict_friction": "viscofric.friction.curves",
+    "predict_friction": "viscofric.friction.prediction",
     "FrictionMasterCurve": "viscofric.friction.master_curve",
     "shift_friction": "viscofric.friction.master_curve",
     "separate": "viscofric.friction.tribometry",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +11,8 @@ import pytest
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
 from viscofric.errors import InputError
-from viscofric.friction.curves import FrictionCurves, predict_friction
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.prediction import predict_friction
 from viscofric.friction.tribometry import separate
 
 ACCURACY = 1e-2
@@ -76,6 +78,49 @@ def test_processes_that_share_the_contacts_find_the_same_digits(rubber: vf.Mater
     np.testing.assert_array_equal(shared.speed, predicted.speed)
     np.testing.assert_array_equal(shared.viscoelastic, predicted.viscoelastic)
     np.testing.assert_array_equal(shared.viscoelastic_error, predicted.viscoelastic_error)
+
+
+def test_settings_of_the_contact_are_passed_on(rubber: vf.Material) -> None:
+    """The same digits as each contact solved for itself, in as many processes as wanted."""
+    ellipsoid = vf.Ellipsoid("10 mm", "20 mm")
+    settings: dict[str, Any] = {
+        "layer": vf.Layer("5 mm", bonded=False),
+        "direction": (1.0, 1.0),
+        "indenter_modulus": "50 MPa",
+        "indenter_poisson_ratio": 0.4,
+        "tolerance": 1e-5,
+        "window": ("4 mm", "4 mm", "4 mm"),
+        "grid": 128,
+    }
+    wanted = {"load": "2 N", "accuracy": 0.1, **settings}
+    curves = predict_friction(rubber, ellipsoid, speeds=[0.05, 0.2], temperatures=320.0, workers=2, **wanted)
+    for row, speed in enumerate((0.05, 0.2)):
+        alone = vf.solve_steady(rubber, ellipsoid, speed=speed, temperature=320.0, **wanted)
+        assert curves.viscoelastic[row] == alone.friction_coefficient
+    assert curves.load_unit == "N"
+    with pytest.raises(TypeError, match="unexpected keyword argument 'indentation'"):
+        predict_friction(rubber, BALL, speeds=0.1, temperatures=320.0, load=2.0, indentation=1e-4)  # type: ignore[call-arg]
+
+
+def test_curves_of_line_contacts_count_their_load_per_length(rubber: vf.Material) -> None:
+    curves = predict_friction(
+        rubber, vf.Cylinder("10 mm"), speeds=[0.05, 0.2], temperatures=320.0, load="0.2 kN/m", accuracy=ACCURACY
+    )
+    assert curves.load_unit == "N/m"
+    assert curves.to_dataset()["load"].attrs["units"] == "N/m"
+    assert len(curves.at_load("202 N/m")) == 2
+    with pytest.raises(InputError, match="the loads run from 200 to 200 N/m"):
+        curves.at_load("300 N/m")
+    with pytest.raises(InputError, match="load = '2 N': has the wrong kind of unit"):
+        predict_friction(rubber, vf.Cylinder("1 cm"), speeds=0.1, temperatures=320.0, load="2 N")
+    line, point = (
+        vf.solve_steady(rubber, shape, speed=0.1, load=load, temperature=320.0, accuracy=0.1)
+        for shape, load in ((vf.Cylinder("10 mm"), 200.0), (BALL, 2.0))
+    )
+    with pytest.raises(InputError, match="point and of line contacts"):
+        FrictionCurves.from_solutions([line, point])
+    with pytest.raises(InputError, match="must be an indenter"):
+        predict_friction(rubber, "ball", speeds=0.1, temperatures=320.0, load=2.0)  # type: ignore[arg-type]
 
 
 def test_progress_is_reported(rubber: vf.Material) -> None:

@@ -1,4 +1,4 @@
-"""Friction coefficients against speed and temperature, measured or predicted, and their prediction."""
+"""Friction coefficients against speed and temperature, measured or predicted."""
 
 from __future__ import annotations
 
@@ -8,20 +8,16 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
-from viscofric.processes import call_all
-from viscofric.units import Quantities, Quantity, celsius, positive, to_si_array
+from viscofric.units import Quantity, celsius, positive
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     import xarray
     from numpy.typing import NDArray
 
-    from viscofric.contact.indenters import Ball
     from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.material import Material
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -73,7 +69,7 @@ class FrictionCurves:
     temperature : (n,) array
         K.
     load : (n,) array
-        Normal load (mean over the readings where measured), N.
+        Normal load (mean over the readings where measured), in `load_unit`.
     viscoelastic : (n,) array
         Viscoelastic friction coefficient.
     viscoelastic_error : (n,) array
@@ -95,6 +91,8 @@ class FrictionCurves:
         Magnitude of the sliding velocity, m/s; None where predicted.
     offset : (n,) array or None
         Zero reading of the force cell, N; None where predicted.
+    load_unit : {"N", "N/m"}
+        That of the load: of a line contact it is per length.
 
     Raises
     ------
@@ -119,6 +117,7 @@ class FrictionCurves:
     notes: tuple[str, ...] = ()
     slip: Array | None = None
     offset: Array | None = None
+    load_unit: str = "N"
 
     def __post_init__(self) -> None:
         shape = (np.size(self.speed),)
@@ -166,7 +165,7 @@ class FrictionCurves:
         Raises
         ------
         InputError
-            If a solution has no temperature, or its speed is zero or infinite.
+            If a solution has no temperature, its speed is zero or infinite, or point and line contacts are mixed.
         """
         solved = tuple(solutions)
         for solution in solved:
@@ -174,6 +173,9 @@ class FrictionCurves:
                 raise InputError("temperature of a contact solution is missing; friction curves need one.")
             if solution.speed == 0.0 or not math.isfinite(solution.speed):
                 raise InputError(f"speed = {solution.speed:g} m/s of a solution must be finite and not zero.")
+        units = {"N/m" if solution.geometry == "line" else "N" for solution in solved}
+        if len(units) > 1:
+            raise InputError("solutions of point and of line contacts, whose loads are per length, make no one curve.")
         return cls(
             speed=np.array([abs(solution.speed) for solution in solved]),
             temperature=np.array([solution.temperature for solution in solved], dtype=float),
@@ -184,6 +186,7 @@ class FrictionCurves:
             replicates=np.ones(len(solved), dtype=np.int64),
             source=source,
             notes=_warnings(solved),
+            load_unit=units.pop() if units else "N",
         )
 
     def select(self, keep: NDArray[np.bool_] | NDArray[np.int64]) -> FrictionCurves:
@@ -226,18 +229,19 @@ class FrictionCurves:
         Parameters
         ----------
         load : float, str or pint.Quantity
-            N if a plain number.
+            In `load_unit` if a plain number.
 
         Raises
         ------
         InputError
             If there are none.
         """
-        wanted = positive(load, "N", "load")
+        unit = self.load_unit
+        wanted = positive(load, unit, "load")
         keep = np.abs(self.load - wanted) <= SAME_LOAD * wanted
         if not np.any(keep):
-            loads = f"run from {self.load.min():.3g} to {self.load.max():.3g} N" if len(self) else "are none"
-            raise InputError(f"load = {wanted:g} N: no entry is within 5 % of it; the loads {loads}.")
+            loads = f"run from {self.load.min():.3g} to {self.load.max():.3g} {unit}" if len(self) else "are none"
+            raise InputError(f"load = {wanted:g} {unit}: no entry is within 5 % of it; the loads {loads}.")
         return self.select(keep)
 
     def to_dataset(self) -> xarray.Dataset:
@@ -246,7 +250,7 @@ class FrictionCurves:
 
         columns = {
             name: ("point", getattr(self, name), {"units": unit, "long_name": long_name})
-            for name, (unit, long_name) in _LABELS.items()
+            for name, (unit, long_name) in (_LABELS | {"load": (self.load_unit, _LABELS["load"][1])}).items()
             if getattr(self, name) is not None
         }
         names = [name for name in ("speed", "temperature", "load", "slip") if name in columns]
@@ -282,90 +286,3 @@ def _warnings(solutions: tuple[ContactSolution, ...]) -> tuple[str, ...]:
         f"In {len(warned)} of {len(solutions)} contacts there are warnings; that of the widest one: {warning}"
         for warning in worst.warnings
     )
-
-
-def predict_friction(
-    material: Material,
-    indenter: Ball,
-    *,
-    speeds: Quantities,
-    temperatures: Quantities,
-    load: Quantity,
-    accuracy: float = 1e-3,
-    workers: int = 1,
-    progress: Callable[[int, int], object] | None = None,
-) -> FrictionCurves:
-    """Predict the viscoelastic friction at every one of the speeds and temperatures by solving the contact.
-
-    Parameters
-    ----------
-    material : Material
-        With a shift law.
-    indenter : Ball
-    speeds : float, str, pint.Quantity, or an array or list of them
-        Speeds at which the rubber is deformed, above zero; m/s if plain numbers.
-    temperatures : float, str, pint.Quantity, or an array or list of them
-        K if plain numbers.
-    load : float, str or pint.Quantity
-        Normal load, N if a plain number.
-    accuracy : float
-        Relative error of each friction coefficient that is aimed at; see `solve_steady`.
-    workers : int
-        Processes that share the contacts out among them; the result is the same to the last digit.
-    progress : callable, optional
-        Called as ``progress(done, total)`` before the first and after every contact.
-
-    Returns
-    -------
-    FrictionCurves
-        Temperature after temperature in the order given, each with all speeds.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
-    ConvergenceError
-        If a contact cannot be solved to the accuracy.
-
-    Examples
-    --------
-    >>> import viscofric as vf
-    >>> rubber = vf.synthetic_fluoroelastomer()
-    >>> curves = vf.predict_friction(
-    ...     rubber,
-    ...     vf.Ball(radius="9.525 mm"),
-    ...     speeds=["20 mm/s", "200 mm/s"],
-    ...     temperatures="60 degC",
-    ...     load="25 N",
-    ... )
-    >>> curves.viscoelastic.round(3)
-    array([0.025, 0.016])
-    """
-    velocities = to_si_array(speeds, "m/s", "speeds")
-    kelvins = to_si_array(temperatures, "K", "temperatures")
-    force = positive(load, "N", "load")
-    for name, values, unit in (("speeds", velocities, "m/s"), ("temperatures", kelvins, "K")):
-        if not values.size:
-            raise InputError(f"{name} must hold at least one value.")
-        if not np.all(values > 0.0):
-            raise InputError(f"{name} must be above zero everywhere, but one is {values.min():g} {unit}.")
-    contacts = [
-        {
-            "material": material,
-            "indenter": indenter,
-            "speed": float(velocity),
-            "load": force,
-            "temperature": float(kelvin),
-            "accuracy": accuracy,
-        }
-        for kelvin in kelvins
-        for velocity in velocities
-    ]
-
-    def tell(done: int) -> None:
-        if progress is not None:
-            progress(done, len(contacts))
-
-    tell(0)
-    solutions: list[ContactSolution] = call_all(solve_steady, contacts, workers=workers, progress=tell)
-    return FrictionCurves.from_solutions(solutions)

@@ -211,8 +211,8 @@ def shift_friction(
         )
     if curves.load.max() > (1.0 + SAME_LOAD) * curves.load.min():
         raise InputError(
-            f"load of the friction curves runs from {curves.load.min():.3g} to {curves.load.max():.3g} N, "
-            "but a master curve holds at one load; choose one with curves.at_load()."
+            f"load of the friction curves runs from {curves.load.min():.3g} to {curves.load.max():.3g} "
+            f"{curves.load_unit}, but a master curve holds at one load; choose one with curves.at_load()."
         )
     law = shift if reference is None else shift.at_reference(positive(reference, "K", "reference"))
     reduced = np.asarray(law(curves.temperature)) * curves.speed

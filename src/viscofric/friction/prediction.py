@@ -1,0 +1,133 @@
+"""Prediction of friction at many speeds and temperatures, by solving a contact for each."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypedDict, Unpack
+
+import numpy as np
+
+from viscofric.contact.indenters import Indenter
+from viscofric.contact.steady import solve_steady
+from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves
+from viscofric.processes import call_all
+from viscofric.units import Quantities, Quantity, positive, to_si_array
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from viscofric.contact.backend import Backend
+    from viscofric.contact.layers import Layer
+    from viscofric.contact.solution import ContactSolution
+    from viscofric.rheology.material import Material
+
+
+class ContactSettings(TypedDict, total=False):
+    """Settings of `viscofric.contact.steady.solve_steady` that may be passed on, by the same names."""
+
+    layer: Layer | None
+    direction: Sequence[float]
+    indenter_modulus: Quantity | None
+    indenter_poisson_ratio: float
+    tolerance: float
+    finest: int | None
+    window: Sequence[Quantity] | None
+    grid: int | None
+    backend: Backend | str
+
+
+def predict_friction(
+    material: Material,
+    indenter: Indenter,
+    *,
+    speeds: Quantities,
+    temperatures: Quantities,
+    load: Quantity,
+    accuracy: float = 1e-3,
+    workers: int = 1,
+    progress: Callable[[int, int], object] | None = None,
+    **settings: Unpack[ContactSettings],
+) -> FrictionCurves:
+    """Predict the viscoelastic friction at every one of the speeds and temperatures by solving the contact.
+
+    Parameters
+    ----------
+    material : Material
+        With a shift law.
+    indenter : Indenter
+        Ball, Ellipsoid, Cone, FlatPunch, HeightMap, Cylinder or Profile.
+    speeds : float, str, pint.Quantity, or an array or list of them
+        Speeds at which the rubber is deformed, above zero; m/s if plain numbers.
+    temperatures : float, str, pint.Quantity, or an array or list of them
+        K if plain numbers.
+    load : float, str or pint.Quantity
+        Normal load, N if a plain number; of a line contact per length, N/m.
+    accuracy : float
+        Relative error of each friction coefficient that is aimed at; see `solve_steady`.
+    workers : int
+        Processes that share the contacts out among them; the result is the same to the last digit.
+    progress : callable, optional
+        Called as ``progress(done, total)`` before the first and after every contact.
+    **settings
+        Of `solve_steady`, the same for all contacts: `layer`, `direction`, `indenter_modulus`,
+        `indenter_poisson_ratio`, `tolerance`, `finest`, `window`, `grid` and `backend`.
+
+    Returns
+    -------
+    FrictionCurves
+        Temperature after temperature in the order given, each with all speeds.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    ConvergenceError
+        If a contact cannot be solved to the accuracy.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.synthetic_fluoroelastomer()
+    >>> curves = vf.predict_friction(
+    ...     rubber,
+    ...     vf.Ball(radius="9.525 mm"),
+    ...     speeds=["20 mm/s", "200 mm/s"],
+    ...     temperatures="60 degC",
+    ...     load="25 N",
+    ... )
+    >>> curves.viscoelastic.round(3)
+    array([0.025, 0.016])
+    """
+    velocities = to_si_array(speeds, "m/s", "speeds")
+    kelvins = to_si_array(temperatures, "K", "temperatures")
+    if unknown := settings.keys() - ContactSettings.__annotations__.keys():
+        raise TypeError(f"predict_friction() got an unexpected keyword argument {min(unknown)!r}")
+    if not isinstance(indenter, Indenter):
+        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
+    force = positive(load, indenter.geometry.load_unit, "load")
+    for name, values, unit in (("speeds", velocities, "m/s"), ("temperatures", kelvins, "K")):
+        if not values.size:
+            raise InputError(f"{name} must hold at least one value.")
+        if not np.all(values > 0.0):
+            raise InputError(f"{name} must be above zero everywhere, but one is {values.min():g} {unit}.")
+    contacts = [
+        {
+            "material": material,
+            "indenter": indenter,
+            "speed": float(velocity),
+            "load": force,
+            "temperature": float(kelvin),
+            "accuracy": accuracy,
+            **settings,
+        }
+        for kelvin in kelvins
+        for velocity in velocities
+    ]
+
+    def tell(done: int) -> None:
+        if progress is not None:
+            progress(done, len(contacts))
+
+    tell(0)
+    solutions: list[ContactSolution] = call_all(solve_steady, contacts, workers=workers, progress=tell)
+    return FrictionCurves.from_solutions(solutions)
