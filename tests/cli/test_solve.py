@@ -226,6 +226,16 @@ def test_of_many_modes_those_that_matter_are_shown() -> None:
     assert "d ln μ/d ln F" not in held.stdout
 
 
+def test_window_and_grid_may_be_given() -> None:
+    found = record(*RUBBER, *BALL, "--grid", 128, "--window", "3 mm, 3 mm,0.2 cm")
+    assert found["inputs"]["grid"] == 128
+    assert found["inputs"]["window"] == pytest.approx([3e-3, 3e-3, 2e-3])
+    along, across = found["diagnostics"]["cells"]
+    assert 128 <= along < 140  # a few more, so that the axis lies between two of them
+    assert across < 0.75 * along
+    assert along * found["diagnostics"]["spacing"] == pytest.approx(6e-3, rel=0.1)
+
+
 def test_elastic_indenter_softens_the_contact() -> None:
     found = record(*RUBBER, *BALL, "--indenter-modulus", "5 MPa", "--indenter-poisson-ratio", 0.4)
     solution = expected(indenter_modulus="5 MPa", indenter_poisson_ratio=0.4)
@@ -342,6 +352,7 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
         ((*RUBBER, *BALL, "--spacing", "1 um"), 2, "--spacing is for"),
         ((*RUBBER, *BALL, "--sliding-base"), 2, "--sliding-base is for"),
         ((*RUBBER, *BALL, "--layer", "1"), 1, "thickness of the layer = '1': has no unit"),
+        ((*RUBBER, *BALL, "--window", "1 mm,1 mm"), 1, "must be 3 lengths (rear, front, side)"),
         ((*RUBBER, *BALL, "--direction", "north"), 1, "direction = 'north'"),
         ((*RUBBER, *BALL, "--direction", "30"), 1, "direction = '30': has no unit"),
         ((*RUBBER, *BALL, "--direction", "1,2,3"), 2, "give an angle, '30 deg', or two numbers, '0,1'"),

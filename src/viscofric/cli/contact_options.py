@@ -190,7 +190,7 @@ def chosen_indenter(asked: dict[str, Any]) -> NamedIndenter:
 def _simple(shape: str, text: str) -> NamedIndenter:
     from viscofric.contact.indenters import Ball, Cylinder
     from viscofric.contact.shapes import Cone, Ellipsoid, FlatPunch
-    from viscofric.report.contact_summary import length
+    from viscofric.report.numbers import length
 
     if shape == "ellipsoid":
         parts = text.split(",")

@@ -37,6 +37,7 @@ _SETTINGS = (
     "accuracy",
     "tolerance",
     "finest",
+    "grid",
     "backend",
     "derivatives",
 )
@@ -66,6 +67,12 @@ Such as
 @click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Relative error of the friction.")
 @click.option("--tolerance", type=float, default=1e-8, show_default=True, help="Gap left, over the indentation.")
 @click.option("--finest", type=int, help="Most cells along the window's longer edge.")
+@click.option(
+    "--grid", type=int, metavar="CELLS", help="Along the longer edge, instead of those that the accuracy needs."
+)
+@click.option(
+    "--window", metavar="REAR,FRONT,SIDE", help="Of the cells, from the axis: '3 mm,3 mm,3 mm' [default: found]."
+)
 @click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda.")
 @click.option("--derivatives", is_flag=True, help="How the friction changes with speed, load and each mode.")
 @click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
@@ -90,6 +97,7 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
         rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
         settings = {name: asked[name] for name in _SETTINGS}
         settings |= {"layer": chosen_layer(asked), "direction": chosen_direction(asked["direction"])}
+        settings["window"] = asked["window"] and [length.strip() for length in asked["window"].split(",")]
         began = time.perf_counter()
         solution = solve_steady(rubber.material, shape.indenter, speed=_speed(asked["speed"]), **settings)
         seconds = time.perf_counter() - began
@@ -150,6 +158,8 @@ def _inputs(
         "accuracy": asked["accuracy"],
         "tolerance": asked["tolerance"],
         "finest": asked["finest"],
+        "grid": asked["grid"],
+        "window": asked["window"] and [to_si(length.strip(), "m") for length in asked["window"].split(",")],
         "backend": asked["backend"],
         "derivatives": asked["derivatives"],
     }
@@ -159,7 +169,7 @@ def _named(rubber: NamedRubber, shape: NamedIndenter, layer: Layer | None) -> st
     """Return what is in contact, in words."""
     if layer is None:
         return f"{shape.words} on {rubber.name}"
-    from viscofric.report.contact_summary import length
+    from viscofric.report.numbers import length
 
     base = "bonded" if layer.bonded else "sliding on its base"
     return f"{shape.words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
@@ -167,7 +177,8 @@ def _named(rubber: NamedRubber, shape: NamedIndenter, layer: Layer | None) -> st
 
 def _tell(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:
     from viscofric.report.contact_derivatives import derivative_lines
-    from viscofric.report.contact_summary import contact_lines, prefixed
+    from viscofric.report.contact_summary import contact_lines
+    from viscofric.report.numbers import prefixed
     from viscofric.units import celsius
 
     speed = "at infinite speed" if math.isinf(solution.speed) else f"at {prefixed(solution.speed, None, 'm/s')}"

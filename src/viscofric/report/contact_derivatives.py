@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.report.numbers import short, with_error
+from viscofric.report.numbers import prefixed, short, with_error
 
 if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
@@ -28,8 +28,6 @@ def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -
     spectrum : RetardationSpectrum
         What it was solved with.
     """
-    from viscofric.report.contact_summary import prefixed
-
     derivatives, friction = solution.derivatives, solution.friction_coefficient
     if derivatives is None or friction == 0.0:
         return ["no derivatives: there is no friction to differentiate"]

@@ -11,9 +11,8 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from viscofric.files import write_atomically
-from viscofric.report.contact_summary import prefixed
 from viscofric.report.house_style import BLUE, GREY, INK, STYLE, VERMILION, mark_synthetic, new_figure
-from viscofric.report.numbers import significant
+from viscofric.report.numbers import prefixed, significant
 from viscofric.units import celsius
 
 if TYPE_CHECKING:

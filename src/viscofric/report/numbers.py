@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 
 ABSENT = "–"
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+#: A relative error below it is rounding.
+_ROUND_OFF = 1e-12
 _SPACE = "\N{NO-BREAK SPACE}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -52,6 +55,36 @@ def with_error(value: float, error: float) -> str:
     if decimals > 9:
         return f"{significant(value, 6)} ± {significant(error, 2)}"
     return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
+
+
+def prefixed(value: float, error: float | None, unit: str, power: int = 1) -> str:
+    """Return a number with its error and its unit, in the prefix that suits its size.
+
+    Parameters
+    ----------
+    value : float
+    error : float or None
+        In the same unit; None where there is none.
+    unit : str
+        Such as "m"; the prefix stands before it.
+    power : int
+        Of the unit: 2 for an area.
+    """
+    size = abs(value)
+    # An area is written with decimals rather than in hundred thousands of a smaller unit.
+    least = 1.0 if power == 1 else 0.1
+    fits = ((factor, prefix) for factor, prefix in _PREFIXES if size >= least * factor**power)
+    factor, prefix = next(fits, (1.0, "") if size == 0.0 else _PREFIXES[-1])
+    scale = factor**power
+    raised = {1: "", 2: "²"}[power]
+    if error is None or not error > _ROUND_OFF * size:
+        return f"{short(value / scale)} {prefix}{unit}{raised}"
+    return f"{with_error(value / scale, error / scale)} {prefix}{unit}{raised}"
+
+
+def length(metres: float, error: float | None = None) -> str:
+    """Return a length in nm, µm, mm or m."""
+    return prefixed(metres, error, "m")
 
 
 def megapascals(pascals: float, digits: int = 3) -> str:
