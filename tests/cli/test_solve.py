@@ -335,8 +335,10 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
     [
         ((*RUBBER, "--ball", "10 mm", "--speed", "1", "--load", "1 N"), 1, "speed = '1': has no unit"),
         ((*RUBBER, "--ball", "10", "--speed", "1 m/s", "--load", "1 N"), 1, "radius = '10'"),
-        ((*RUBBER, *BALL, "--indentation", "1 mm"), 1, "both given"),
-        ((*RUBBER, *BALL[:-2]), 1, "neither given"),
+        ((*RUBBER, *BALL, "--indentation", "1 mm"), 2, "either --load or --indentation"),
+        ((*RUBBER, *BALL[:-2]), 2, "either --load or --indentation"),
+        ((*RUBBER, *BALL, "--indenter-poisson-ratio", "0.4"), 2, "is for --indenter-modulus only"),
+        ((*RUBBER, *BALL, "--height-unit", "um"), 2, "--height-unit is for"),
         ((*RUBBER, *BALL, "--temperature", "60 degC"), 1, "this material has no shift"),
         ((*RUBBER, *BALL, "--accuracy", "2"), 1, "accuracy = 2.0"),
         ((*RUBBER, *BALL, "--accuracy", "1e-6", "--tolerance", "1e-10", "--finest", "128"), 1, "finest grid allowed"),
@@ -379,6 +381,13 @@ def test_mistakes_are_one_sentence(
     assert told in done.output
     assert "Traceback" not in done.output
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
+
+
+def test_too_small_a_map_is_told_with_its_file(tmp_path: Path) -> None:
+    np.savetxt(tmp_path / "one.csv", [[1.0, 2.0]], delimiter=",")
+    done = call(*RUBBER, *BALL[2:], "--height-map", tmp_path / "one.csv", "--spacing", "1 um")
+    assert done.exit_code == 1
+    assert "one.csv: z: " in done.output
 
 
 def test_an_input_is_not_overwritten(tmp_path: Path) -> None:

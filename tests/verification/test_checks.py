@@ -14,7 +14,9 @@ from viscofric.contact.line_operator import LineOperator
 from viscofric.contact.operator import ConvolutionOperator, HalfSpaceOperator
 from viscofric.contact.periodic.transfer import SlidingSolid
 from viscofric.contact.scale import Scale, ScaledIndenter
+from viscofric.contact.transforms import ScipyTransforms
 from viscofric.errors import ConvergenceError, InputError
+from viscofric.rheology import material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification import CHECKS, Check, Comparison, run_checks, select
 
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
+
+    from viscofric.rheology.spectra.modulus_table import ModulusTable
 
 NAMES = [check.name for check in CHECKS]
 
@@ -114,6 +118,33 @@ def half_a_shift(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(RetardationSpectrum, "shifted", lambda self, alpha, b=1.0: original(self, alpha, math.sqrt(b)))
 
 
+def not_transposed(patch: pytest.MonkeyPatch) -> None:
+    """Solve the adjoint problem with the operator itself, as if it were symmetric."""
+    patch.setattr(HalfSpaceOperator, "transposed", lambda self: self)
+    patch.setattr(LineOperator, "transposed", lambda self: self)
+
+
+def late_modes(patch: pytest.MonkeyPatch) -> None:
+    """Let modes fitted to a table have the reciprocal frequencies in hertz as their times."""
+    original = material.modes_of_table
+
+    def modes(table: ModulusTable) -> RetardationSpectrum:
+        fitted = original(table)
+        return replace(fitted, tau=2.0 * math.pi * fitted.tau)
+
+    patch.setattr(material, "modes_of_table", modes)
+
+
+def threads_in_the_way(patch: pytest.MonkeyPatch) -> None:
+    """Let several threads leave a trace in their FFTs."""
+    original = ScipyTransforms.inverse_cropped
+
+    def inverse_cropped(self: Any, *arguments: Any) -> Any:
+        return original(self, *arguments) * (1.0 + 1e-4 * (self._threads - 1))
+
+    patch.setattr(ScipyTransforms, "inverse_cropped", inverse_cropped)
+
+
 SEEN_BY: dict[str, Callable[[pytest.MonkeyPatch], None]] = {
     "hertz-ball": stiff_half_space,
     "hertz-cylinder": stiff_line,
@@ -136,6 +167,10 @@ SEEN_BY: dict[str, Callable[[pytest.MonkeyPatch], None]] = {
     "mirror": one_way,
     "split-modes": merged_modes,
     "shifted-friction": half_a_shift,
+    "direction": one_way,
+    "modulus-table": late_modes,
+    "backends": threads_in_the_way,
+    "derivatives": not_transposed,
     "orders": stiff_half_space,
     "large-windows": relaxation_for_retardation_time,
 }

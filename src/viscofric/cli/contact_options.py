@@ -44,7 +44,7 @@ _INDENTER = (
     ),
     click.option("--profile", type=_FILE, help="One column of heights along the motion: a line contact."),
     click.option("--spacing", metavar="LENGTH", help="Of the heights: '5 um', or '5 um,10 um' along and across."),
-    click.option("--height-unit", default="m", metavar="UNIT", show_default=True, help="Of the heights in the file."),
+    click.option("--height-unit", metavar="UNIT", help="Of the heights in the file [default: m]."),
 )
 #: Options, one of which says what shape it is.
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
@@ -182,8 +182,9 @@ def chosen_indenter(asked: dict[str, Any]) -> NamedIndenter:
     (shape,) = given
     if shape in ("height_map", "profile"):
         return _mapped(shape, asked)
-    if asked["spacing"] is not None:
-        raise click.UsageError("--spacing is for --height-map and --profile only.")
+    for name in ("spacing", "height_unit"):
+        if asked[name] is not None:
+            raise click.UsageError(f"{option(name)} is for --height-map and --profile only.")
     return _simple(shape, asked[shape])
 
 
@@ -217,21 +218,23 @@ def _simple(shape: str, text: str) -> NamedIndenter:
 
 def _mapped(shape: str, asked: dict[str, Any]) -> NamedIndenter:
     from viscofric.contact.height_map import HeightMap, Profile
+    from viscofric.errors import InputError
     from viscofric.readers.height_table import read_heights
 
     path: Path = asked[shape]
     if asked["spacing"] is None:
         raise click.UsageError(f"{option(shape)} needs --spacing, the distance of its heights, such as '5 um'.")
-    heights = read_heights(path, asked["height_unit"])
+    heights = read_heights(path, asked["height_unit"] or "m")
     steps = tuple(part.strip() for part in asked["spacing"].split(","))
-    record = {"shape": shape, "file": str(path), "points": list(heights.shape)}
-    if shape == "profile":
-        if min(heights.shape) > 1 or len(steps) > 1:
-            raise click.UsageError(f"--profile is one column of heights with one spacing; {path} holds a map.")
-        profile = Profile(heights.ravel(), steps[0])
-        record |= {"points": [heights.size], "spacing": [float(profile.spacing)]}
-        return NamedIndenter(profile, f"Profile of {path.name}, {heights.size} points", record)
-    made = HeightMap(heights, steps if len(steps) > 1 else steps[0])
-    record["spacing"] = [float(step) for step in np.atleast_1d(made.spacing)]
-    words = f"Height map of {path.name}, {heights.shape[0]} × {heights.shape[1]} points"
-    return NamedIndenter(made, words, record)
+    if shape == "profile" and (min(heights.shape) > 1 or len(steps) > 1):
+        raise click.UsageError(f"--profile is one column of heights with one spacing; {path} holds a map.")
+    try:
+        one = steps if len(steps) > 1 else steps[0]
+        made = Profile(heights.ravel(), steps[0]) if shape == "profile" else HeightMap(heights, one)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    points = [heights.size] if shape == "profile" else list(heights.shape)
+    spacing = [float(step) for step in np.atleast_1d(made.spacing)]
+    noun = "Profile" if shape == "profile" else "Height map"
+    words = f"{noun} of {path.name}, {' × '.join(map(str, points))} points"
+    return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})

@@ -33,7 +33,6 @@ _SETTINGS = (
     "indentation",
     "temperature",
     "indenter_modulus",
-    "indenter_poisson_ratio",
     "accuracy",
     "tolerance",
     "finest",
@@ -59,11 +58,13 @@ Such as
     show_default=True,
     help="Of the motion over the indenter's own axes: from its x towards its y, such as '30 deg' or '0,1'.",
 )
-@click.option("--load", metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.")
+@click.option(
+    "--load", metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.  It or --indentation."
+)
 @click.option("--indentation", metavar="DEPTH", help="Instead of the load: depth of the lowest point.")
 @click.option("--temperature", metavar="T", help="Such as '60 degC' [default: the rubber's reference].")
 @click.option("--indenter-modulus", metavar="E", help="Of an elastic indenter, such as '200 GPa' [default: rigid].")
-@click.option("--indenter-poisson-ratio", type=float, default=0.3, show_default=True, help="Of an elastic indenter.")
+@click.option("--indenter-poisson-ratio", type=float, metavar="ν", help="Of an elastic indenter [default: 0.3].")
 @click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Relative error of the friction.")
 @click.option("--tolerance", type=float, default=1e-8, show_default=True, help="Gap left, over the indentation.")
 @click.option("--finest", type=int, help="Most cells along the window's longer edge.")
@@ -91,12 +92,17 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
     for target in (picture, output):
         if target is not None:
             refuse_to_overwrite(target, read)
+    if (asked["load"] is None) == (asked["indentation"] is None):
+        raise click.UsageError("give either --load or --indentation, one of them.")
+    if asked["indenter_poisson_ratio"] is not None and asked["indenter_modulus"] is None:
+        raise click.UsageError("--indenter-poisson-ratio is for --indenter-modulus only; a rigid indenter has none.")
     with told():
         from viscofric.contact.steady import solve_steady
 
         rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
         settings = {name: asked[name] for name in _SETTINGS}
         settings |= {"layer": chosen_layer(asked), "direction": chosen_direction(asked["direction"])}
+        settings["indenter_poisson_ratio"] = _poisson_ratio(asked)
         settings["window"] = asked["window"] and [length.strip() for length in asked["window"].split(",")]
         began = time.perf_counter()
         solution = solve_steady(rubber.material, shape.indenter, speed=_speed(asked["speed"]), **settings)
@@ -118,6 +124,11 @@ def _check_name(path: Path | None, option: str, endings: tuple[str, ...]) -> Non
         raise click.BadParameter(f"{path}: must end in {', '.join(endings)}.", param_hint=option)
 
 
+def _poisson_ratio(asked: dict[str, Any]) -> float:
+    """Of the indenter."""
+    return 0.3 if asked["indenter_poisson_ratio"] is None else float(asked["indenter_poisson_ratio"])
+
+
 def _speed(text: str) -> float | str:
     plain = text.strip().lower()
     if plain.removeprefix("-").removeprefix("+") in _INFINITE:
@@ -135,7 +146,7 @@ def _inputs(
     modulus, layer = asked["indenter_modulus"], chosen_layer(asked)
     elastic = None
     if modulus is not None:
-        elastic = {"modulus": to_si(modulus, "Pa"), "poisson_ratio": asked["indenter_poisson_ratio"]}
+        elastic = {"modulus": to_si(modulus, "Pa"), "poisson_ratio": _poisson_ratio(asked)}
     return {
         "material": {
             "name": rubber.name,

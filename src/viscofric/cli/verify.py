@@ -164,7 +164,7 @@ def _tell_verdict(outcomes: list[Outcome]) -> None:
         click.echo(f"{len(failed)} of {len(outcomes)} checks FAILED: {', '.join(failed)}.")
         return
     passed = f"All {len(outcomes)} checks passed" if len(outcomes) > 1 else "The check passed"
-    click.echo(f"{passed}, {count} comparisons, in {seconds:.0f} s.")
+    click.echo(f"{passed}, {count} comparisons, in {seconds:.{0 if seconds >= 10.0 else 1}f} s.")
 
 
 def _record(outcomes: list[Outcome]) -> dict[str, Any]:

@@ -4,7 +4,18 @@ They are what ``viscofric verify`` runs and what the verification page shows, an
 should.
 """
 
-from viscofric.verification import ball, elastic, line, refinement, similarity, single_layers, waves, windows
+from viscofric.verification import (
+    ball,
+    elastic,
+    line,
+    refinement,
+    restated,
+    similarity,
+    single_layers,
+    slopes,
+    waves,
+    windows,
+)
 from viscofric.verification.check import Check, Comparison, Outcome, run_checks, select
 
 #: All checks, in the order in which they are told.
@@ -15,6 +26,8 @@ CHECKS: tuple[Check, ...] = (
     *line.CHECKS,
     *ball.CHECKS,
     *similarity.CHECKS,
+    *restated.CHECKS,
+    *slopes.CHECKS,
     *refinement.CHECKS,
     *windows.CHECKS,
 )

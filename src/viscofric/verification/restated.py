@@ -1,0 +1,144 @@
+"""The same contact stated in another way: other axes, a table of moduli for the spectrum, other FFTs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.contact import steady
+from viscofric.contact.backend import Backend
+from viscofric.contact.layers import Layer
+from viscofric.contact.periodic import solve as periodic
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.contact.shapes import Ellipsoid
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.verification.check import Check, Comparison
+from viscofric.verification.engine import backend, solve_steady
+from viscofric.verification.model_problems import (
+    BALL,
+    BALL_LOAD,
+    CYLINDER,
+    CYLINDER_LOAD,
+    HERTZ_RADIUS,
+    POISSON_RATIO,
+    RADIUS,
+    SPEED,
+    equal_modes,
+    one_time,
+    solve_ball,
+    solve_cylinder,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_SAME = 1e-7  # what is left of the contact conditions in friction and size
+_COARSE = 1e-2  # both sides are solved on the same grid
+_SLOW = 0.01  # vτ/a0
+_PER_DECADE = 10
+
+
+def _direction() -> Iterator[Comparison]:
+    material = one_time(10.0, 1.0)
+    long, turned = Ellipsoid(RADIUS, 4.0 * RADIUS), Ellipsoid(4.0 * RADIUS, RADIUS)
+
+    def solve(shape: Ellipsoid, degrees: float, rubber: Material = material) -> Any:
+        angle = math.radians(degrees)
+        return solve_steady(
+            rubber, shape, speed=SPEED, load=BALL_LOAD, accuracy=_COARSE, direction=(math.cos(angle), math.sin(angle))
+        )
+
+    across, along = solve(long, 90.0), solve(turned, 0.0)
+    for quantity, name in (("friction coefficient", "friction_coefficient"), ("indentation", "indentation")):
+        ratio = getattr(across, name) / getattr(along, name)
+        yield Comparison(
+            "ellipsoid across, and its radii exchanged", f"{quantity}, the one over the other", ratio, 1.0, _SAME
+        )
+    left, right = solve(long, 30.0), solve(long, -30.0)
+    case = "ellipsoid, at 30° and −30°"
+    ratio = left.friction_coefficient / right.friction_coefficient
+    yield Comparison(case, "friction coefficient, the one over the other", ratio, 1.0, _SAME)
+    ratio = -left.lateral_friction_coefficient / right.lateral_friction_coefficient
+    yield Comparison(case, "lateral friction, mirrored", ratio, 1.0, 10.0 * _SAME)
+    # To first order in the speed friction is a symmetric tensor: its components turn as such.
+    slow = one_time(10.0, _SLOW)
+    x, y, oblique = (solve(long, degrees, slow).friction_coefficient for degrees in (0.0, 90.0, 30.0))
+    yield Comparison(
+        f"ellipsoid at 30°, vτ/a0 = {_SLOW:g}", "friction coefficient", oblique, 0.75 * x + 0.25 * y, 2.0 * _COARSE
+    )
+
+
+def _table() -> Iterator[Comparison]:
+    for case, material, bound in (
+        ("one time, vτ/a0 = 1", one_time(10.0, 1.0), 2e-3),
+        ("25 modes", equal_modes(1e4), 1e-5),
+    ):
+        spectrum = material.modes_at()
+        low, high = 1e-2 / np.max(spectrum.tau), 1e2 / np.min(spectrum.tau)
+        omega = np.geomspace(low, high, 1 + round(_PER_DECADE * math.log10(high / low)))
+        modulus = spectrum.complex_modulus(omega)
+        table = ModulusTable(omega, modulus.real, modulus.imag, "plateau")
+        same = Material(table, poisson_ratio=POISSON_RATIO)
+        for shape, solve in (("ball", solve_ball), ("cylinder", solve_cylinder)):
+            found, known = solve(same, accuracy=_COARSE), solve(material, accuracy=_COARSE)
+            ratio = found.friction_coefficient / known.friction_coefficient
+            yield Comparison(f"{shape}, {case}", "friction coefficient, table over spectrum", ratio, 1.0, bound)
+
+
+def _backends() -> Iterator[Comparison]:
+    plain = Backend("scipy", threads=1)
+    other = Backend("scipy", threads=2) if backend() == plain else backend()
+    material, layer = equal_modes(1e4), Layer(HERTZ_RADIUS)
+    free: dict[str, Any] = {"speed": SPEED, "accuracy": _COARSE}
+    for case, shape, settings in (
+        ("ball", BALL, {"load": BALL_LOAD}),
+        ("ball on a layer as thick as a0", BALL, {"load": BALL_LOAD, "layer": layer}),
+        ("cylinder", CYLINDER, {"load": CYLINDER_LOAD}),
+    ):
+        here, there = (steady.solve_steady(material, shape, backend=one, **free, **settings) for one in (other, plain))
+        ratio = here.friction_coefficient / there.friction_coefficient
+        yield Comparison(case, "friction coefficient, the one over the other", ratio, 1.0, _SAME)
+        apart = float(np.abs(here.pressure - there.pressure).max()) / there.max_pressure
+        yield Comparison(case, "difference of the pressures/p_max", apart, 0.0, _SAME, "absolute")
+    wave = np.cos(2.0 * np.pi * np.arange(64) / 64)
+    rough = PeriodicSurface(1e-6 * (wave[:, None] + wave), HERTZ_RADIUS / 64)
+    here_rough, there_rough = (
+        periodic.solve_periodic(material, rough, speed=SPEED, pressure=2e3, backend=one) for one in (other, plain)
+    )
+    ratio = here_rough.friction_coefficient / there_rough.friction_coefficient
+    yield Comparison("crossed waves", "friction coefficient, the one over the other", ratio, 1.0, _SAME)
+
+
+_GROUP = "invariances"
+
+CHECKS = (
+    Check(
+        "direction",
+        "Motion across and oblique to an ellipsoid's axes",
+        _GROUP,
+        "symmetry: other axes, the mirror image; at low speed a symmetric tensor",
+        "Symmetry: round-off and the solver's tolerance, of which the lateral force, a small difference, keeps more. "
+        "Tensor: the accuracy asked for, on both sides.",
+        _direction,
+    ),
+    Check(
+        "modulus-table",
+        "A table of moduli in the spectrum's place, ten frequencies a decade",
+        _GROUP,
+        "the contact on the spectrum that the table was made from",
+        "A broad spectrum is met by the modes fitted to the table to 1e-5 of the moduli; the steep moduli of a single "
+        "time are read to 0.2 % between the frequencies of the table.",
+        _table,
+    ),
+    Check(
+        "backends",
+        "Arrays and FFTs that are checked, or SciPy's in two threads",
+        _GROUP,
+        "the same contacts with SciPy's FFTs in one thread",
+        "Round-off and what the solver's tolerance makes of it.",
+        _backends,
+    ),
+)
