@@ -36,9 +36,10 @@ ROUND_OFF = 1e-9
 
 def table(headings: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     """Return a table in Markdown, numbers to the right."""
-    heads = list(headings)
-    sides = ["---" if index == 0 else "---:" for index in range(len(heads))]
-    return "\n".join("| " + " | ".join(row) + " |" for row in [heads, sides, *map(list, rows)])
+    heads, lines = list(headings), [list(row) for row in rows]
+    counts = [any(line[index][:1] in "−0123456789" and line[index] for line in lines) for index in range(len(heads))]
+    sides = ["---:" if numbers and index > 0 else "---" for index, numbers in enumerate(counts)]
+    return "\n".join("| " + " | ".join(row) + " |" for row in [heads, sides, *lines])
 
 
 def number(value: float) -> str:
@@ -68,7 +69,8 @@ def summary(outcomes: list[Outcome]) -> str:
                 str(len(outcome.comparisons)),
                 f"{worst.quantity} ({worst.case})" if seen else "all alike",
                 error(worst),
-                bound(worst),
+                # Which of several round-offs is the largest, and how it is counted, is chance.
+                bound(worst) if seen else f"{max(one.bound for one in outcome.comparisons):.1e}",
             ]
         )
     return table(["check", "what, and against what", "compared", "worst of them", "error", "bound"], rows)
@@ -164,8 +166,10 @@ def hunter_figure(outcome: Outcome) -> Figure:
 
 def orders_figure(found: list[Refinement]) -> Figure:
     figure = new_figure(10.0, 3.8)
-    for axes, one in zip(figure.subplots(1, len(found)), found, strict=True):
+    for place, (axes, one) in enumerate(zip(figure.subplots(1, len(found)), found, strict=True)):
         plot_orders(axes, one)
+        if place > 0:
+            axes.set_ylabel("")
     return figure
 
 

@@ -62,8 +62,18 @@ def plot_errors(axes: Axes, memory: Mapping[float, Array], errors: Mapping[float
         shown = np.maximum(sizes, _LEAST_SHOWN)
         axes.plot(memory[ratio], shown, color=look.colour, marker=look.marker, linestyle="none")
     axes.axhline(bound, color=INK, linewidth=1.0, linestyle=(0, (6, 1.5)))
+    axes.annotate(
+        "accuracy asked for",
+        (0.99, bound),
+        xytext=(0, 3),
+        xycoords=("axes fraction", "data"),
+        textcoords="offset points",
+        fontsize=8,
+        ha="right",
+    )
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.set_ylim(bottom=0.5 * min(float(sizes.min()) for sizes in errors.values()), top=5.0 * bound)
     decade_ticks(axes.xaxis)
     decade_ticks(axes.yaxis)
     axes.set_ylabel("relative error")
@@ -88,12 +98,17 @@ def plot_orders(axes: Axes, found: Refinement) -> None:
     for order in (1, 2):
         line = 1.5 * start * (found.cells[0] / found.cells) ** order
         axes.plot(found.cells, line, color=GREY, linewidth=0.8)
-        axes.text(float(found.cells[-1]), float(line[-1]), f" $h^{order}$", color=GREY, va="center", fontsize=8)
+        end = float(found.cells[-1]), float(line[-1])
+        offset = {"xytext": (6.0, 0.0), "textcoords": "offset points"}
+        axes.annotate(f"$h^{order}$", end, **offset, color=GREY, va="center", fontsize=8)  # type: ignore[arg-type]
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
     decade_ticks(axes.yaxis)
     axes.set_xticks(found.cells, [str(count) for count in found.cells], fontsize=8)
     axes.minorticks_off()
+    # Room for the names of the slopes, whatever the number of grids.
+    octaves = math.log2(found.cells[-1] / found.cells[0])
+    axes.set_xlim(found.cells[0] * 2.0 ** (-0.06 * octaves), found.cells[-1] * 2.0 ** (0.13 * octaves))
     axes.set_xlabel("cells across the window")
     axes.set_ylabel("relative error")
     axes.set_title(found.name, fontsize=9.5)
@@ -119,5 +134,6 @@ def plot_windows(axes: Axes, found: Windows) -> None:
     axes.set_xticks(found.periods, [f"{period:g}" for period in found.periods])
     axes.minorticks_off()
     axes.set_xlim(found.periods[0] / math.sqrt(2.0), found.periods[-1] * 2.0)
+    axes.set_ylim(top=100.0)
     axes.set_xlabel(r"period $L/a_0$")
     axes.set_ylabel("friction missing (%)")
