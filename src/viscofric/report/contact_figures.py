@@ -90,7 +90,7 @@ def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
     # Averaged over three cells, the staircase of the loaded cells is a curve.
     loaded = uniform_filter((pressure > 0.0).astype(float), 3, mode="constant")
     axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
-    axes.plot([0.0], [0.0], marker="+", color=VERMILION, markersize=9, linestyle="none")
+    axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
     axes.set_aspect("equal")
     axes.grid(visible=False)
     axes.set_xlabel(_label_along(solution))
