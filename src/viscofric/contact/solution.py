@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
@@ -166,10 +166,10 @@ class ContactSolution:
     rear: float
     half_width: float
     max_pressure: float
-    x: Array
-    y: Array
-    pressure: Array
-    displacement: Array
+    x: Array = field(repr=False)
+    y: Array = field(repr=False)
+    pressure: Array = field(repr=False)
+    displacement: Array = field(repr=False)
     diagnostics: Diagnostics
     warnings: tuple[str, ...] = ()
     geometry: str = "point"
@@ -186,13 +186,13 @@ class ContactSolution:
         """Return pressure and displacement as a labelled data set with units in its attributes."""
         import xarray
 
-        def field(values: Array, name: str, unit: str) -> tuple[tuple[str, str], Array, dict[str, str]]:
+        def labelled(values: Array, name: str, unit: str) -> tuple[tuple[str, str], Array, dict[str, str]]:
             return ("x", "y"), values, {"units": unit, "long_name": name}
 
         return xarray.Dataset(
             {
-                "pressure": field(self.pressure, "contact pressure", "Pa"),
-                "displacement": field(self.displacement, "displacement into the solid", "m"),
+                "pressure": labelled(self.pressure, "contact pressure", "Pa"),
+                "displacement": labelled(self.displacement, "displacement into the solid", "m"),
             },
             coords={
                 "x": ("x", self.x, {"units": "m", "long_name": "position along the motion"}),

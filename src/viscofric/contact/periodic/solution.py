@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
@@ -111,25 +111,25 @@ class PeriodicSolution:
     lateral_friction_coefficient: float
     contact_area_fraction: float
     max_pressure: float
-    x: Array
-    y: Array
-    pressure: Array
-    displacement: Array
-    gap: Array
+    x: Array = field(repr=False)
+    y: Array = field(repr=False)
+    pressure: Array = field(repr=False)
+    displacement: Array = field(repr=False)
+    gap: Array = field(repr=False)
     diagnostics: PeriodicDiagnostics
 
     def to_dataset(self) -> xarray.Dataset:
         """Return pressure, displacement and gap as a labelled data set with units in its attributes."""
         import xarray
 
-        def field(values: Array, name: str, unit: str) -> tuple[tuple[str, str], Array, dict[str, str]]:
+        def labelled(values: Array, name: str, unit: str) -> tuple[tuple[str, str], Array, dict[str, str]]:
             return ("x", "y"), values, {"units": unit, "long_name": name}
 
         return xarray.Dataset(
             {
-                "pressure": field(self.pressure, "contact pressure", "Pa"),
-                "displacement": field(self.displacement, "displacement into the solid", "m"),
-                "gap": field(self.gap, "gap", "m"),
+                "pressure": labelled(self.pressure, "contact pressure", "Pa"),
+                "displacement": labelled(self.displacement, "displacement into the solid", "m"),
+                "gap": labelled(self.gap, "gap", "m"),
             },
             coords={
                 "x": ("x", self.x, {"units": "m", "long_name": "position along x"}),
