@@ -128,6 +128,8 @@ def test_lists_arrays_and_quantities_become_arrays():
 def test_positive_insists():
     with pytest.raises(InputError, match=r"load = '0 N': must be above zero"):
         positive("0 N", "N", "load")
+    with pytest.raises(InputError, match=r"temperature = '-300 degC': must be above absolute zero"):
+        positive("-300 degC", "K", "temperature")
 
 
 def test_the_hint_to_write_degrees_comes_with_small_numbers_only():

@@ -246,10 +246,10 @@ def to_si_array(values: Quantities, unit: str, name: str = "value") -> NDArray[n
 
 
 def positive(value: Quantity, unit: str, name: str) -> float:
-    """Convert like `to_si` and insist on a value above zero."""
+    """Convert like `to_si` and insist on a value above zero, or above absolute zero."""
     number = to_si(value, unit, name)
     if number <= 0.0:
-        raise _wrong(name, value, unit, "must be above zero")
+        raise _wrong(name, value, unit, "must be above absolute zero" if unit == "K" else "must be above zero")
     return number
 
 

@@ -454,18 +454,34 @@ def test_unreachable_accuracy_raises() -> None:
         ({"accuracy": 1.0}, "accuracy"),
         ({"accuracy": -1e-3}, "accuracy"),
         ({"accuracy": math.nan}, "accuracy"),
-        ({"temperature": "30 degC"}, "temperature"),
+        ({"accuracy": 1e-11}, "accuracy"),
+        ({"accuracy": "1e-3"}, "accuracy"),
+        ({"accuracy": 1e-9}, "1e-12 for accuracy = 1e-09"),
+        ({"tolerance": "1e-9"}, "tolerance"),
+        ({"tolerance": 1e-5}, "tolerance"),
+        ({"finest": 64}, "finest"),
+        ({"finest": 256.5}, "finest"),
+        ({"finest": math.nan}, "finest"),
+        ({"material": "rubber.json"}, "material"),
+        ({"speed": 1e160}, "speed"),
+        ({"temperature": "30 degC"}, "temperature = '30 degC'"),
         ({"load": 1e6, "speed": 0.0}, "wider than the ball"),
     ],
     ids=str,
 )
 def test_unusable_input_is_refused_in_one_sentence(change: dict[str, float | str], told: str) -> None:
-    arguments: dict[str, float | str] = {"speed": SPEED, "load": LOAD, **change}
+    arguments: dict[str, Any] = {"material": SLS.material, "speed": SPEED, "load": LOAD, **change}
     with pytest.raises(InputError, match=told) as caught:
-        solve_steady(SLS.material, SLS.ball, **arguments)  # type: ignore[arg-type]
+        solve_steady(indenter=SLS.ball, **arguments)
     message = str(caught.value)
     assert "\n" not in message
     assert message.endswith(".")
+
+
+def test_a_solution_shows_its_numbers_and_not_its_fields() -> None:
+    shown = repr(SLS.solve(accuracy=0.1))
+    assert "friction_coefficient=" in shown
+    assert "array" not in shown
 
 
 @pytest.mark.parametrize("radius", [0.0, -1.0, "3 s", "9.525", math.inf])

@@ -555,7 +555,7 @@ def test_wrong_values_are_refused(settings: dict[str, object], message: str) -> 
         solve_periodic(broad(), rough(16), speed=1.0, **settings)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("z", [[[1.0, np.nan]], [1.0], np.zeros((4, 4)), np.zeros((2, 2, 2))])
+@pytest.mark.parametrize("z", [[[1.0, np.nan]], [1.0], np.zeros((4, 4)), np.zeros((2, 2, 2)), "rough"])
 def test_wrong_surfaces_are_refused(z: object) -> None:
     with pytest.raises(vf.InputError, match="z of a periodic surface"):
         PeriodicSurface(z, 1.0)  # type: ignore[arg-type]
@@ -563,6 +563,7 @@ def test_wrong_surfaces_are_refused(z: object) -> None:
 
 def test_solution_becomes_a_labelled_data_set() -> None:
     solution = solve_periodic(broad(), rough(16, shortest=4.0), speed=1.0, pressure=0.1)
+    assert "array" not in repr(solution)  # numbers only
     data = solution.to_dataset()
     assert data["pressure"].attrs["units"] == "Pa"
     assert data["gap"].shape == (16, 16)

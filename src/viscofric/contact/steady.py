@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -22,6 +23,7 @@ from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.problem import Problem
 from viscofric.contact.scale import Scale, ScaledIndenter
 from viscofric.errors import InputError
+from viscofric.rheology.material import Material
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si
 
@@ -33,13 +35,13 @@ if TYPE_CHECKING:
     from viscofric.contact.control import Control
     from viscofric.contact.grids import Extent
     from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array: TypeAlias = NDArray[np.float64]
 
 __all__ = ["SMALL_STRAIN", "solve_steady"]
 
+LONGEST_MEMORY = 1e100  # in contact radii; its square must not overflow
 TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
 
 
@@ -150,8 +152,10 @@ def solve_steady(
     _check_settings(accuracy, tolerance, finest)
     if derivatives:
         _check_derivatives(velocity, layer)
+    if not isinstance(material, Material):
+        raise InputError(f"material = {material!r}: must be a Material, such as vf.read_card('rubber.json').")
+    spectrum = material.modes_at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
-    spectrum = material.modes_at(kelvin)
     counterface = _indenter_compliance(indenter_modulus, indenter_poisson_ratio)
     plane_strain = 1.0 - material.poisson_ratio**2
     compliance = plane_strain / spectrum.E0 + counterface
@@ -201,15 +205,16 @@ def _toward(direction: Sequence[float], indenter: Indenter) -> tuple[float, floa
 
 
 def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
-    if not 0.0 < accuracy < 1.0:
-        raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1, such as 1e-3.")
-    if not TIGHTEST <= tolerance <= LOOSEST * accuracy:
+    least = TIGHTEST / LOOSEST
+    if not (isinstance(accuracy, Real) and least <= accuracy < 1.0):
+        raise InputError(f"accuracy = {accuracy!r}: must be a number from {least:g} to below 1, such as 1e-3.")
+    if not (isinstance(tolerance, Real) and TIGHTEST <= tolerance <= LOOSEST * accuracy):
         raise InputError(
-            f"tolerance = {tolerance!r}: must lie between {TIGHTEST:g} and {LOOSEST:g} times the accuracy, "
-            f"{LOOSEST * accuracy:g}, so that it does not spoil the friction."
+            f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the accuracy, which "
+            f"is {LOOSEST * accuracy:g} for accuracy = {accuracy:g}, so that it does not spoil the friction."
         )
-    if finest < LEAST_FINEST:
-        raise InputError(f"finest = {finest!r}: must be at least {LEAST_FINEST} cells.")
+    if not (isinstance(finest, Integral) and finest >= LEAST_FINEST):
+        raise InputError(f"finest = {finest!r}: must be a whole number of at least {LEAST_FINEST} cells.")
 
 
 def _check_derivatives(velocity: float, layer: Layer | None) -> None:
@@ -275,6 +280,11 @@ def _steady_material(
     glassy = plane_strain / spectrum.E_inf
     if math.isinf(speed):
         return SteadyMaterial(glassy, none, none, counterface)
+    if speed > LONGEST_MEMORY / max(spectrum.tau):
+        raise InputError(
+            f"speed: the memory would be more than {LONGEST_MEMORY:g} contact radii long; give an infinite speed "
+            "(math.inf), at which the solid is elastic."
+        )
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 
 

@@ -45,7 +45,10 @@ class PeriodicSurface:
     spacing: tuple[float, float]
 
     def __init__(self, z: ArrayLike, spacing: Quantity | tuple[Quantity, Quantity]) -> None:
-        heights = np.array(z, dtype=float)
+        try:
+            heights = np.array(z, dtype=float)
+        except (TypeError, ValueError):
+            raise InputError("z of a periodic surface must be an array of numbers in m.") from None
         if heights.ndim == 1:
             heights = heights[:, None]
         if heights.ndim != 2 or heights.size < 2:
