@@ -539,13 +539,15 @@ def test_interpolation_keeps_the_points_it_has() -> None:
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({}, "either"),
-        ({"pressure": 1.0, "gap": 1.0}, "either"),
+        ({}, "neither given"),
+        ({"pressure": 1.0, "gap": 1.0}, "both given"),
         ({"pressure": -1.0}, "pressure"),
         ({"gap": 10.0}, "do not touch"),
         ({"pressure": 1.0, "direction": (0.0, 0.0)}, "direction"),
         ({"pressure": 1.0, "direction": (1.0,)}, "direction"),
         ({"pressure": 1.0, "tolerance": 0.5}, "tolerance"),
+        ({"pressure": 1.0, "tolerance": "1e-8"}, "tolerance"),
+        ({"pressure": 1.0, "temperature": "30 degC"}, "temperature = '30 degC'"),
         ({"pressure": 1.0, "layer": 0.1}, "layer"),
         ({"pressure": 1.0, "indenter_modulus": 1.0, "indenter_poisson_ratio": 0.6}, "indenter_poisson_ratio"),
     ],
@@ -559,6 +561,32 @@ def test_wrong_values_are_refused(settings: dict[str, object], message: str) -> 
 def test_wrong_surfaces_are_refused(z: object) -> None:
     with pytest.raises(vf.InputError, match="z of a periodic surface"):
         PeriodicSurface(z, 1.0)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("amplitude", "doubtful"), [(0.06, False), (0.08, True)])
+def test_steep_surfaces_are_told(amplitude: float, doubtful: bool) -> None:
+    """In full contact the rms slope of a wave is 2πΔ/λ√2: 0.27 and 0.36, one below the bound of 0.3, one above."""
+    wave = PeriodicSurface(amplitude * np.cos(2.0 * np.pi * np.arange(32) / 32), 1.0 / 32)
+    solution = solve_periodic(broad(), wave, speed=1.0, pressure=100.0)
+    assert solution.diagnostics.full_contact
+    assert any("rises by" in warning for warning in solution.warnings) == doubtful
+
+
+def test_a_layer_pressed_deeply_is_told() -> None:
+    """A mean pressure of E0 compresses the layer by (1+ν)(1−2ν)/(1−ν), far more than waves a thousandth as high."""
+    wave = PeriodicSurface(1e-3 * np.cos(2.0 * np.pi * np.arange(32) / 32), 1.0 / 32)
+    deep, shallow = (
+        solve_periodic(broad(), wave, speed=1.0, pressure=mean, layer=vf.Layer(1.0)).warnings for mean in (1.0, 1e-2)
+    )
+    assert len(deep) == 1
+    assert "thickness" in deep[0]
+    assert shallow == ()
+
+
+def test_what_was_given_comes_back_to_the_last_digit() -> None:
+    assert solve_periodic(broad(), rough(16), speed=1.0, pressure=0.1).mean_pressure == 0.1
+    gap = 0.7 * float(rough(16).z.max() - rough(16).z.mean())
+    assert solve_periodic(broad(), rough(16), speed=1.0, gap=gap).mean_gap == gap
 
 
 def test_solution_becomes_a_labelled_data_set() -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.contact.assembly import assemble
 from viscofric.contact.backend import Backend
 from viscofric.contact.control import GivenIndentation, GivenLoad
+from viscofric.contact.counterface import indenter_compliance
 from viscofric.contact.derivatives import differentiate
 from viscofric.contact.given_grid import LEAST_FINEST, GivenGrid
 from viscofric.contact.indenters import SMALL_STRAIN, Indenter
@@ -156,7 +157,7 @@ def solve_steady(
         raise InputError(f"material = {material!r}: must be a Material, such as vf.read_card('rubber.json').")
     spectrum = material.modes_at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
-    counterface = _indenter_compliance(indenter_modulus, indenter_poisson_ratio)
+    counterface = indenter_compliance(indenter_modulus, indenter_poisson_ratio)
     plane_strain = 1.0 - material.poisson_ratio**2
     compliance = plane_strain / spectrum.E0 + counterface
     toward = _toward(direction, indenter)
@@ -247,18 +248,6 @@ def _held(
     depth = positive(indentation, "m", "indentation")  # type: ignore[arg-type]
     scale = Scale.for_indentation(indenter, stiffness, depth)
     return scale, GivenIndentation(1.0), {"indentation": depth}, f"{1e3 * depth:g} mm deep"
-
-
-def _indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
-    """(1 − ν_i²)/E_i in 1/Pa; zero if rigid."""
-    if modulus is None:
-        return 0.0
-    ratio = to_si(poisson_ratio, "dimensionless", "indenter_poisson_ratio")
-    if not -1.0 < ratio <= 0.5:
-        raise InputError(
-            f"indenter_poisson_ratio = {poisson_ratio!r}: must lie between -1 and 0.5, such as 0.3 of steel."
-        )
-    return (1.0 - ratio**2) / positive(modulus, "Pa", "indenter_modulus")
 
 
 def _steady_material(

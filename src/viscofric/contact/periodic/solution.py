@@ -74,9 +74,9 @@ class PeriodicSolution:
     temperature : float or None
         K, as asked.
     mean_pressure : float
-        Pa.
+        Pa: as asked, or what a given gap takes.
     mean_gap : float
-        Mean distance between the surfaces, m.
+        Mean distance between the surfaces, m: as asked, or what a given pressure leaves.
     indentation : float
         δ, m: how far the surface has moved towards the solid since their first touch.  A half-space's mean displacement
         is without meaning and counted as zero; that of a layer is contained.
@@ -98,6 +98,8 @@ class PeriodicSolution:
     pressure, displacement, gap : (nx, ny) array
         Pa; m into the solid (for a layer with its mean compression); m.
     diagnostics : PeriodicDiagnostics
+    warnings : tuple of str
+        One sentence for each assumption that does not hold well.
     """
 
     speed: float
@@ -117,6 +119,7 @@ class PeriodicSolution:
     displacement: Array = field(repr=False)
     gap: Array = field(repr=False)
     diagnostics: PeriodicDiagnostics
+    warnings: tuple[str, ...] = ()
 
     def to_dataset(self) -> xarray.Dataset:
         """Return pressure, displacement and gap as a labelled data set with units in its attributes."""

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import functools
 import math
+from dataclasses import replace
+from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import scipy.fft
 
 from viscofric.contact.backend import Backend
+from viscofric.contact.counterface import indenter_compliance
+from viscofric.contact.indenters import too_steep
 from viscofric.contact.layers import Layer
 from viscofric.contact.motion import unit_direction
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
@@ -115,19 +119,21 @@ def solve_periodic(
     """
     velocity, toward = _motion(speed, direction)
     if (pressure is None) == (gap is None):
-        raise InputError("either the mean pressure or the mean gap must be given, and not both: pressure= or gap=.")
-    if not TIGHTEST <= tolerance <= LOOSEST:
-        raise InputError(f"tolerance = {tolerance!r}: must lie between {TIGHTEST:g} and {LOOSEST:g}.")
+        both = "neither" if pressure is None else "both"
+        raise InputError(f"pressure and gap: {both} given; give exactly one of them, mean pressure or mean gap.")
+    if not (isinstance(tolerance, Real) and TIGHTEST <= tolerance <= LOOSEST):
+        raise InputError(f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.")
     if not (layer is None or isinstance(layer, Layer)):
-        raise InputError(f"layer must be a Layer(thickness=…), not {type(layer).__name__}.")
+        raise InputError(f"layer = {layer!r}: must be a Layer, such as Layer(thickness='2 mm').")
     where = Backend.of(backend)
+    modulus = material.at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
     solid = SlidingSolid(
-        material.at(kelvin),
+        modulus,
         material.poisson_ratio,
         (_component(velocity, toward[0]), _component(velocity, toward[1])),
         layer,
-        _indenter_compliance(indenter_modulus, indenter_poisson_ratio),
+        indenter_compliance(indenter_modulus, indenter_poisson_ratio),
         toward,
     )
     given = _Given.of(surface, pressure, gap)
@@ -144,7 +150,18 @@ def solve_periodic(
         most_products=most_products,
         backend=where,
     )
-    return _assemble(surface, solid, result, work, given, _Units(depth, unit), (velocity, toward, kelvin), finest)
+    solution = _assemble(surface, solid, result, work, given, _Units(depth, unit), (velocity, toward, kelvin), finest)
+    return replace(solution, warnings=_doubts(solution, surface, layer))
+
+
+def _doubts(solution: PeriodicSolution, surface: PeriodicSurface, layer: Layer | None) -> tuple[str, ...]:
+    """Return what is doubtful about small strain; of many spots the rms slope says more than the steepest place."""
+    loaded = solution.pressure > 0.0
+    square = sum(float(np.square(surface.slope(axis)[loaded]).mean()) for axis in ((1.0, 0.0), (0.0, 1.0)))
+    doubts = [too_steep(math.sqrt(square))]
+    if layer is not None:
+        doubts.append(layer.doubt(solution.indentation))
+    return tuple(doubt for doubt in doubts if doubt)
 
 
 class _Given(NamedTuple):
@@ -181,14 +198,6 @@ def _motion(speed: Quantity, direction: Sequence[float]) -> tuple[float, tuple[f
 
 def _component(velocity: float, part: float) -> float:
     return velocity * part if part != 0.0 and velocity != 0.0 else 0.0
-
-
-def _indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
-    if modulus is None:
-        return 0.0
-    if not -1.0 < poisson_ratio <= 0.5:
-        raise InputError(f"indenter_poisson_ratio = {poisson_ratio!r}: must lie between −1 and 0.5.")
-    return (1.0 - poisson_ratio**2) / positive(modulus, "Pa", "indenter_modulus")
 
 
 def _stages(
@@ -239,8 +248,8 @@ def _assemble(
         speed=velocity,
         direction=toward,
         temperature=kelvin,
-        mean_pressure=mean_pressure,
-        mean_gap=mean_gap,
+        mean_pressure=mean_pressure if given.pressure is None else given.pressure,
+        mean_gap=mean_gap if given.gap is None else given.gap,
         indentation=units.depth * result.indentation + compression,
         friction_coefficient=by_energy / mean_pressure,
         pressure_friction_coefficient=by_pressure / mean_pressure,
