@@ -104,3 +104,32 @@ def test_tables_that_no_solid_has_are_refused() -> None:
     short = vf.Material(ModulusTable(omega[:3], omega[:3], omega[:3]))
     with pytest.raises(InputError, match="too short"):
         short.modes_at()
+
+
+def test_a_contact_faster_than_its_table_is_told() -> None:
+    material = vf.Material(table(SHARP, -1, 2))
+
+    def warnings(speed: float, material: vf.Material = material) -> str:
+        solution = vf.solve_steady(material, vf.Cylinder(radius=10e-3), speed=speed, load=100.0, accuracy=0.1)
+        return " ".join(solution.warnings)
+
+    # The contact is about 0.4 mm long to either side: v/a of 25, 2500 and 0.025 rad/s.
+    assert "lies beyond" not in warnings(0.01)
+    assert "lies beyond those of the table, 0.1 to 100 rad/s" in warnings(1.0)
+    assert "lies beyond those of the table" in warnings(1e-5)
+    assert "lies beyond" not in warnings(0.0)  # the elastic limits have no frequency
+    # Where the user knows that nothing relaxes out there, nothing is extrapolated.
+    assert "lies beyond" in warnings(1e-6, vf.Material(table(SHARP, 0, 5)))
+    assert "lies beyond" not in warnings(1e-6, vf.Material(table(SHARP, 0, 5, extrapolate="plateau")))
+    # Ten times warmer in frequency, the table reaches ten times farther.
+    law = vf.WLF(10.0, 100.0, 300.0)
+    hot = next(T for T in np.arange(300.0, 340.0) if float(law(T)) < 0.01)
+    warm = vf.solve_steady(
+        vf.Material(table(SHARP, -1, 2), shift=law),
+        vf.Cylinder(radius=10e-3),
+        speed=1.0,
+        load=100.0,
+        temperature=float(hot),
+        accuracy=0.1,
+    )
+    assert "lies beyond" not in " ".join(warm.warnings)

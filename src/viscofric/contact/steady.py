@@ -25,6 +25,7 @@ from viscofric.contact.problem import Problem
 from viscofric.contact.scale import Scale, ScaledIndenter
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si
 
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from viscofric.contact.control import Control
     from viscofric.contact.grids import Extent
     from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.rheology.spectra.modulus_table import ModulusTable
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -186,7 +187,8 @@ def solve_steady(
     fine = stages[-1]
     contact = shape.extent(fine.window, fine.result.pressure > 0.0)
     doubts = _doubts(solution, indenter, layer, contact)
-    return replace(solution, warnings=(*doubts, *material.notes_on_modes))
+    said = (*material.notes_on_modes, *_beyond_table(solution, material.spectrum, spectrum))
+    return replace(solution, warnings=(*doubts, *said))
 
 
 def _velocity(speed: Quantity) -> float:
@@ -282,3 +284,21 @@ def _doubts(solution: ContactSolution, indenter: Indenter, layer: Layer | None, 
     if layer is not None:
         doubts.append(layer.doubt(solution.indentation))
     return tuple(doubt for doubt in doubts if doubt)
+
+
+def _beyond_table(
+    solution: ContactSolution, known: RetardationSpectrum | ModulusTable, modes: RetardationSpectrum
+) -> tuple[str, ...]:
+    """Tell where the modes fitted to a table of moduli answer for frequencies that it refuses to tell."""
+    if isinstance(known, RetardationSpectrum) or known.extrapolate != "refuse" or modes.fit is None:
+        return ()
+    low, high = modes.fit.frequency_range
+    frequency = abs(solution.speed) / (0.5 * (solution.front + solution.rear))
+    # The elastic limits rest on E0 or E_inf alone, of which the fit tells by itself whether they are extrapolated.
+    if frequency == 0.0 or math.isinf(frequency) or low <= frequency <= high:
+        return ()
+    said = (
+        f"The contact's frequency v/a, {frequency:.3g} rad/s, lies beyond those of the table, {low:.3g} to {high:.3g} "
+        "rad/s at this temperature: the friction rests on the extrapolated modes."
+    )
+    return (said,)
