@@ -169,9 +169,7 @@ def test_reference_values(reference: BallReference) -> None:
 @pytest.mark.parametrize("problem", [SLS, standard_linear_solid(1000.0, 100.0)], ids=lambda p: p.name)
 def test_friction_converges_with_the_grid(problem: BallProblem) -> None:
     solution = problem.solve(accuracy=3e-5)
-    cells, lean, energy, indentation, _ = (
-        np.array(level) for level in zip(*solution.diagnostics.levels, strict=True)
-    )
+    cells, lean, energy, indentation, _ = (np.array(level) for level in zip(*solution.diagnostics.levels, strict=True))
     assert np.all(cells[1:] >= 2 * cells[:-1] - 2)
     for values in (lean, energy, indentation):
         changes = np.abs(np.diff(values))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -12,16 +12,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viscofric.contact.adjoint import friction_gradient
+from viscofric.contact.balance import lag, lag_changes
 from viscofric.contact.control import GivenIndentation, GivenLoad
 from viscofric.contact.geometry import LINE, POINT
 from viscofric.contact.grids import Window
 from viscofric.contact.indenters import Ball, Cylinder, Indenter
 from viscofric.contact.influence import memory_influence
 from viscofric.contact.influence_moments import correlation, memory_moments
-from viscofric.contact.layers import Layer
-from viscofric.contact.line_influence import line_memory_changes, line_memory_influence
+from viscofric.contact.layer_operator import ScaledLayer
+from viscofric.contact.layer_potentials import LayerCell
+from viscofric.contact.line_influence import HalfSpaceStrip, line_memory_influence
 from viscofric.contact.nested import find_window
 from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.potentials import HalfSpaceCell
 from viscofric.contact.problem import Problem, Stage
 from viscofric.contact.reference import hunter_line
 from viscofric.contact.scale import Scale, ScaledIndenter
@@ -38,6 +41,7 @@ if TYPE_CHECKING:
 
     from viscofric.contact.derivatives import FrictionDerivatives
     from viscofric.contact.geometry import Geometry
+    from viscofric.contact.potentials import CellPotential
 
     Array = NDArray[np.float64]
 
@@ -59,16 +63,21 @@ def solved(
     return solution.derivatives
 
 
+@dataclass(frozen=True)
 class Paraboloid:
-    """x²/2 + y²/2, in units of the Hertz contact."""
+    """x²/2 + y²/2, or less along y, in units of the Hertz contact."""
 
-    has_walls = False
+    along_y: float = 1.0
+    has_walls: bool = False
 
     def height(self, x: Array, y: Array) -> Array:
-        return 0.5 * (x**2 + y**2)
+        return 0.5 * (x**2 + self.along_y * y**2)
 
     def slope(self, x: Array, y: Array) -> Array:
         return x + 0.0 * y
+
+
+ROUND, WIDE = Paraboloid(), Paraboloid(along_y=0.02)
 
 
 def central_difference(function: Callable[[float], Array], step: float) -> Array:
@@ -89,43 +98,71 @@ def test_correlation_gathers_all_pairs_of_cells_at_one_distance() -> None:
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.3])
-def test_moments_are_sums_of_influence_coefficients_and_change_with_the_memory(shift: float) -> None:
+@pytest.mark.parametrize("cell", [HalfSpaceCell(), HalfSpaceCell(4.0), LayerCell(3.0, True, 0.3, 2.0)])
+def test_moments_are_sums_of_influence_coefficients_and_change_with_the_memory(
+    cell: CellPotential, shift: float
+) -> None:
     weights = np.random.default_rng(2).normal(size=(2, 29, 20))
 
     def sums(logarithm: float) -> Array:
         lengths = LENGTHS * np.exp(logarithm)
-        return np.asarray(
-            np.einsum("kij,mij->km", weights, memory_influence((15, 20), np.eye(len(lengths)), lengths, shift))
-        )
+        modes = np.eye(len(lengths))
+        found = memory_influence((15, 20), modes, lengths, shift, potential=cell, aspect=cell.aspect)
+        return np.asarray(np.einsum("kij,mij->km", weights, found))
 
-    moments, sensitivities = memory_moments(weights, LENGTHS, shift)
+    moments, sensitivities = memory_moments(weights, LENGTHS, shift, cell)
     assert moments == pytest.approx(sums(0.0), abs=1e-12)  # the same rule
     # The coefficients are right to about 1e-11, which the difference divides by its step.
     assert sensitivities == pytest.approx(central_difference(sums, 1e-3), abs=2e-8)
 
 
 @pytest.mark.parametrize("length", [1e-3, 0.3, 5.0, 1e4])
-def test_line_coefficients_change_with_the_memory(length: float) -> None:
+def test_moments_of_a_strip_are_those_of_the_closed_form(length: float) -> None:
     x = np.arange(-40.0, 41.0) - 0.2
     weights = np.random.default_rng(3).normal(size=81)
-    even = weights + weights[::-1]  # the dissipation is known up to what is odd, here about the loaded cell
 
     def sums(logarithm: float) -> Array:
-        displacement = line_memory_influence(x, length * np.exp(logarithm))[0]
-        dissipation = line_memory_influence(x + 0.2, length * np.exp(logarithm))[1]
-        return np.array([weights @ displacement, even @ dissipation])
+        return np.array([weights @ line_memory_influence(x, length * np.exp(logarithm))[0]])
 
-    found = weights @ line_memory_changes(x, length)[0], even @ line_memory_changes(x + 0.2, length)[1]
-    expected = central_difference(sums, 1e-3)
-    assert np.array(found) == pytest.approx(expected, rel=1e-8, abs=1e-9)  # differences of fourth order
+    moments, sensitivities = memory_moments(weights[None, :, None], np.array([length]), 0.2, HalfSpaceStrip())
+    assert moments[0] == pytest.approx(sums(0.0), rel=1e-11, abs=1e-11)
+    assert sensitivities[0] == pytest.approx(central_difference(sums, 1e-3), rel=1e-8, abs=1e-9)  # of fourth order
+
+
+@pytest.mark.parametrize("counterface", [0.0, 0.1])
+def test_lag_of_what_cells_leave_out_changes_with_the_material(counterface: float) -> None:
+    solid = SteadyMaterial(0.05, np.array([0.2, 0.3, 0.4]), np.array([1e-3, 0.2, 3.0]), counterface)
+    glassy, compliances, lengths = lag_changes(solid, 0.02, 1.0)
+
+    def change(name: str, place: int | None = None) -> float:
+        unit = 1.0 if place is None else np.eye(3)[place]
+
+        def moved(step: float) -> Array:
+            there = replace(solid, **{name: getattr(solid, name) * (1.0 + step * unit)})
+            return np.array(lag(there, 0.02, 1.0))
+
+        return float(central_difference(moved, 1e-3))
+
+    assert glassy * solid.glassy == pytest.approx(change("glassy"), rel=1e-8)  # differences of fourth order
+    for k in range(3):
+        assert compliances[k] * solid.compliances[k] == pytest.approx(change("compliances", k), rel=1e-8)
+        assert lengths[k] * solid.memory_lengths[k] == pytest.approx(change("memory_lengths", k), rel=1e-8)
 
 
 @cache
-def converged(geometry: Geometry, held: str, k: float, length: float) -> Stage:
+def converged(
+    geometry: Geometry, held: str, k: float, length: float, shape: Paraboloid = ROUND, layered: bool = False
+) -> Stage:
     """Solve on the window's first grid, as exactly as doubles allow."""
-    solid = SteadyMaterial(1.0 / k, (1.0 - 1.0 / k) * np.array([0.6, 0.4]), np.array([0.2 * length, length]))
+    compliances = (1.0 - 1.0 / k) * np.array([0.6, 0.4])
+    solid = SteadyMaterial(1.0 / k, compliances, np.array([0.2 * length, length]), 0.1 if layered else 0.0)
     control = GivenLoad(geometry.parabolic_load) if held == "load" else GivenIndentation(1.0)
-    problem = Problem(geometry, solid, Paraboloid(), control, 1e-13)
+    layer = ScaledLayer(0.8, bonded=True, poisson_ratio=0.45) if layered else None
+    if layer is not None:
+        # In plane strain, without a counterface: a given indentation then has a meaning.
+        solid = replace(solid, counterface=0.0 if held == "indentation" else 0.1)
+        geometry = layer.geometry(geometry, solid.counterface)
+    problem = Problem(geometry, solid, shape, control, 1e-13, layer=layer)
     return find_window(problem, problem.first_size)
 
 
@@ -141,27 +178,36 @@ def friction(stage: Stage, way: str, **changed: float | Array) -> float:
     assert result.converged
     assert np.array_equal(result.pressure > 0.0, stage.result.pressure > 0.0)
     there = Stage(stage.problem, stage.window, operator, result)
+    if way == "balance":
+        return there.balanced_friction.value
     return there.pressure_friction if way == "pressure" else there.energy_friction
 
 
-@pytest.mark.parametrize("way", ["pressure", "energy"])
+@pytest.mark.parametrize("way", ["pressure", "balance", "energy"])
 @pytest.mark.parametrize(
-    ("geometry", "held", "k", "length"),
+    ("geometry", "held", "k", "length", "shape", "layered"),
     [
-        (POINT, "load", 10.0, 2.0),
-        (POINT, "indentation", 10.0, 2.0),
-        (POINT, "load", 300.0, 1.0),
-        (LINE, "load", 10.0, 2.0),
-        (LINE, "load", 300.0, 1.0),
+        (POINT, "load", 10.0, 2.0, ROUND, False),
+        (POINT, "indentation", 10.0, 2.0, ROUND, False),
+        (POINT, "load", 300.0, 1.0, ROUND, False),
+        (POINT, "load", 4.0, 0.5, WIDE, False),
+        (POINT, "load", 4.0, 0.5, WIDE, True),
+        (POINT, "indentation", 10.0, 2.0, ROUND, True),
+        (LINE, "load", 10.0, 2.0, ROUND, False),
+        (LINE, "load", 300.0, 1.0, ROUND, False),
+        (LINE, "load", 10.0, 2.0, ROUND, True),
+        (LINE, "indentation", 10.0, 2.0, ROUND, True),
     ],
 )
 def test_derivatives_are_those_of_the_solution_on_its_cells(
-    geometry: Geometry, held: str, k: float, length: float, way: str
+    geometry: Geometry, held: str, k: float, length: float, shape: Paraboloid, layered: bool, way: str
 ) -> None:
-    stage = converged(geometry, held, k, length)
+    stage = converged(geometry, held, k, length, shape, layered)
     assert (stage.operator.shift > 0.0) == (k > 100.0)  # both where the gap is looked at behind the centres and not
+    assert (stage.window.width > stage.window.spacing) == (shape is WIDE)
+    geometry = stage.problem.geometry
     solid, gradient = stage.operator.material, friction_gradient(stage, way)  # type: ignore[arg-type]
-    depth = stage.result.indentation if held == "indentation" else geometry.parabolic_load
+    depth = 1.0 if held == "indentation" else geometry.parabolic_load
     step = 1e-5
     first = np.array([1.0, 0.0])
 
@@ -332,11 +378,6 @@ def test_units_do_not_matter() -> None:
 def test_elastic_limits_are_refused(speed: float) -> None:
     with pytest.raises(InputError, match="no friction to differentiate"):
         solved([6e-7], [1e-3], speed=speed)
-
-
-def test_layers_are_refused() -> None:
-    with pytest.raises(InputError, match="known for half-spaces only"):
-        solved([6e-7], [1e-3], layer=Layer(thickness=1e-3))  # type: ignore[arg-type]
 
 
 def test_transposed_operator_has_the_transposed_matrix() -> None:

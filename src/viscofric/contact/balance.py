@@ -60,10 +60,22 @@ def opening(window: Grid, pressure: Array, gap: Array) -> float:
     gap : (nx, ny) array
         Between surface and indenter, as the contact conditions see it.
     """
+    beside = neighbours(free_gap(pressure, gap))
+    return window.cell_area * float(np.vdot(pressure, beside)) / window.spacing**2
+
+
+def free_gap(pressure: Array, gap: Array) -> Array:
+    """Return the gap at free cells, zero in the contact."""
     # Beyond the edge of a height map the gap is infinite; a contact that reaches it is refused.
-    free = np.where((pressure > 0.0) | np.isinf(gap), 0.0, np.maximum(gap, 0.0))
-    beside = np.vdot(pressure[1:], free[:-1]) + np.vdot(pressure[:-1], free[1:])
-    return window.cell_area * float(beside) / window.spacing**2
+    return np.where((pressure > 0.0) | np.isinf(gap), 0.0, np.maximum(gap, 0.0))
+
+
+def neighbours(values: Array) -> Array:
+    """Sum of the values in the cells before and behind each."""
+    found = np.zeros_like(values)
+    found[1:] += values[:-1]
+    found[:-1] += values[1:]
+    return found
 
 
 def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
@@ -85,3 +97,40 @@ def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
         loss += share * length / (1.0 + (wavenumber * length) ** 2)
     weight = (wavenumber * np.abs(compliance)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
     return float((wavenumber * loss) @ weight) / float((wavenumber * compliance.real) @ weight)
+
+
+def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[float, Array, Array]:
+    """Return how Λ changes with the glassy compliance, and with the modes' compliances and memory lengths.
+
+    Parameters
+    ----------
+    material, spacing, cut
+        As of `lag`.
+    """
+    wavenumber = cut / spacing * np.exp(np.linspace(0.0, _LONGEST, _STEPS))
+    lengths, compliances = material.memory_lengths, material.compliances
+    share = bent_share(lengths / spacing)
+    symbol = material.symbol(wavenumber)
+    weight = (wavenumber * np.abs(symbol)) ** -2.0
+    loss = np.zeros(_STEPS)
+    for one, compliance, length in zip(share, compliances, lengths, strict=True):
+        loss += one * compliance * length / (1.0 + (wavenumber * length) ** 2)
+    whole = float((wavenumber * symbol.real) @ weight)
+    value = float((wavenumber * loss) @ weight) / whole
+    # d(ab/c) with the weight's logarithm −2 Re(dS/S): what a change of S does, and what one of the loss.
+    by_loss = wavenumber * weight / whole
+    twice = 2.0 * by_loss * (loss - value * symbol.real) / np.abs(symbol) ** 2
+
+    def by_symbol(change: Array) -> float:
+        return float(-twice @ (change * symbol.conj()).real - value * (by_loss @ change.real))
+
+    by_compliance, by_length = np.zeros_like(lengths), np.zeros_like(lengths)
+    for k, (one, compliance, length) in enumerate(zip(share, compliances, lengths, strict=True)):
+        wave = 1.0 / (1.0 - 1j * wavenumber * length)
+        lost = length * np.abs(wave) ** 2
+        by_compliance[k] = by_symbol(wave) + one * float(by_loss @ lost)
+        # ∂(l/(1 + q²l²))/∂ ln l, and the share's own change, both per length
+        change = one * lost * (2.0 * np.abs(wave) ** 2 - 1.0) - 2.0 * one * (1.0 - one) * lost
+        by_length[k] = compliance / length * float(by_loss @ change)
+        by_length[k] += by_symbol(compliance * 1j * wavenumber * wave**2)
+    return by_symbol(np.ones(_STEPS, complex)), by_compliance, by_length

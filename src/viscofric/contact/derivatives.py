@@ -65,9 +65,10 @@ class FrictionDerivatives:
         ∂μ/∂δ, 1/m; None where the load is given.
     logarithmic : LogarithmicDerivatives
         The same with respect to the logarithms.
-    way : {"pressure", "energy"}
+    way : {"pressure", "balance", "energy"}
         What was differentiated: the friction coefficient from the lean of the pressure, or that from the dissipated
-        energy, whichever the solution trusts (the latter where the friction coefficient is extrapolated from it).
+        energy with what the cells at the edge leave out, whichever the solution trusts; where the indenter has walls,
+        that from the energy alone.
     error : float
         Error estimate of the logarithmic derivatives, from the largest of their changes on the last three grids.
 
@@ -110,8 +111,6 @@ def differentiate(
     ------
     ConvergenceError
         If an adjoint problem is not solved.
-    InputError
-        If the solid is not a half-space.
     """
     way = friction_way(stages)
     found = [

@@ -33,9 +33,11 @@ from viscofric.contact.memory_rules import lattice_interpolation, panel_points, 
 from viscofric.contact.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
+
+    from viscofric.contact.memory_rules import Inexact
 
     Array: TypeAlias = NDArray[np.float64]
     Potential: TypeAlias = Callable[[Array, Array], Array]
@@ -63,7 +65,7 @@ _ROW_RULES: tuple[tuple[float, Array, int], ...] = (
 _GRADED_ROWS = 0.4
 _HALVINGS = 0.5 ** np.arange(1.0, 31.0)
 # Rows that are transformed in one go: few enough for the cache.
-_ROWS_AT_ONCE = 48
+ROWS_AT_ONCE = 48
 _HALF_SPACE = HalfSpaceCell()
 # Digits that are kept of what comes from beyond the window, as a function of y.
 _TAIL_ACCURACY = 1e-13
@@ -111,32 +113,58 @@ def memory_influence(
     come out, for each row of cells and each two mixtures.
     """
     nx, ny = shape
-    around = _Around(potential, nx, shift)
+    around = Around(potential, nx, shift)
     result = np.zeros((len(mixtures), 2 * nx - 1, ny))
-    modes = _Modes.of(memory_lengths, mixtures)
-    weights = modes.lattice_weights(2 * nx + 10)
+    modes, mixtures = Modes(1.0 / np.asarray(memory_lengths, dtype=float)), np.asarray(mixtures, dtype=float)
+    weights = _lattice_weights(modes, mixtures, 2 * nx + 10)
     if instant is not None:
-        weights[:, -_FIRST] += instant
+        weights[:, -FIRST] += instant
     length = scipy.fft.next_fast_len(4 * nx + 8, real=True)
     spectra = np.conj(scipy.fft.rfft(weights, length, axis=1))
     rows = aspect * np.arange(float(ny))
-    for start in range(0, ny, _ROWS_AT_ONCE):
-        piece = slice(start, min(start + _ROWS_AT_ONCE, ny))
+    for start in range(0, ny, ROWS_AT_ONCE):
+        piece = slice(start, min(start + ROWS_AT_ONCE, ny))
         lattice = scipy.fft.rfft(around.lattice(rows[piece]), length, axis=1)
         for k, spectrum in enumerate(spectra):
             result[k, :, piece] = scipy.fft.irfft(lattice * spectrum, length, axis=1)[:, : 2 * nx - 1].T
     if len(memory_lengths):
-        _add_tail(result, around, modes, rows)
-        _correct_near(result, around, modes, rows, 0.5 * aspect)
+        _add_tail(result, around, modes, mixtures, rows)
+        _correct_near(result, around, modes, mixtures, rows, 0.5 * aspect)
     return result
 
 
-_FIRST = int(lattice_interpolation(_NODES)[0][0])
+def _lattice_weights(modes: Modes, mixtures: Array, count: int) -> Array:
+    """V(n) of each mixture from the first node on, for a memory without an end: (k, count)."""
+    # c_m w_(m, node), summed over modes cell by cell, then over the cells that use a lattice point.
+    cells = (mixtures[:, None] * modes.interpolated.T) @ modes.fading(np.arange(float(count)))
+    weights = np.zeros((len(mixtures), count))
+    for place in range(_NODES):
+        weights[:, place:] += cells[:, place, : count - place].real
+    return weights
+
+
+def _add_tail(result: Array, around: Around, modes: Modes, mixtures: Array, rows: Array) -> None:
+    tail, interpolation = beyond(around, modes, rows)
+    fading = modes.fading(np.arange(2.0 * around.nx - 1.0, 0.0, -1.0))
+    for mixture, found in zip(mixtures, result, strict=True):
+        found += ((mixture[:, None] * fading).T @ tail) @ interpolation
+
+
+def _correct_near(result: Array, around: Around, modes: Modes, mixtures: Array, rows: Array, edge: float) -> None:
+    begin, end = (distance + around.nx - 1 for distance in near_cells(around.nx))
+    before = modes.fading(np.arange(float(begin), 0.0, -1.0))
+    for piece, memory in near_memory(around, modes, rows, edge):
+        for mixture, found in zip(mixtures, result, strict=True):
+            found[begin : end + 1, piece] += mixture @ memory
+            found[:begin, piece] += (mixture[:, None] * before).T @ memory[0]
+
+
+FIRST = int(lattice_interpolation(_NODES)[0][0])
 _LAST = int(lattice_interpolation(_NODES)[0][-1])
 
 
 @dataclass(frozen=True)
-class _Around:
+class Around:
     """The potential around the loaded cell, at places along x that are looked at."""
 
     potential: Potential
@@ -151,66 +179,56 @@ class _Around:
         """Values at x = −(nx−1) + first … nx−1 + last node, for each row: (rows, 2 nx + 10)."""
         end = self.nx + _LAST
         if self.shift != 0.0:
-            return self.potential(np.arange(-(self.nx - 1.0) + _FIRST, end) - self.shift, y[:, None])
+            return self.potential(np.arange(-(self.nx - 1.0) + FIRST, end) - self.shift, y[:, None])
         half = self.potential(np.arange(float(end)), y[:, None])
         return np.concatenate([half[:, end - 2 : 0 : -1], half], axis=1)
 
 
 @dataclass(frozen=True)
-class _Modes:
-    """Rates at which modes fade per cell, in mixtures."""
+class Modes:
+    """Rates at which modes fade per cell, real or with imaginary parts that stand for a change."""
 
-    rate: Array
-    mixtures: Array
-
-    @classmethod
-    def of(cls, memory_lengths: Array, mixtures: Array) -> _Modes:
-        return cls(1.0 / np.asarray(memory_lengths, dtype=float), np.asarray(mixtures, dtype=float))
+    rate: Inexact
 
     @cached_property
-    def interpolated(self) -> Array:
+    def interpolated(self) -> Inexact:
         """Weights (m, nodes) of the lattice points around a cell in the integral over that cell."""
         return np.asarray(product_weights(_NODES, self.rate) @ lattice_interpolation(_NODES)[1])
 
-    def fading(self, cells: Array) -> Array:
+    def fading(self, cells: Array) -> Inexact:
         """Return what is left of each mode so many cells ahead: (m, cells)."""
         return np.asarray(np.exp(-self.rate[:, None] * cells))
 
-    def lattice_weights(self, count: int) -> Array:
-        """V(n) of each mixture from the first node on, for a memory without an end: (k, count)."""
-        # c_m w_(m, node), summed over modes cell by cell, then over the cells that use a lattice point.
-        cells = (self.mixtures[:, None] * self.interpolated.T) @ self.fading(np.arange(float(count)))
-        weights = np.zeros((len(self.mixtures), count))
-        for place in range(_NODES):
-            weights[:, place:] += cells[:, place, : count - place]
-        return weights
 
-
-def _add_tail(result: Array, around: _Around, modes: _Modes, rows: Array) -> None:
-    """Add what the memory keeps from beyond the window, in the place of the lattice's own end there.
+def beyond(around: Around, modes: Modes, rows: Array) -> tuple[Inexact, Array]:
+    """Return what the memory keeps from beyond the window, in the place of the lattice's own end there.
 
     As a function of y it is smooth, since its sources are at least a window away: it is found at few rows.
+
+    Returns
+    -------
+    tail : (m, n) array
+        K at x = nx, at few rows; farther behind it fades.
+    interpolation : (n, ny) array
+        From those rows to all.
     """
     nx = around.nx
-    nodes, interpolation = _smooth_rows(rows, nx + _FIRST - 1.0)
+    nodes, interpolation = _smooth_rows(rows, nx + FIRST - 1.0)
     start = np.array([float(nx)])
-    end = _FADED / modes.rate.min()
+    end = _FADED / modes.rate.real.min()
     edges = [0.0, float(nx)]
     while edges[-1] < end:
         edges.append(2.0 * edges[-1] + nx)
     points, weights = panel_rule(np.array(edges), 16, modes.rate)
     tail = weights @ around.at(start + points, nodes)
     # The convolution knows the lattice up to nx − 1 + last node, and interpolates there in a few cells of its own.
-    places = np.arange(nx + _FIRST, nx + _LAST)
-    spurious = np.zeros((len(modes.rate), len(places)))
-    for cell in range(nx, nx + _LAST - _FIRST):
-        known = (places >= cell + _FIRST) & (places <= cell + _LAST)
+    places = np.arange(nx + FIRST, nx + _LAST)
+    spurious = np.zeros((len(modes.rate), len(places)), modes.rate.dtype)
+    for cell in range(nx, nx + _LAST - FIRST):
+        known = (places >= cell + FIRST) & (places <= cell + _LAST)
         faded = np.exp(-modes.rate * (cell - nx))[:, None]
-        spurious[:, known] += faded * modes.interpolated[:, places[known] - cell - _FIRST]
-    tail -= spurious @ around.at(places.astype(float), nodes)
-    fading = modes.fading(np.arange(2.0 * nx - 1.0, 0.0, -1.0))
-    for mixture, found in zip(modes.mixtures, result, strict=True):
-        found += ((mixture[:, None] * fading).T @ tail) @ interpolation
+        spurious[:, known] += faded * modes.interpolated[:, places[known] - cell - FIRST]
+    return tail - spurious @ around.at(places.astype(float), nodes), interpolation
 
 
 def _smooth_rows(rows: Array, distance: float) -> tuple[Array, Array]:
@@ -230,14 +248,25 @@ def _smooth_rows(rows: Array, distance: float) -> tuple[Array, Array]:
     return 0.5 * length * (nodes + 1.0), np.asarray(matrix.T)
 
 
-def _correct_near(result: Array, around: _Around, modes: _Modes, rows: Array, edge: float) -> None:
-    """Replace the interpolation near the loaded cell, whose edge lies so far out in y, by finer rules."""
-    nx = around.nx
-    first, last = max(-(nx - 1), -_SMOOTH - 1), min(nx - 1, _SMOOTH)
+def near_cells(nx: int) -> tuple[int, int]:
+    """Return the first and the last distance along x at which the interpolation needs a correction."""
+    return max(-(nx - 1), -_SMOOTH - 1), min(nx - 1, _SMOOTH)
+
+
+def near_memory(around: Around, modes: Modes, rows: Array, edge: float) -> Iterator[tuple[slice, Inexact]]:
+    """Yield what finer rules change near the loaded cell, whose edge lies so far out in y.
+
+    Yields
+    ------
+    rows : slice
+        That share a rule.
+    memory : (cells, m, n) array
+        At the distances `near_cells` along x, for these rows; farther behind the first of them it fades.
+    """
+    first, last = near_cells(around.nx)
     starts = np.searchsorted(rows - edge, [start for start, _, _ in _ROW_RULES])
     graded = int(np.searchsorted(rows - edge, _GRADED_ROWS))
     decay = np.exp(-modes.rate)[:, None]
-    before = modes.fading(np.arange(first + nx - 1.0, 0.0, -1.0))
     for rule, (start, stop) in enumerate(pairwise(starts)):
         if stop == start:
             continue
@@ -245,19 +274,17 @@ def _correct_near(result: Array, around: _Around, modes: _Modes, rows: Array, ed
         fine = panel_rule(*_ROW_RULES[rule][1:], modes.rate)[1]
         lattice, potential = _near_potentials(around.potential, around.shift, first, last, y, rule)
         singular = _missed_by_edge(around, modes.rate, fine, y[:graded]) if start == 0 else {}
-        memory = np.zeros((len(modes.rate), len(y)))
+        memory = np.zeros((last + 1 - first, len(modes.rate), len(y)), modes.rate.dtype)
         for i in range(last, first - 1, -1):
             place = i - first
-            memory *= decay
-            memory += fine @ potential[place] - modes.interpolated @ lattice[place : place + _NODES]
+            added = fine @ potential[place] - modes.interpolated @ lattice[place : place + _NODES]
+            memory[place] = added if i == last else added + decay * memory[place + 1]
             if i in singular:
-                memory[:, :graded] += singular[i]
-            result[:, i + nx - 1, start:stop] += modes.mixtures @ memory
-        for mixture, found in zip(modes.mixtures, result, strict=True):
-            found[: first + nx - 1, start:stop] += (mixture[:, None] * before).T @ memory
+                memory[place, :, :graded] += singular[i]
+        yield slice(start, stop), memory
 
 
-def _missed_by_edge(around: _Around, rate: Array, coarse: Array, y: tuple[float, ...]) -> dict[int, Array]:
+def _missed_by_edge(around: Around, rate: Inexact, coarse: Inexact, y: tuple[float, ...]) -> dict[int, Inexact]:
     """Return what the nearest rows' rule misses from a cell's centre to the next.
 
     At the edges x = ±1/2 L has a logarithm in its slope; panels halve towards it from both sides.
@@ -278,7 +305,7 @@ def _near_potentials(
     """
     rows, cells = np.array(y), np.arange(first, last + 1.0)
     points = panel_points(*_ROW_RULES[rule][1:])
-    lattice = potential(np.arange(first + _FIRST, last + _LAST + 1.0)[:, None] - shift, rows)
+    lattice = potential(np.arange(first + FIRST, last + _LAST + 1.0)[:, None] - shift, rows)
     within = potential((cells[:, None] + points).reshape(-1, 1) - shift, rows)
     return lattice, within.reshape(len(cells), len(points), len(rows))
 

@@ -86,16 +86,22 @@ class LayerOperator(ConvolutionOperator):
 
     layer: ScaledLayer | None = None
 
-    def _influence(self) -> Influence:
+    unit = 1.0 / np.pi
+
+    @property
+    def cell(self) -> LayerCell:
+        """Potential of a cell, in units of the cell's length."""
         assert self.layer is not None
-        (nx, ny), h = self.window.shape, self.window.spacing
-        aspect = self.window.width / h
-        thickness = self.layer.in_cells(max(h, self.window.width)) * max(1.0, aspect)
-        cell = LayerCell(thickness, self.layer.bonded, self.layer.poisson_ratio, aspect)
-        found = cell_influence(self, cell, self.material.glassy).times(1.0 / np.pi, h)
+        aspect = self.window.width / self.window.spacing
+        thickness = self.layer.in_cells(max(self.window.spacing, self.window.width)) * max(1.0, aspect)
+        return LayerCell(thickness, self.layer.bonded, self.layer.poisson_ratio, aspect)
+
+    def _influence(self) -> Influence:
+        (nx, ny), h, aspect = self.window.shape, self.window.spacing, self.cell.aspect
+        found = cell_influence(self, self.cell, self.material.glassy).times(self.unit, h)
         if self.material.counterface > 0.0:
             x, y = np.arange(-(nx - 1.0), nx)[:, None] - self.shift, aspect * np.arange(float(ny))
-            found.displacement[:] += h / np.pi * self.material.counterface * cell_potential(x, y, aspect)
+            found.displacement[:] += self.unit * h * self.material.counterface * cell_potential(x, y, aspect)
         return found
 
 
@@ -113,15 +119,21 @@ class LineLayerOperator(ConvolutionOperator):
 
     layer: ScaledLayer | None = None
 
-    def _influence(self) -> Influence:
+    unit = 2.0 / np.pi
+
+    @property
+    def cell(self) -> LayerStrip:
+        """Potential of a cell, in units of the cell's length."""
         assert self.layer is not None
+        return LayerStrip(self.layer.in_cells(self.window.spacing), self.layer.bonded, self.layer.poisson_ratio)
+
+    def _influence(self) -> Influence:
         (nx, _), h = self.window.shape, self.window.spacing
-        strip = LayerStrip(self.layer.in_cells(h), self.layer.bonded, self.layer.poisson_ratio)
-        found = cell_influence(self, strip, self.material.glassy).times(2.0 / np.pi, h)
+        found = cell_influence(self, self.cell, self.material.glassy).times(self.unit, h)
         if self.material.counterface > 0.0:
             facing = strip_potential(np.arange(-(nx - 1.0), nx) - self.shift)
             level = facing.min() - 0.1 * np.ptp(facing)
-            found.displacement[:] += 2.0 * h / np.pi * self.material.counterface * (facing - level)[:, None]
+            found.displacement[:] += self.unit * h * self.material.counterface * (facing - level)[:, None]
         return found
 
 

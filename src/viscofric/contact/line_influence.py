@@ -11,7 +11,8 @@ The displacement under a pressure that is the same all along y is that of the lo
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 import numpy as np
 from scipy.special import exp1, expi
@@ -29,6 +30,22 @@ _TERMS = 20
 def strip_potential(x: Array) -> Array:
     """Integral of −ln|x − x'| over the unit cell around the origin."""
     return _antiderivative(x + 0.5) - _antiderivative(x - 0.5)
+
+
+@dataclass(frozen=True)
+class HalfSpaceStrip:
+    """Potential of a cell of a line contact on a half-space, in units of the cell's length; the same for all y."""
+
+    aspect: ClassVar[float] = 1.0  # there is one row
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """Integral of −ln|x − x'| over the cell, seen from x."""
+        return strip_potential(np.broadcast_arrays(x, y)[0])
+
+    def xx(self, x: Array, y: Array) -> Array:
+        """Second derivative along x (not for x = ±1/2)."""
+        x = np.broadcast_arrays(x, y)[0]
+        return np.asarray(1.0 / (x - 0.5) - 1.0 / (x + 0.5))
 
 
 def _antiderivative(a: Array) -> Array:
@@ -93,33 +110,3 @@ def line_memory_influence(x: Array, memory_length: float) -> tuple[Array, Array]
         return displacement, change
     # A short memory: ∂K/∂x is nearly that of the logarithm, −ln|end/start|, which is odd and left out.
     return displacement, scaled_exponential_integral(start) - scaled_exponential_integral(end)
-
-
-def line_memory_changes(x: Array, memory_length: float) -> tuple[Array, Array]:
-    """Change of `line_memory_influence` with the logarithm of the memory length.
-
-    Parameters
-    ----------
-    x : (n,) array
-        Where the displacement is looked at, in cells, relative to the loaded cell.
-    memory_length : float
-        λ = v τ / h > 0, in cells.
-
-    Returns
-    -------
-    displacement, dissipation : (n,) array
-        ∂K/∂ln λ, and that of the dissipation, up to an odd function of x likewise.
-
-    Notes
-    -----
-    From ∂b/∂ln λ = −b, ∂G/∂b = −F and ∂F/∂b = F − 1/b, so that both forms of the dissipation change alike.
-    """
-    start, end = (x - 0.5) / memory_length, (x + 0.5) / memory_length
-    change = _memory_function(end) - _memory_function(start)
-    lost = _times_itself(end) - _times_itself(start)
-    return memory_length * (change + lost), lost
-
-
-def _times_itself(b: Array) -> Array:
-    """Return b F(b), which goes to zero with b."""
-    return np.where(b == 0.0, 0.0, b * scaled_exponential_integral(np.where(b == 0.0, 1.0, b)))

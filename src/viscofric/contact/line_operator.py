@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.line_influence import line_memory_influence, strip_potential
+from viscofric.contact.line_influence import HalfSpaceStrip, line_memory_influence, strip_potential
 from viscofric.contact.operator import ConvolutionOperator, Influence, bent_share, second_difference
 
 if TYPE_CHECKING:
@@ -25,6 +25,9 @@ class LineOperator(ConvolutionOperator):
     keeps the operator positive definite.  Only differences of displacements mean something.
     """
 
+    unit = 2.0 / np.pi
+    cell = HalfSpaceStrip()
+
     def _influence(self) -> Influence:
         (cells, _), h = self.window.shape, self.window.spacing
         x = np.arange(-(cells - 1.0), cells)
@@ -40,7 +43,7 @@ class LineOperator(ConvolutionOperator):
         displacement = centred if self.shift == 0.0 else self._delayed(x - self.shift)
         level = centred.min() - 0.1 * np.ptp(centred)
         found = Influence((displacement - level)[:, None], dissipation[:, None], bent_dissipation[:, None])
-        return found.times(2.0 / np.pi, h)
+        return found.times(self.unit, h)
 
     def _delayed(self, x: Array) -> Array:
         """Influence at places x, in cells."""

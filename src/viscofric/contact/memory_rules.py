@@ -1,21 +1,23 @@
 """Quadrature of a fading memory: functions against ε e^(−ε s), exact for polynomials whatever the rate ε.
 
 A product-integration rule interpolates a function at points that all rates share and integrates the exponential
-exactly, so that it holds from rates that hardly fade within a panel to those that see its beginning only.
+exactly, so that it holds from rates that hardly fade within a panel to those that see its beginning only.  Rates may be
+complex, with small imaginary parts: everything is analytic in them.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from scipy.special import eval_legendre
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     Array: TypeAlias = NDArray[np.float64]
+    Inexact: TypeAlias = NDArray[Any]  # rates and what follows from them: real or complex
 
 # Up to this rate forty Gauss points integrate e^(−ε s) times polynomials of degree 15 to the last digit; from it on the
 # recurrence of the moments loses no more than three.
@@ -39,7 +41,7 @@ def _fine_rule(order: int) -> tuple[Array, Array]:
     return 0.5 * (t + 1.0), 0.5 * weight[:, None] * eval_legendre(np.arange(order), t[:, None])
 
 
-def product_weights(order: int, rate: ArrayLike) -> Array:
+def product_weights(order: int, rate: Inexact) -> Inexact:
     """Weights w with ∫_0^1 ε e^(−ε s) f(s) ds = Σ_g w_g f(s_g) at Gauss points.
 
     Parameters
@@ -47,7 +49,7 @@ def product_weights(order: int, rate: ArrayLike) -> Array:
     order : int
         Number of points, up to 16; polynomials of a lower degree are integrated exactly.
     rate : (…) array
-        ε > 0.
+        Re ε > 0.
 
     Returns
     -------
@@ -58,18 +60,18 @@ def product_weights(order: int, rate: ArrayLike) -> Array:
     The Legendre moments M_n of the exponential are, but for sign and scale, modified spherical Bessel functions of ε/2
     (DLMF 10.47.7), with M_{n+1} = M_{n−1} + (4n + 2)/ε M_n.
     """
-    fading = np.asarray(rate, dtype=float)[..., None]
+    steep = rate.real > _STEEP
+    fading = rate[..., None]
     points, polynomials = _fine_rule(order)
-    gentle = np.minimum(fading, _STEEP)
+    gentle = np.where(steep[..., None], _STEEP, fading)
     moments = (gentle * np.exp(-gentle * points)) @ polynomials
-    steep = fading[..., 0] > _STEEP
     if steep.any():
         moments[steep] = _steep_moments(order, fading[steep])
     return np.asarray(moments @ gauss_points(order)[1])
 
 
-def _steep_moments(order: int, rate: Array) -> Array:
-    moments = np.empty((len(rate), order))
+def _steep_moments(order: int, rate: Inexact) -> Inexact:
+    moments = np.empty((len(rate), order), rate.dtype)
     rest = np.exp(-rate[:, 0])
     moments[:, 0] = 1.0 - rest
     moments[:, 1] = 2.0 / rate[:, 0] * moments[:, 0] - (1.0 + rest)
@@ -83,7 +85,7 @@ def panel_points(edges: Array, order: int) -> Array:
     return np.asarray((edges[:-1, None] + np.diff(edges)[:, None] * gauss_points(order)[0]).ravel())
 
 
-def panel_rule(edges: Array, order: int, rate: Array) -> tuple[Array, Array]:
+def panel_rule(edges: Array, order: int, rate: Inexact) -> tuple[Array, Inexact]:
     """Composite rule on panels.
 
     Parameters
@@ -93,7 +95,7 @@ def panel_rule(edges: Array, order: int, rate: Array) -> tuple[Array, Array]:
     order : int
         Points on each panel.
     rate : (m,) array
-        ε > 0.
+        Re ε > 0.
 
     Returns
     -------

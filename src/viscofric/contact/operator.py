@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 import scipy.fft
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 # A mode with a memory shorter than this (in cells) dissipates by its leading term, λ² ∂²/∂x²: the next one
 # is λ² = 1e-6 smaller, while the difference of its two potentials would have lost that much to rounding.
-_SHORT_MEMORY = 1e-3
+SHORT_MEMORY = 1e-3
 # Memory length, in cells, from which on a mode's dissipation is rather found from slopes than from bends.
 _BEND_MEMORY = 10.0
 # Cells whose curvature is found in one go: few enough for the cache.
@@ -117,6 +117,9 @@ class ConvolutionOperator(ABC):
         Applications so far; each costs one forward and one inverse FFT of the padded window.
     """
 
+    #: What the cell's potential is multiplied by for a compliance of one, but for the cell's length.
+    unit: ClassVar[float]
+
     window: Grid
     material: SteadyMaterial
     shift: float = 0.0
@@ -138,6 +141,11 @@ class ConvolutionOperator(ABC):
         displacement, self._dissipation, self._bent_dissipation = self._influence()
         self._transfer = self._spectrum(displacement)
         self._inverse_symbol = self.backend.asarray(_optimal_circulant_inverse(displacement))
+
+    @property
+    @abstractmethod
+    def cell(self) -> CellPotential:
+        """Potential of a cell, in units of the cell's length."""
 
     @abstractmethod
     def _influence(self) -> Influence:
@@ -197,10 +205,11 @@ class ConvolutionOperator(ABC):
         slope = self._convolve(self._spectrum(influence), self.backend.asarray(pressure))
         return -self.window.cell_area * float(np.vdot(pressure, self.backend.to_numpy(slope)))
 
-    def dissipated_force_gradient(self, pressure: Array) -> Array:
-        """Change of `dissipated_force` with the pressure of each cell, (nx, ny)."""
+    def dissipated_force_gradient(self, pressure: Array, *, bent: bool = False) -> Array:
+        """Change of `dissipated_force`, or of `bent_dissipated_force`, with the pressure of each cell, (nx, ny)."""
         # The force is a quadratic form, which has a symmetric matrix: that of the influence and its mirror image.
-        symmetric = self._spectrum(self._dissipation + self._dissipation[::-1])
+        influence = self._bent_dissipation if bent else self._dissipation
+        symmetric = self._spectrum(influence + influence[::-1])
         slope = self._convolve(symmetric, self.backend.asarray(pressure))
         return -self.window.cell_area * self.backend.to_numpy(slope)
 
@@ -217,10 +226,16 @@ class ConvolutionOperator(ABC):
 class HalfSpaceOperator(ConvolutionOperator):
     """Displacement of the free half-space under pressures on rectangular cells (paper Eqs. 7 and 8)."""
 
+    unit = 1.0 / np.pi
+
+    @property
+    def cell(self) -> HalfSpaceCell:
+        """Potential of a cell, in units of the cell's length."""
+        return HalfSpaceCell(self.window.width / self.window.spacing)
+
     def _influence(self) -> Influence:
         instant = self.material.glassy + self.material.counterface
-        cell = HalfSpaceCell(self.window.width / self.window.spacing)
-        return cell_influence(self, cell, instant).times(1.0 / np.pi, self.window.spacing)
+        return cell_influence(self, self.cell, instant).times(self.unit, self.window.spacing)
 
 
 def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: float) -> Influence:
@@ -243,7 +258,7 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
     compliances = operator.material.compliances
     lengths = operator.material.memory_lengths / operator.window.spacing
     # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
-    long = lengths > _SHORT_MEMORY
+    long = lengths > SHORT_MEMORY
     rates = np.zeros_like(compliances)
     rates[long] = compliances[long] / lengths[long]
     bent = bent_share(lengths)

@@ -142,9 +142,14 @@ class Stage:
     @cached_property
     def opening(self) -> float:
         """What cells leave out of ∫ p ∂²h/∂x² dA, over the load."""
-        gap = self.result.displacement + self.problem.height_on(self.window, self.operator.shift)
+        return opening(self.window, self.result.pressure, self.gap) / self.load
+
+    @property
+    def gap(self) -> Array:
+        """Between surface and indenter, as the contact conditions see it."""
+        gap: Array = self.result.displacement + self.problem.height_on(self.window, self.operator.shift)
         gap -= self.result.indentation
-        return opening(self.window, self.result.pressure, gap) / self.load
+        return gap
 
     @cached_property
     def extent(self) -> Extent:

@@ -153,7 +153,7 @@ def solve_steady(
     finest = geometry.finest if finest is None else finest
     _check_settings(accuracy, tolerance, finest)
     if derivatives:
-        _check_derivatives(velocity, layer)
+        _check_derivatives(velocity)
     if not isinstance(material, Material):
         raise InputError(f"material = {material!r}: must be a Material, such as vf.read_card('rubber.json').")
     spectrum = material.modes_at(temperature)
@@ -220,14 +220,12 @@ def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
         raise InputError(f"finest = {finest!r}: must be a whole number of at least {LEAST_FINEST} cells.")
 
 
-def _check_derivatives(velocity: float, layer: Layer | None) -> None:
+def _check_derivatives(velocity: float) -> None:
     if velocity == 0.0 or math.isinf(velocity):
         raise InputError(
             f"derivatives = True: an elastic limit, speed = {velocity:g}, has no friction to differentiate; "
             "give a speed other than zero and infinity."
         )
-    if layer is not None:
-        raise InputError("derivatives = True: known for half-spaces only, not for layers; leave one of them out.")
 
 
 def _held(
