@@ -137,3 +137,24 @@ def test_peak_is_called_resolved_only_where_the_leading_layer_is(
     layer = memory_length / modulus_ratio * HERTZ_RADIUS
     assert (layer > 3.0 * solution.diagnostics.spacing) == resolved
     assert solution.diagnostics.peak_resolved == resolved
+
+
+@pytest.mark.parametrize("modulus_ratio", [1e3, 1e5])
+@pytest.mark.parametrize("layer", [1e-5, 1e-3])
+def test_a_peak_that_no_cell_sees_is_not_called_resolved(modulus_ratio: float, layer: float) -> None:
+    """A memory far shorter than a cell still hides a pressure of 0.77 √(kl) times Hertz's at the leading edge.
+
+    All cells see is a contact of Hertz, which settles well.
+    """
+    problem = cylinder_on_standard_linear_solid(modulus_ratio, layer)
+    spectrum = problem.material.spectrum
+    hunter = hunter_line(
+        problem.load, problem.cylinder.radius, spectrum.E0, spectrum.E_inf, float(spectrum.tau[0]), problem.speed, 0.5
+    )
+    for accuracy in (0.05, 1e-3):
+        solution = problem.solve(accuracy=accuracy)
+        missed = abs(solution.max_pressure - hunter.max_pressure)
+        stated = solution.diagnostics.max_pressure_error + 1e-3 * hunter.max_pressure
+        assert missed <= stated or not solution.diagnostics.peak_resolved
+    # Where nothing is hidden, nothing is doubted.
+    assert solution.diagnostics.peak_resolved or modulus_ratio * layer > 0.1

@@ -94,15 +94,32 @@ class FootprintErrors:
         sides = [name for name in ("front", "rear", "side") if math.isfinite(getattr(last, name))]
         rim = last.area / max(last.front + last.rear, cell)  # the contact's width across, one for a line contact
         peak = error("peak")
-        # Where the gap is looked at behind the cell centres, the layer at the leading edge is thinner than a cell, and
-        # may hide a pressure that no grid so far has seen.
+        # A layer at the leading edge that is thinner than a cell may hide a pressure that no grid so far has seen.
         deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
+        seen = shift == 0.0 and _hidden_peak(stages[-1]) < last.peak
         return cls(
             edge=max(least, *(error(name) for name in sides)),
             area=max(least * rim, error("area")),
             peak=peak,
-            peak_resolved=deep and still and shift == 0.0,
+            peak_resolved=deep and still and seen,
         )
+
+
+def _hidden_peak(stage: Stage) -> float:
+    """Largest pressure that the leading edge may hide from the cells, in order of magnitude.
+
+    The pressure that a cell sees rises as B √s with the distance s from the edge.  Where the solid yields by a
+    factor less to waves as short as s than to those that the cells resolve, the pressure at s is higher by that
+    factor: for one retardation time √(k l)/2 at s = l/k, where the exact layer, a Dawson function, has 0.54 √(k l).
+    """
+    spacing, pressure = stage.window.spacing, stage.result.pressure
+    along = pressure[:, int(np.argmax(pressure.max(axis=0)))]
+    last = int(np.flatnonzero(along)[-1])
+    outer, inner = along[last] ** 2, along[last - 1] ** 2
+    steepness = math.sqrt((max(inner - outer, outer) if inner > outer else 2.0 * outer) / spacing)  # as in `edges`
+    distance = spacing * np.logspace(-12.0, 0.0, 49)
+    yielding = np.abs(stage.operator.material.symbol(1.0 / distance))
+    return steepness * float(np.max(np.sqrt(distance[:-1]) * yielding[-1] / yielding[:-1]))
 
 
 def edges(position: Array, pressure: Array) -> tuple[float, float]:
