@@ -116,7 +116,7 @@ def test_orders_of_convergence_against_hunter() -> None:
         problem.load, problem.cylinder.radius, spectrum.E0, spectrum.E_inf, float(spectrum.tau[0]), problem.speed, 0.5
     )
     levels = problem.solve(accuracy=3e-6, tolerance=1e-10).diagnostics.levels
-    cells, lean, energy, _ = (np.array(column) for column in zip(*levels, strict=True))
+    cells, lean, energy, *_ = (np.array(column) for column in zip(*levels, strict=True))
     assert len(cells) >= 5
     # The edge, a square root, allows 3/2 to 2; where cells cross it, single grids scatter by a factor of a few.
     assert order(cells, lean / hunter.friction_coefficient - 1.0) > 1.2
