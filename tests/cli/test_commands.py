@@ -280,6 +280,19 @@ def test_unknown_command_suggests_the_nearest() -> None:
     assert "Did you mean 'run'?" in result.output
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device here that is always full")
+def test_output_to_a_full_disk_is_one_sentence() -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "viscofric", "material", "list"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert (done.returncode, done.stderr) == (1, "Error: the output: No space left on device.\n")
+
+
 def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(tmp_path, study=STUDY.replace('"100 mm/s"', '["100 mm/s", "200 mm/s"]'))
     from viscofric.study import cases

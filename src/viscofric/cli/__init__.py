@@ -59,7 +59,19 @@ class _Program(LazyGroup):
             terminated = isinstance(stop, Terminated) or isinstance(stop.__cause__, Terminated)
             click.echo("Terminated." if terminated else "Interrupted.", err=True)
             sys.exit(TERMINATED if terminated else INTERRUPTED)
+        except OSError as error:
+            _give_up_output()
+            click.echo(f"Error: {error.filename or 'the output'}: {error.strerror or error}.", err=True)
+            sys.exit(1)
         sys.exit(status if isinstance(status, int) else 0)
+
+
+def _give_up_output() -> None:
+    """Let Python throw away what it still holds for a standard output that may be a full disk."""
+    if sys.stdout is sys.__stdout__:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
 
 
 @contextmanager

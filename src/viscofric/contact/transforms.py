@@ -117,6 +117,10 @@ class DuccTransforms:
         return values[:, : shape[1]]  # type: ignore[no-any-return]
 
 
+# Plans of FFTW that are kept: those of the nested grids of a few contacts.
+_MOST_PLANS = 64
+
+
 class FftwTransforms:
     """FFTs of FFTW by its estimated plans, made once for each size: measured ones would take longer than they save.
 
@@ -139,6 +143,8 @@ class FftwTransforms:
             last = first if given is found else self._fftw.empty_aligned(found.shape, found.dtype)
             direction = "FFTW_BACKWARD" if back else "FFTW_FORWARD"
             flags = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT") if back else ("FFTW_ESTIMATE",)
+            if len(self._plans) == _MOST_PLANS:
+                del self._plans[next(iter(self._plans))]  # the oldest; plans hold arrays of their size
             self._plans[key] = self._fftw.FFTW(first, last, axes, direction, flags, self._threads)
         return self._plans[key](given, found)  # type: ignore[no-any-return]
 
