@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.report.numbers import prefixed, short, with_error
+from viscofric.report.numbers import prefixed, short
 
 if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
@@ -34,10 +35,11 @@ def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -
     of_logarithms = derivatives.logarithmic
     error = derivatives.error / abs(friction)
 
+    # To the digit that the error is in.
+    decimals = min(max(1, -math.floor(math.log10(error))), 6) if error > 0.0 else 6
+
     def relative(value: float | None) -> str:
-        # A true minus sign and a plus, so that columns of both read well.
-        told = with_error((value or 0.0) / friction, error).split(" ± ")[0]
-        return told if told.startswith("−") else f"+{told}"
+        return f"{(value or 0.0) / friction:+.{decimals}f}".replace("-", "−")
 
     held = ("load", "F", of_logarithms.load) if of_logarithms.indentation is None else ("indentation", "δ", None)
     rows = [
