@@ -35,6 +35,7 @@ _EXAMPLE = {
     "Pa": "'3 MPa'",
     "s": "'1 ms'",
     "Hz": "'10 Hz'",
+    "rad": "'5 deg'",
     "rad/s": "'10 rad/s'",
     "delta_degC": "'10 K'",
     "J/mol": "'120 kJ/mol'",

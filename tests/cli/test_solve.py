@@ -21,6 +21,7 @@ from viscofric.report.contact_figures import contact_figure, draw_contact
 from viscofric.report.contact_summary import UNITS
 
 RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
+DMA = str(files("viscofric") / "example" / "dma.csv")
 BALL = ("--ball", "10 mm", "--speed", "1 m/s", "--load", "1 N")
 
 
@@ -355,6 +356,8 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
         ((*RUBBER, *BALL, "--spacing", "1 um"), 2, "--spacing is for"),
         ((*RUBBER, *BALL, "--sliding-base"), 2, "--sliding-base is for"),
         ((*RUBBER, *BALL, "--layer", "1"), 1, "thickness of the layer = '1': has no unit"),
+        (("--material", DMA, *BALL), 1, "`viscofric material fit` makes one of DMA sweeps"),
+        ((*RUBBER, "--cone", "0.1", *BALL[2:]), 1, "right would be, for instance, '5 deg'"),
         ((*RUBBER, *BALL, "--window", "1 mm,1 mm"), 1, "must be 3 lengths (rear, front, side)"),
         ((*RUBBER, *BALL, "--direction", "north"), 1, "direction = 'north'"),
         ((*RUBBER, *BALL, "--direction", "30"), 1, "direction = '30': has no unit"),

@@ -34,7 +34,11 @@ _MATERIAL = (
 _INDENTER = (
     click.option("--ball", metavar="RADIUS", help="A ball, such as '9.525 mm'."),
     click.option("--cylinder", metavar="RADIUS", help="A long cylinder across the motion; its load is per length."),
-    click.option("--ellipsoid", metavar="RX,RY", help="Radii of curvature along its x and y (the motion is along x)."),
+    click.option(
+        "--ellipsoid",
+        metavar="RX,RY",
+        help="Radii of curvature along its x, the way of the motion by default, and its y.",
+    ),
     click.option("--cone", metavar="ANGLE", help="A cone; angle between flank and surface, such as '5 deg'."),
     click.option("--punch", metavar="RADIUS", help="A flat circular punch with a sharp edge."),
     click.option(

@@ -188,7 +188,8 @@ def open_card(
         if not found:
             raise InputError(
                 "is no material card that viscofric knows: wanted is an Abaqus, ANSYS or LS-DYNA card with a Prony "
-                "series, COMSOL parameters, or a material file of viscofric (JSON or CSV)."
+                "series, COMSOL parameters, or a material file of viscofric (JSON or CSV); `viscofric material "
+                "fit` makes one of DMA sweeps."
             )
         if format is not None and not _PROGRAMS[found].recognises(text):
             raise InputError(f"is not {_PROGRAMS[found].name}.")
