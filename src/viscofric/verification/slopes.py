@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.contact.layers import Layer
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification.check import Check, Comparison
@@ -14,6 +15,7 @@ from viscofric.verification.model_problems import (
     CYLINDER_LOAD,
     HERTZ_RADIUS,
     POISSON_RATIO,
+    SLOPE,
     SPEED,
     rubber,
     solve_ball,
@@ -28,6 +30,12 @@ if TYPE_CHECKING:
 _STEP = 1e-5  # of the logarithms: no cell comes into contact or leaves it
 _CELLS, _REACH = 128, 1.6 * HERTZ_RADIUS
 _SAME = 1e-6
+#: What is differentiated, by the way to it.
+_EXPRESSIONS = {
+    "pressure": "pressure_friction_coefficient",
+    "balance": "friction_coefficient",
+    "energy": "energy_friction_coefficient",
+}
 
 
 def _solve(point: bool, given: dict[str, Any], *, derivatives: bool = False) -> ContactSolution:
@@ -48,16 +56,21 @@ def _solve(point: bool, given: dict[str, Any], *, derivatives: bool = False) -> 
 def _derivatives() -> Iterator[Comparison]:
     modes = rubber(10.0, [1.0, 2.0], [0.3, 3.0]).modes_at()
     half_space = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": SPEED}
-    for case, point, held in (
+    cases: tuple[tuple[str, bool, dict[str, Any]], ...] = (
         ("cylinder, load given", False, {"load": CYLINDER_LOAD}),
         ("ball, load given", True, {"load": BALL_LOAD}),
-        ("ball, indentation given", True, {"load": None, "indentation": 0.9 * HERTZ_RADIUS**2 / 10e-3}),
-    ):
+        (
+            "ball on a layer, H = 2 a0, indentation given",
+            True,
+            {"load": None, "indentation": 0.9 * SLOPE * HERTZ_RADIUS, "layer": Layer(2.0 * HERTZ_RADIUS)},
+        ),
+    )
+    for case, point, held in cases:
         given = half_space | held
         derivatives = _solve(point, given, derivatives=True).derivatives
         assert derivatives is not None
-        way = f"{derivatives.way}_friction_coefficient"
-        names = ["E_inf", "speed", next(name for name, value in held.items() if value is not None)]
+        way = _EXPRESSIONS[derivatives.way]
+        names = ["E_inf", "speed", "load" if held["load"] is not None else "indentation"]
         for name, mode in [(name, None) for name in names] + [("C", 0), ("tau", 1)]:
             ends = []
             for step in (_STEP, -_STEP):
@@ -75,7 +88,7 @@ def _derivatives() -> Iterator[Comparison]:
 CHECKS = (
     Check(
         "derivatives",
-        "Derivatives of the friction coefficient with modes, glass, speed, load and indentation",
+        "Derivatives of the friction coefficient with modes, glass, speed, load, indentation; a layer too",
         "sensitivities",
         "differences of solutions on the same cells, a hundred-thousandth up and down",
         "Exact for the cells in contact: terms of the order of the step squared, and the solver's tolerance, 1e-12, "
