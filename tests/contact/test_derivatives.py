@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viscofric.contact.adjoint import friction_gradient
+from viscofric.contact.adjoint import friction_adjoint
 from viscofric.contact.balance import lag, lag_changes
 from viscofric.contact.control import GivenIndentation, GivenLoad
 from viscofric.contact.geometry import LINE, POINT
@@ -206,7 +206,7 @@ def test_derivatives_are_those_of_the_solution_on_its_cells(
     assert (stage.operator.shift > 0.0) == (k > 100.0)  # both where the gap is looked at behind the centres and not
     assert (stage.window.width > stage.window.spacing) == (shape is WIDE)
     geometry = stage.problem.geometry
-    solid, gradient = stage.operator.material, friction_gradient(stage, way)  # type: ignore[arg-type]
+    solid, gradient = stage.operator.material, friction_adjoint(stage, way).gradient  # type: ignore[arg-type]
     depth = 1.0 if held == "indentation" else geometry.parabolic_load
     step = 1e-5
     first = np.array([1.0, 0.0])
@@ -352,7 +352,7 @@ def test_friction_of_a_flat_punch_grows_with_its_depth() -> None:
     problem = Problem(POINT, solid, ScaledIndenter(punch, scale), GivenIndentation(0.5), 1e-10)
     stage = find_window(problem, 1.0)
     # The whole face touches at any depth: pressures grow with it, and what they dissipate with its square.
-    assert friction_gradient(stage, "energy").held * 0.5 == pytest.approx(stage.energy_friction, rel=1e-6)
+    assert friction_adjoint(stage, "energy").gradient.held * 0.5 == pytest.approx(stage.energy_friction, rel=1e-6)
 
 
 def test_units_do_not_matter() -> None:

@@ -53,7 +53,7 @@ _DIRECTIONS = 40
 
 
 class Gradient(NamedTuple):
-    """Derivatives of the friction coefficient.
+    """Derivatives of the friction coefficient, or of another number.
 
     Attributes
     ----------
@@ -69,6 +69,32 @@ class Gradient(NamedTuple):
     compliances: Array
     memory_lengths: Array
     held: float
+
+    def plus(self, other: Gradient, times: float) -> Gradient:
+        """Return the sum with a multiple of another one."""
+        return Gradient(
+            self.glassy + times * other.glassy,
+            self.compliances + times * other.compliances,
+            self.memory_lengths + times * other.memory_lengths,
+            self.held + times * other.held,
+        )
+
+
+class Adjoint(NamedTuple):
+    """Derivatives of a number, and what they were found from.
+
+    Attributes
+    ----------
+    gradient : Gradient
+    field : (nx, ny) array
+        λ, also where it is held.
+    by_load : float
+        Change with the logarithm of the load; zero where the indentation is given.
+    """
+
+    gradient: Gradient
+    field: Array
+    by_load: float
 
 
 def friction_way(stages: list[Stage]) -> Way:
@@ -88,8 +114,8 @@ def friction_way(stages: list[Stage]) -> Way:
     return "pressure" if friction_estimate(stages).value == fine.pressure_friction else "balance"
 
 
-def friction_gradient(stage: Stage, way: Way) -> Gradient:
-    """Differentiate the friction coefficient on one grid.
+def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
+    """Differentiate the friction coefficient on one grid, whose cells stay where they are.
 
     Parameters
     ----------
@@ -103,36 +129,63 @@ def friction_gradient(stage: Stage, way: Way) -> Gradient:
         If the adjoint problem is not solved.
     """
     operator, window, pressure = stage.operator, stage.window, stage.result.pressure
-    material, total = operator.material, float(pressure.sum())
+    material, total, bent = operator.material, float(pressure.sum()), way == "balance"
     held = np.zeros(window.shape)
     if way == "pressure":
         value = stage.pressure_friction
         by_pressure = stage.problem.shape.slope(window.x[:, None], window.y) / total
-    elif way == "energy":
-        value = stage.energy_friction
-        by_pressure = operator.dissipated_force_gradient(pressure) / (window.cell_area * total)
     else:
-        value = stage.balanced_friction.value
-        by_pressure = operator.dissipated_force_gradient(pressure, bent=True) / (window.cell_area * total)
+        value = stage.balanced_friction.value if bent else stage.energy_friction
+        by_pressure = operator.dissipated_force_gradient(pressure, bent=bent) / (window.cell_area * total)
+    if bent:
         scale = lag(material, window.spacing, CUTS[1]) / (window.spacing**2 * total)
         gap = free_gap(pressure, stage.gap)
         by_pressure += scale * neighbours(gap)
         held = -scale * np.where(gap > 0.0, neighbours(pressure), 0.0)
-    fixed_load = isinstance(stage.problem.control, GivenLoad)
-    if not fixed_load:
-        by_pressure = by_pressure - value / total
-    field, level = _adjoint_field(stage, by_pressure, held, fixed_load=fixed_load)
+    found = _adjoint(stage, by_pressure, value, held)
+    if way == "pressure":
+        return found
+    energy = correlation(pressure, pressure) / total
+    lost, change = _lost(energy, material.memory_lengths / window.spacing, operator.cell, bent=bent)
+    by_length = material.compliances * change / material.memory_lengths
+    gradient = found.gradient.plus(Gradient(0.0, lost, by_length, 0.0), -operator.unit)
+    if bent:
+        gradient = gradient.plus(Gradient(*lag_changes(material, window.spacing, CUTS[1]), 0.0), stage.opening)
+    return found._replace(gradient=gradient)
+
+
+def mean_gradient(stage: Stage, values: Array) -> tuple[float, Gradient]:
+    """Return the mean of a field (nx, ny) over the load, and differentiate it.
+
+    Raises
+    ------
+    ConvergenceError
+        If the adjoint problem is not solved.
+    """
+    weights = values / stage.result.pressure.sum()
+    mean = float(np.vdot(weights, stage.result.pressure))
+    return mean, _adjoint(stage, weights, mean, np.zeros_like(weights)).gradient
+
+
+def _adjoint(stage: Stage, by_pressure: Array, value: float, held: Array) -> Adjoint:
+    """Differentiate a number that is homogeneous in the pressures, but for what it changes at fixed ones.
+
+    Parameters
+    ----------
+    stage : Stage
+    by_pressure : (nx, ny) array
+        Its change with the pressure of each cell, times the load, over the load.
+    value : float
+    held : (nx, ny) array
+        λ outside the contact.
+    """
+    pressure, fixed_load = stage.result.pressure, isinstance(stage.problem.control, GivenLoad)
+    each = value / float(pressure.sum())
+    field, level = _adjoint_field(stage, by_pressure if fixed_load else by_pressure - each, held, fixed_load=fixed_load)
+    by_load = (level - each) * float(pressure.sum()) if fixed_load else 0.0
+    by_held = (level - each) / stage.window.cell_area if fixed_load else float(field.sum())
     box = _box((pressure > 0.0) | (field != 0.0))
-    loaded = pressure[box]
-    energy = correlation(loaded, loaded) / total if way != "pressure" else None
-    glassy, compliances, lengths = _changes(operator, correlation(field[box], loaded), energy, bent=way == "balance")
-    if way == "balance":
-        lags = lag_changes(material, window.spacing, CUTS[1])
-        glassy += stage.opening * lags[0]
-        compliances += stage.opening * lags[1]
-        lengths += stage.opening * lags[2]
-    by_held = (level - value / total) / window.cell_area if fixed_load else float(field.sum())
-    return Gradient(glassy, compliances, lengths, by_held)
+    return Adjoint(Gradient(*_changes(stage.operator, correlation(field[box], pressure[box])), by_held), field, by_load)
 
 
 def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
@@ -169,21 +222,8 @@ def _adjoint_field(stage: Stage, by_pressure: Array, held: Array, *, fixed_load:
     )
 
 
-def _changes(
-    operator: ConvolutionOperator, adjoint: Array, energy: Array | None, *, bent: bool
-) -> tuple[float, Array, Array]:
-    """Change of the friction coefficient with glassy compliance, compliances and memory lengths.
-
-    Parameters
-    ----------
-    operator : ConvolutionOperator
-    adjoint : (2 nx − 1, ny) array
-        Correlation of the adjoint field with the pressure.
-    energy : (2 nx − 1, ny) array or None
-        Correlation of the pressure with itself over its sum, if the friction is that of the energy.
-    bent : bool
-        Whether short memories dissipate by bends.
-    """
+def _changes(operator: ConvolutionOperator, adjoint: Array) -> tuple[float, Array, Array]:
+    """Return −λᵀ dK p by glassy compliance, compliances and memory lengths, from the correlation of λ and p."""
     material, cell, spacing, shift = operator.material, operator.cell, operator.window.spacing, operator.shift
     lengths, compliances = material.memory_lengths / spacing, material.compliances
     (nx, ny) = adjoint.shape[0] // 2 + 1, adjoint.shape[1]
@@ -192,10 +232,6 @@ def _changes(
     glassy = -operator.unit * spacing * float(np.vdot(adjoint, cell(x - shift, y)))
     by_compliance = -operator.unit * spacing * moments[0]
     by_logarithm = -operator.unit * spacing * compliances * sensitivities[0]
-    if energy is not None:
-        lost, change = _lost(energy, lengths, cell, bent=bent)
-        by_compliance -= operator.unit * lost
-        by_logarithm -= operator.unit * compliances * change
     return glassy, by_compliance, by_logarithm / material.memory_lengths
 
 
@@ -217,10 +253,7 @@ def _lost(energy: Array, lengths: Array, cell: CellPotential, *, bent: bool) -> 
         share = bent_share(lengths)
         shift = -2.0 * share * (1.0 - share)  # ∂ share/∂ ln λ
         bend, bend_change = lengths * bends, lengths * (bends + bend_changes)
-        return (
-            lost + share * (bend - lost),
-            change + share * (bend_change - change) + shift * (bend - lost),
-        )
+        return lost + share * (bend - lost), change + share * (bend_change - change) + shift * (bend - lost)
     short = lengths <= SHORT_MEMORY
     if short.any():
         lost[short] = change[short] = lengths[short] * float(np.vdot(wide, cell.xx(x, y)))

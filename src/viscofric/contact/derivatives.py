@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.adjoint import Way, friction_gradient, friction_way
+from viscofric.contact.adjoint import Way, friction_way
 from viscofric.contact.control import GivenLoad
+from viscofric.contact.moving_cells import Motion, friction_gradient
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -112,10 +113,12 @@ def differentiate(
     ConvergenceError
         If an adjoint problem is not solved.
     """
-    way = friction_way(stages)
+    way, last_grids = friction_way(stages), stages[-3:]
+    # Walls stay where they are.
+    motion = None if way == "energy" else Motion.of(last_grids[0])
     found = [
-        _in_si(friction_gradient(stage, way), stage, way, scale, spectrum, plane_strain, velocity)
-        for stage in stages[-3:]
+        _in_si(friction_gradient(stage, way, motion), stage, way, scale, spectrum, plane_strain, velocity)
+        for stage in last_grids
     ]
     before, last = (
         float(np.abs(_numbers(after.logarithmic) - _numbers(first.logarithmic)).max())
