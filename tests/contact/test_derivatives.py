@@ -21,6 +21,7 @@ from viscofric.contact.influence import memory_influence
 from viscofric.contact.influence_moments import correlation, memory_moments
 from viscofric.contact.layer_operator import ScaledLayer
 from viscofric.contact.layer_potentials import LayerCell
+from viscofric.contact.layers import Layer
 from viscofric.contact.line_influence import HalfSpaceStrip, line_memory_influence
 from viscofric.contact.nested import find_window
 from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
@@ -231,7 +232,9 @@ def test_derivatives_are_those_of_the_solution_on_its_cells(
     assert found == pytest.approx(expected, rel=1e-6, abs=3e-8)
 
 
-@pytest.mark.parametrize(("k", "length"), [(2.0, 0.5), (10.0, 1.0), (100.0, 10.0)])
+@pytest.mark.parametrize(
+    ("k", "length"), [(2.0, 0.5), (10.0, 1e-3), (10.0, 1.0), (100.0, 0.01), (100.0, 10.0), (1000.0, 0.1)]
+)
 def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, length: float) -> None:
     E0, ratio, radius, load = 1e6, 0.5, 10e-3, 100.0
     E_inf, C = k * E0, (1.0 - 1.0 / k) / E0
@@ -247,7 +250,6 @@ def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, lengt
         Cylinder(radius=radius),
         speed=1.0,
         load=load,
-        accuracy=1e-4,
         derivatives=True,
     )
     assert solution.derivatives is not None
@@ -262,15 +264,15 @@ def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, lengt
     values = np.array([found.C[0], found.E_inf, found.tau[0], found.load or 0.0])
     exactly = np.array([change(place) for place in range(4)])
     assert np.abs(values - exactly).max() <= solution.derivatives.error
-    # The contact is some 200 cells wide, and derivatives settle with the first power of the cell.
-    assert np.abs(values - exactly).max() <= 0.02 * np.abs(exactly).max()
+    # On cells that stay where they are, it would be 0.01 to 0.1: with an error of 1e-4 that changes from cell to cell.
+    assert np.abs(values - exactly).max() <= 4e-3 * np.abs(exactly).max()
 
 
 @pytest.mark.parametrize(
     ("accuracy", "near"),
-    # Derivatives settle with the first power of the cell: on 128 and on 512 cells one per cent and a quarter of it, of
-    # μ = 0.058.
-    [(1e-3, 6e-4), pytest.param(1e-4, 1.5e-4, marks=pytest.mark.slow)],
+    # Of μ = 0.058: the two solutions are right to less than 5e-5 of it, which the step of 0.12 divides, and the step's
+    # own error is 6e-4 of the third derivative.
+    [(1e-3, 1.5e-4), pytest.param(1e-4, 6e-5, marks=pytest.mark.slow)],
 )
 def test_ball_has_the_derivatives_of_its_friction_over_finite_steps(accuracy: float, near: float) -> None:
     rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
@@ -311,7 +313,7 @@ def test_similarity_ties_the_derivatives_together(
     assert found.C.sum() - found.E_inf == pytest.approx(found.load or 0.0, abs=1e-7 * size)
     assert found.speed == pytest.approx(found.tau.sum(), rel=1e-12)
     if found.load is not None:
-        # For a ball μ = (a0/R) Φ(v/a0), which a grid that is held knows only as well as the derivatives settle.
+        # For a ball μ = (a0/R) Φ(v/a0), which a grid knows only as well as the derivatives settle.
         expected = (solution.friction_coefficient - found.speed) / 3.0
         assert found.load == pytest.approx(expected, abs=3.0 * solution.derivatives.error)
 
@@ -378,6 +380,30 @@ def test_units_do_not_matter() -> None:
 def test_elastic_limits_are_refused(speed: float) -> None:
     with pytest.raises(InputError, match="no friction to differentiate"):
         solved([6e-7], [1e-3], speed=speed)
+
+
+def test_layer_is_a_half_space_where_it_is_thick() -> None:
+    thick, half = (solved([6e-7], [1e-3], accuracy=0.1, layer=layer) for layer in (Layer(thickness=1e3), None))  # type: ignore[arg-type]
+    near = {"rel": 1e-5}  # the contact's size over the thickness, 1e-6, and the tolerance of the solutions
+    assert list(thick.C) == pytest.approx(half.C, **near)
+    assert (thick.E_inf, thick.speed, thick.load) == pytest.approx((half.E_inf, half.speed, half.load), **near)
+
+
+def test_friction_on_a_layer_changes_with_speed_and_load_as_its_derivatives_tell() -> None:
+    layer = Layer(thickness=1e-3)
+    rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
+
+    def over(name: str) -> float:
+        up, down = (
+            solve_steady(rubber, BALL, layer=layer, **({"speed": 1.0, "load": 1.0} | {name: value}))  # type: ignore[arg-type]
+            for value in (1.06, 1.0 / 1.06)
+        )
+        return (up.friction_coefficient - down.friction_coefficient) / (2.0 * np.log(1.06))
+
+    found = solved([0.9e-6], [1e-3], E_inf=1e7, speed=1.0, layer=layer).logarithmic  # type: ignore[arg-type]
+    # As of the ball on a half-space.
+    assert found.speed == pytest.approx(over("speed"), abs=1.5e-4)
+    assert found.load == pytest.approx(over("load"), abs=1.5e-4)
 
 
 def test_transposed_operator_has_the_transposed_matrix() -> None:

@@ -75,9 +75,10 @@ class FrictionDerivatives:
 
     Notes
     -----
-    They are exact for the cells found in contact.  Since these are whole cells, the derivatives of one solution
-    scatter more than its friction coefficient does: they settle with the first power of the cell, at accuracy 1e-3
-    to some per cent of the largest of them.
+    They are those of the solution on its cells, which move with the contact (see `viscofric.contact.moving_cells`);
+    where the indenter has walls, the cells stay where they are.  Against the closed form of the line contact, at E∞/E0
+    from 1.3 to 1000 and v τ/a0 from 1e-4 to 1000, they are right to 3e-4 of the largest of them (median; nine in ten
+    to 3e-3, all to 2e-2) at accuracy 1e-3, and to 2e-4 (nine in ten to 1e-3) at accuracy 1e-4.
     """
 
     C: Array

@@ -114,7 +114,7 @@ def solve_steady(
         its x only.
     derivatives : bool
         Whether the solution is to hold the derivatives of the friction coefficient with respect to every mode, the
-        glass, the speed and the load or indentation; they cost about as much as the finest grid does.
+        glass, the speed and the load or indentation; they take about as much time again.
 
     Returns
     -------
