@@ -68,9 +68,10 @@ class _Program(LazyGroup):
 
 def _give_up_output() -> None:
     """Let Python throw away what it still holds for a standard output that may be a full disk."""
-    if sys.stdout is sys.__stdout__:
+    output = sys.__stdout__
+    if output is not None and output is sys.stdout:
         nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
+        os.dup2(nowhere, output.fileno())
         os.close(nowhere)
 
 
