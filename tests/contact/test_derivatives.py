@@ -23,6 +23,7 @@ from viscofric.contact.layer_operator import ScaledLayer
 from viscofric.contact.layer_potentials import LayerCell
 from viscofric.contact.layers import Layer
 from viscofric.contact.line_influence import HalfSpaceStrip, line_memory_influence
+from viscofric.contact.moving_cells import Motion
 from viscofric.contact.nested import find_window
 from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
 from viscofric.contact.potentials import HalfSpaceCell
@@ -230,6 +231,16 @@ def test_derivatives_are_those_of_the_solution_on_its_cells(
     }
     # The solver leaves 1e-13 of the indentation, which the difference divides by its step; its own error is step².
     assert found == pytest.approx(expected, rel=1e-6, abs=3e-8)
+
+
+@pytest.mark.parametrize("geometry", [POINT, LINE], ids=lambda geometry: geometry.name)
+def test_contact_grows_with_its_load_as_hertz_says(geometry: Geometry) -> None:
+    stage = converged(geometry, "load", 10.0, 1e-3)
+    motion = Motion.of(stage)
+    # a ∝ F^(1/3) under a ball, F^(1/2) under a cylinder; the contact is some twenty cells wide, one of which is 5 %.
+    assert motion.growth.held * geometry.parabolic_load == pytest.approx(1.0 / (geometry.dimension + 1.0), rel=0.1)
+    # It lags by less than the memory, 1e-3, so that little of it moves.
+    assert abs(motion.shift.held) < 1e-3
 
 
 @pytest.mark.parametrize(

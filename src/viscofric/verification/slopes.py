@@ -1,4 +1,4 @@
-"""Derivatives of the friction coefficient against differences of solutions on the same cells."""
+"""Derivatives of the friction coefficient against a closed form and against differences of solutions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.contact.layers import Layer
+from viscofric.contact.reference import hunter_line
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification.check import Check, Comparison
@@ -15,7 +15,7 @@ from viscofric.verification.model_problems import (
     CYLINDER_LOAD,
     HERTZ_RADIUS,
     POISSON_RATIO,
-    SLOPE,
+    RADIUS,
     SPEED,
     rubber,
     solve_ball,
@@ -23,19 +23,14 @@ from viscofric.verification.model_problems import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from viscofric.contact.solution import ContactSolution
 
-_STEP = 1e-5  # of the logarithms: no cell comes into contact or leaves it
-_CELLS, _REACH = 128, 1.6 * HERTZ_RADIUS
-_SAME = 1e-6
-#: What is differentiated, by the way to it.
-_EXPRESSIONS = {
-    "pressure": "pressure_friction_coefficient",
-    "balance": "friction_coefficient",
-    "energy": "energy_friction_coefficient",
-}
+_STEP = 0.06  # of the logarithms: many cells come into contact, so that where edges lie within them evens out
+_CLOSED_STEP = 1e-4
+_CELLS, _LINE_CELLS, _REACH = 128, 1024, 1.6 * HERTZ_RADIUS
+_NEAR = 2e-3
 
 
 def _solve(point: bool, given: dict[str, Any], *, derivatives: bool = False) -> ContactSolution:
@@ -47,52 +42,64 @@ def _solve(point: bool, given: dict[str, Any], *, derivatives: bool = False) -> 
         speed,
         **rest,
         window=(_REACH,) * (3 if point else 2),
-        grid=_CELLS,
-        tolerance=1e-12,
+        grid=_CELLS if point else _LINE_CELLS,
         derivatives=derivatives,
     )
 
 
+def _compare(
+    case: str,
+    solution: ContactSolution,
+    given: dict[str, Any],
+    step: float,
+    friction: Callable[[dict[str, Any]], float],
+) -> Iterator[Comparison]:
+    """Compare derivatives with the logarithms, over the friction, with differences."""
+    assert solution.derivatives is not None
+    logarithmic = solution.derivatives.logarithmic
+    held = "load" if logarithmic.indentation is None else "indentation"
+    for name, mode in [("E_inf", None), ("speed", None), (held, None), ("C", 0), ("tau", 0)]:
+        ends = []
+        for way in (step, -step):
+            value = np.array(given[name], dtype=float)
+            value[... if mode is None else mode] *= np.exp(way)
+            ends.append(friction(given | {name: value if value.ndim else float(value)}))
+        known = (ends[0] - ends[1]) / (2.0 * step) / solution.friction_coefficient
+        computed = float(np.ravel(getattr(logarithmic, name))[0]) / solution.friction_coefficient
+        yield Comparison(case, f"d ln μ/d ln {name}", computed, known, _NEAR, "absolute")
+
+
+def _closed_form(given: dict[str, Any]) -> float:
+    E0 = 1.0 / (1.0 / given["E_inf"] + float(given["C"][0]))
+    return hunter_line(
+        given["load"], RADIUS, E0, given["E_inf"], float(given["tau"][0]), given["speed"], POISSON_RATIO
+    ).friction_coefficient
+
+
 def _derivatives() -> Iterator[Comparison]:
+    for memory_length in (0.1, 1.0, 10.0):
+        modes = rubber(10.0, [1.0], [memory_length]).modes_at()
+        given = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": SPEED, "load": CYLINDER_LOAD}
+        solution = _solve(False, given, derivatives=True)
+        yield from _compare(f"cylinder, vτ/a0 = {memory_length:g}", solution, given, _CLOSED_STEP, _closed_form)
     modes = rubber(10.0, [1.0, 2.0], [0.3, 3.0]).modes_at()
-    half_space = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": SPEED}
-    cases: tuple[tuple[str, bool, dict[str, Any]], ...] = (
-        ("cylinder, load given", False, {"load": CYLINDER_LOAD}),
-        ("ball, load given", True, {"load": BALL_LOAD}),
-        (
-            "ball on a layer, H = 2 a0, indentation given",
-            True,
-            {"load": None, "indentation": 0.9 * SLOPE * HERTZ_RADIUS, "layer": Layer(2.0 * HERTZ_RADIUS)},
-        ),
-    )
-    for case, point, held in cases:
-        given = half_space | held
-        derivatives = _solve(point, given, derivatives=True).derivatives
-        assert derivatives is not None
-        way = _EXPRESSIONS[derivatives.way]
-        names = ["E_inf", "speed", "load" if held["load"] is not None else "indentation"]
-        for name, mode in [(name, None) for name in names] + [("C", 0), ("tau", 1)]:
-            ends = []
-            for step in (_STEP, -_STEP):
-                value = np.array(given[name], dtype=float)
-                value[... if mode is None else mode] *= np.exp(step)
-                changed = given | {name: value if value.ndim else float(value)}
-                ends.append(getattr(_solve(point, changed), way))
-            known = (ends[0] - ends[1]) / (2.0 * _STEP)
-            found = getattr(derivatives.logarithmic, name)
-            quantity = name if mode is None else f"{name}{mode + 1}"
-            computed = float(found if mode is None else found[mode])
-            yield Comparison(case, f"dμ/d ln {quantity}", computed, known, _SAME)
+    for case, held in (
+        ("ball, load given", {"load": BALL_LOAD}),
+        ("ball, indentation given", {"load": None, "indentation": 0.9 * HERTZ_RADIUS**2 / RADIUS}),
+    ):
+        given = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": SPEED} | held
+        solution = _solve(True, given, derivatives=True)
+        yield from _compare(case, solution, given, _STEP, lambda there: _solve(True, there).friction_coefficient)
 
 
 CHECKS = (
     Check(
         "derivatives",
-        "Derivatives of the friction coefficient with modes, glass, speed, load, indentation; a layer too",
+        "Derivatives of the friction coefficient with modes, glass, speed, load and indentation",
         "sensitivities",
-        "differences of solutions on the same cells, a hundred-thousandth up and down",
-        "Exact for the cells in contact: terms of the order of the step squared, and the solver's tolerance, 1e-12, "
-        "over the step.",
+        "those of Hunter's closed form, and differences of solutions 6 % up and down",
+        "On so many cells derivatives are right to about 0.1 %; friction is to 1e-4, which a difference "
+        "divides by its step.",
         _derivatives,
     ),
 )
