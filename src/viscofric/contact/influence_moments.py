@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.influence import ROWS_AT_ONCE, Around, Modes, beyond, near_cells, near_memory
+from viscofric.contact.influence_parts import ROWS_AT_ONCE, Around, Modes, beyond, near_cells, near_memory
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
