@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import logging
+import math
+
 import numpy as np
 import pytest
 
@@ -15,6 +18,7 @@ from viscofric.contact.indenters import Ball, Cylinder, Indenter
 from viscofric.contact.nested import find_window, refine
 from viscofric.contact.operator import SteadyMaterial
 from viscofric.contact.problem import Problem
+from viscofric.contact.proximal import proximal_points
 from viscofric.errors import ConvergenceError
 
 # A standard linear solid in units of the Hertz contact at E0, and indenters whose radius is one there.
@@ -150,3 +154,84 @@ def test_wide_contact_has_wide_cells_and_a_round_one_square_ones() -> None:
     assert wide.friction_coefficient == pytest.approx(0.166199, rel=2e-3)
     assert wide.pressure.sum() * step_x * step_y == pytest.approx(1.0, rel=1e-9)
     assert np.diff(round_one.x)[0] == pytest.approx(np.diff(round_one.y)[0])
+
+
+# --- grids on which the active set cycles, and accuracies out of reach -----------------------------
+
+
+def test_damping_adds_a_multiple_of_the_pressure() -> None:
+    operator = find_window(PROBLEM, 0.7).operator
+    pressure = np.random.default_rng(3).random(operator.window.shape)
+    damped = operator.damped(0.3)
+    np.testing.assert_allclose(damped(pressure), operator(pressure) + 0.3 * pressure, rtol=1e-12)  # round-off
+    # A pressure in the middle of the window hardly feels that the preconditioner's world is periodic.
+    displacement = damped(damped.precondition(pressure))
+    assert np.abs(displacement - pressure).max() < 0.5
+    assert (damped.products, operator.products) == (2, operator.products)
+
+
+@pytest.mark.parametrize("problem", [PROBLEM, LINE_PROBLEM], ids=["point", "line"])
+def test_proximal_points_find_the_contact_that_the_active_set_finds(problem: Problem) -> None:
+    stage = find_window(problem, 0.7)
+    operator, height = stage.operator, problem.height_on(stage.window, stage.operator.shift)
+    poor = problem.control.solve(operator, height, np.ones(stage.window.shape), 1e-8, 0)
+    assert not poor.converged
+    found = proximal_points(problem.control, operator, height, poor, 1e-10)
+    assert found.converged
+    assert found.products > poor.products
+    # Both to gaps of 1e-8 of the indentation, of which cells make pressures that are 1e2 times larger.
+    np.testing.assert_allclose(found.pressure, stage.result.pressure, atol=1e-6 * stage.result.pressure.max())
+
+
+@pytest.mark.parametrize(("ratio", "modulus_ratio"), [(0.1, 1e4), (10.0, 1e4), (1000.0, 10.0)])
+def test_slender_contacts_are_solved_where_the_active_set_cycles(ratio: float, modulus_ratio: float) -> None:
+    """The active set alone is lost on one of their grids at least, however long it goes on."""
+    rubber = standard_linear_solid(modulus_ratio, 1.0)
+    ellipsoid = vf.Ellipsoid(1e-2, 1e-2 * ratio)
+    solution = vf.solve_steady(rubber.material, ellipsoid, speed=rubber.speed, load=rubber.load, accuracy=0.01)
+    assert solution.diagnostics.complementarity <= 1e-8
+    assert solution.diagnostics.products <= 600  # the active set alone would spend 800 in vain
+
+
+def test_grid_that_is_not_solved_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscofric.contact.nested.proximal_points", lambda *given: given[3])  # none are taken
+    monkeypatch.setattr("viscofric.contact.nested._PATIENCE", 0)
+    with pytest.raises(ConvergenceError, match=r"did not converge on a grid of \d+ x \d+ cells: a gap of"):
+        find_window(PROBLEM, 1.0)
+
+
+def test_proximal_points_give_up_when_their_products_are_spent(monkeypatch: pytest.MonkeyPatch) -> None:
+    stage = find_window(PROBLEM, 0.7)
+    operator, height = stage.operator, PROBLEM.height_on(stage.window, stage.operator.shift)
+    poor = PROBLEM.control.solve(operator, height, np.ones(stage.window.shape), 1e-8, 0)
+    monkeypatch.setattr("viscofric.contact.proximal._FEWEST_PRODUCTS", 5)
+    monkeypatch.setattr("viscofric.contact.proximal._CELL_PRODUCTS", 5.0)
+    found = proximal_points(PROBLEM.control, operator, height, poor, 1e-10)
+    assert not found.converged
+    assert 1e-10 < found.complementarity <= poor.complementarity
+
+
+@pytest.mark.parametrize("finest", [128, 2048])
+def test_accuracy_out_of_reach_is_refused_before_the_finest_grid(finest: int, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.INFO, logger="viscofric.contact.nested")
+    with pytest.raises(ConvergenceError, match=r"known to \d\.\de-0\d of itself on .*ask for less accuracy") as caught:
+        refine(find_window(PROBLEM, 0.7), 1e-9, finest)
+    assert f"{finest} cells" in str(caught.value)
+    # Every grid tells what it gave; no grid of 1024 cells or more is tried.
+    grids = [record.args[1] for record in caplog.records if record.levelno == logging.INFO]
+    assert grids[0] == 64
+    assert grids[-1] <= min(finest, 512)
+
+
+def test_friction_that_is_not_a_number_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscofric.contact.nested.friction_estimate", lambda stages: Estimate(math.nan, math.inf))
+    with pytest.raises(ConvergenceError, match="not a number"):
+        refine(find_window(PROBLEM, 0.7), 1e-3, 512)
+
+
+def test_contact_starts_at_the_lowest_cells_where_no_guess_is_given() -> None:
+    stage = find_window(PROBLEM, 0.7)
+    height = PROBLEM.height_on(stage.window, stage.operator.shift)
+    found = PROBLEM.control.solve(stage.operator, height, np.zeros(stage.window.shape), 1e-8)
+    assert found.converged
+    np.testing.assert_allclose(found.pressure, stage.result.pressure, atol=1e-5 * stage.result.pressure.max())

@@ -126,7 +126,7 @@ def solve_complementarity(
     load : float or None
         Sum of the pressures (that is F/dA), above zero; None where the indentation is given.
     guess : (nx, ny) array
-        Pressures to start from; negative ones count as zero, some must be positive where the load is given.
+        Pressures to start from; negative ones count as zero.
     indentation : float, optional
         δ, where no load is given; above zero unless `depth` is given.
     tolerance : float
@@ -156,7 +156,10 @@ def solve_complementarity(
     start, inner_start = operator.products, inner.products
     backend = operator.backend
     xp, height = backend.xp, backend.asarray(height)
-    pressure = _loaded_to(xp, xp.clip(backend.asarray(guess), min=0.0), load)
+    pressure = xp.clip(backend.asarray(guess), min=0.0)
+    if load is not None and float(xp.max(pressure)) == 0.0:
+        pressure[height == xp.min(height)] = 1.0  # where contact begins
+    pressure = _loaded_to(xp, pressure, load)
     displacement = operator(pressure)
     best: ComplementaritySolution | None = None
     set_changes = linear_iterations = since_best = 0

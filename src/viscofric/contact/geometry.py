@@ -35,8 +35,8 @@ class Geometry:
     scatter : float
         By what the error that the changes from grid to grid let expect is multiplied.  Where an edge lies within its
         cell is a matter of luck, which the many cells of a rim average, but not the two at the ends of a strip.
-    finest, finest_continuation : int
-        Most cells along the longer edge that are spent by default, and along the edges of a square in a continuation.
+    finest : int
+        Most cells along the longer edge that are spent by default.
     """
 
     name: str
@@ -48,8 +48,7 @@ class Geometry:
     has_far_field: bool
     scatter: float
     finest: int
-    finest_continuation: int
 
 
-POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, 320)
-LINE: Final = Geometry("line", 1, Strip, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, 4096)
+POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048)
+LINE: Final = Geometry("line", 1, Strip, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536)

@@ -9,20 +9,20 @@ from __future__ import annotations
 
 import logging
 import math
-from dataclasses import replace
+from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.estimates import friction_estimate
+from viscofric.contact.estimates import FEWEST_GRIDS, friction_estimate
 from viscofric.contact.given_grid import COARSEST, GivenGrid
 from viscofric.contact.operator import collocation_shift
 from viscofric.contact.problem import Problem, Stage
+from viscofric.contact.proximal import proximal_points
 from viscofric.errors import ConvergenceError, InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     from viscofric.contact.grids import Grid
@@ -33,12 +33,7 @@ logger = logging.getLogger(__name__)
 
 MARGIN = 0.15  # free space left around the contact, relative to its size
 
-# Step of the continuation in the glassy compliance, which leads into the hard corner (one mode, E∞ >> E0).
-_CONTINUATION = 1.4
-_EASY_GLASSY = 0.1
-_GROWTH = 1.15
-_LONGEST_CONTINUATION = 100
-_PATIENCE = 8  # looks at the contact set without headway that end one step's attempt
+_PATIENCE = 4  # looks at the contact set without headway that end an attempt
 # A contact n times longer than wide has n/2 times the cells along it, up to so many times.
 _MOST_SLENDER = 4
 # A contact that is wider than long has cells as slender as half of that, in powers of two up to this one.
@@ -48,6 +43,9 @@ _LAYER_CELLS, _FINEST_START = 0.5, 256
 # First windows that are tried, in units of the contact's size as it is guessed.
 _FIRST_WINDOWS = (1.0, 2.5, 5.0, 1.6, 0.6)
 _MOST_WINDOWS = 20
+# By what the error of the friction may be hoped to fall when cells are halved: more than it did where they begin to
+# resolve a memory or a layer.
+_LEAST_HOPE, _HOPE = 5.0, 8.0
 _MOST_RESTARTS = 5
 _NO_WINDOW = "no window was found that holds the contact; the indenter may be too blunt."
 _TOUCHES = "window: the contact touches its edge; give one that leaves some space around the contact."
@@ -74,22 +72,25 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
     Raises
     ------
     ConvergenceError
-        If a grid does not converge, or the accuracy is not reached with `finest` cells along the longer edge.
+        If a grid does not converge, the accuracy is not reached with `finest` cells along the longer edge, the errors
+        so far leave no hope that it will be, or the friction is not a number.
     InputError
         If the contact touches the edge of the window given.
     """
     given = GivenGrid() if given is None else given
     halvings = given.halvings(_coarsest(first.problem))
-    stages, restarts = [_start(first, given)], 0
+    stages, restarts, goal = [_start(first, given)], 0, _Goal(accuracy, finest)
     while True:
         coarse = stages[-1]
         window = coarse.window.refined()
-        if given.cells is None and max(window.shape) > finest:
-            raise ConvergenceError(
-                f"the friction coefficient is known to {friction_estimate(stages).relative_error:.1e} of itself on "
-                f"the finest grid allowed ({finest} cells); ask for less accuracy than {accuracy:g} or a finer grid."
-            )
-        stage = _solve_in_window(window, coarse)
+        if not halvings:
+            goal.allow(window)
+        try:
+            stage = _solve_in_window(window, coarse)
+        except ConvergenceError as failure:
+            if halvings or not goal.errors:
+                raise
+            raise goal.missed("the finest grid that could be solved") from failure
         if window.cuts(stage.result.pressure > 0.0):
             # The coarse contact was a little too small: start again from a window around the finer one.
             if given.window is not None:
@@ -97,12 +98,59 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
             if restarts == _MOST_RESTARTS:
                 raise ConvergenceError(_NO_WINDOW)
             stages, restarts = [_start(_solve_in_window(_around(stage), stage), given)], restarts + 1
+            goal = _Goal(accuracy, finest)
             continue
         stages.append(stage)
-        estimate = friction_estimate(stages)
-        logger.debug("grid %s: friction %.6g ± %.1g, %d products", window.shape, *estimate, stage.result.products)
-        if len(stages) > halvings if halvings else estimate.relative_error <= accuracy:
+        error = _told(stages)
+        if len(stages) > halvings if halvings else error <= accuracy:
             return stages
+        if len(stages) >= FEWEST_GRIDS:
+            goal.errors.append(error)
+
+
+def _told(stages: list[Stage]) -> float:
+    """Log what the last grid gave, and return the relative error of the friction."""
+    estimate, (length, width) = friction_estimate(stages), stages[-1].window.shape
+    if math.isnan(estimate.value) or math.isnan(estimate.error):
+        raise ConvergenceError(f"the friction coefficient on a grid of {length} x {width} cells is not a number.")
+    message = "grid of %d x %d cells: friction coefficient %.6g, known to %.1g of itself, %d products"
+    products = stages[-1].result.products
+    logger.info(message, length, width, estimate.value, estimate.relative_error, products)
+    return estimate.relative_error
+
+
+@dataclass
+class _Goal:
+    """Accuracy that is aimed at, and the errors of the friction so far, from the first grid that told one."""
+
+    accuracy: float
+    finest: int
+    errors: list[float] = field(default_factory=list)
+
+    def allow(self, window: Grid) -> None:
+        """Raise ConvergenceError where a grid is too fine, or it and the finer ones would not be enough either."""
+        cells = max(window.shape)
+        if cells > self.finest:
+            raise self.missed(f"the finest grid allowed ({self.finest} cells)")
+        if self.errors and self._hoped_for(1 + int(math.log2(self.finest / cells))) > self.accuracy:
+            raise self.missed(f"a grid of {cells // 2} cells, and {self.finest} cells will not be enough")
+
+    def missed(self, where: str) -> ConvergenceError:
+        """Return what to raise."""
+        known = self.errors[-1] if self.errors else math.inf
+        return ConvergenceError(
+            f"the friction coefficient is known to {known:.1e} of itself on {where}; ask for less accuracy than "
+            f"{self.accuracy:g} or a finer grid."
+        )
+
+    def _hoped_for(self, halvings: int) -> float:
+        """Return the error to be hoped for after so many further halvings of the cells.
+
+        An optimist's: it goes on to fall half as much again as it fell at best in the last two steps.
+        """
+        falls = [before / after for before, after in pairwise(self.errors[-3:])]
+        fall = _HOPE if len(falls) < 2 else min(_HOPE, max(_LEAST_HOPE, 1.5 * max(falls)))
+        return float(self.errors[-1] / fall**halvings)
 
 
 def _start(found: Stage, given: GivenGrid) -> Stage:
@@ -187,59 +235,17 @@ def _solve_in_window(window: Grid, before: Stage) -> Stage:
 
 
 def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
-    """Solve on one grid; where that fails, come from a material with a softer glassy state."""
-    solid, geometry = problem.solid, problem.geometry
-
-    def attempt(glassy: float, start: Array, patience: int | None = None) -> Stage:
-        material = replace(solid, glassy=glassy)
-        shift = collocation_shift(material, window.spacing)
-        operator = geometry.operator(window, material, shift, problem.backend)
-        height = problem.height_on(window, shift)
-        below = np.where(np.isfinite(height), start, 0.0)  # no pressure beyond the indenter's walls
-        result = problem.control.solve(operator, height, below, problem.tolerance, patience)
+    """Solve on one grid: by the active set, and where that makes no headway, by proximal points."""
+    shift = collocation_shift(problem.solid, window.spacing)
+    operator = problem.geometry.operator(window, problem.solid, shift, problem.backend)
+    height = problem.height_on(window, shift)
+    start = np.where(np.isfinite(height), guess, 0.0)  # no pressure beyond the indenter's walls
+    result = problem.control.solve(operator, height, start, problem.tolerance, _PATIENCE)
+    if not result.converged:
+        result = proximal_points(problem.control, operator, height, result, problem.tolerance)
+    if result.converged:
         return Stage(problem, window, operator, result)
-
-    stage = attempt(solid.glassy, guess)
-    if stage.result.converged:
-        return stage
-    # On a large grid a failure is final, since a continuation would take hours.
-    small = math.prod(window.shape) <= geometry.finest_continuation**geometry.dimension
-    continued = _continued(attempt, guess, solid.glassy) if small else None
-    if continued is not None:
-        return continued
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
-        f"{stage.result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for; "
-        "ask for less accuracy of the friction, which needs a coarser grid."
+        f"{result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for."
     )
-
-
-def _continued(attempt: Callable[[float, Array, int], Stage], guess: Array, target: float) -> Stage | None:
-    """Solve for softer glassy states, step by step down to the one asked for, each from the line through the last two.
-
-    Steps are geometric in the glassy compliance.  They grow a little where they succeed, and are halved where they do
-    not.
-    """
-    path: list[tuple[float, Array]] = []  # logarithms of the compliance, and pressures
-    place, end, step = math.log(max(_EASY_GLASSY, target)), math.log(target), math.log(_CONTINUATION)
-    for _ in range(_LONGEST_CONTINUATION):
-        stage = attempt(target if place <= end else math.exp(place), _ahead(path, place, guess), _PATIENCE)
-        if stage.result.converged:
-            if place <= end:
-                return stage
-            path = [*path[-1:], (place, stage.result.pressure)]
-            step *= _GROWTH
-        elif path:
-            step = 0.5 * (path[-1][0] - place)
-        else:
-            return None
-        place = max(end, path[-1][0] - step)
-    return None
-
-
-def _ahead(path: list[tuple[float, Array]], place: float, guess: Array) -> Array:
-    """Continue the line through the last two pressures."""
-    if len(path) < 2:
-        return path[-1][1] if path else guess
-    (before, one), (last, other) = path
-    return np.maximum(0.0, other + (place - last) / (last - before) * (other - one))

@@ -221,6 +221,14 @@ class ConvolutionOperator(ABC):
         mirrored._inverse_symbol = self.backend.xp.conj(self._inverse_symbol)
         return mirrored
 
+    def damped(self, compliance: float) -> Self:
+        """Return the operator with a compliance of each cell by itself added: a multiple of its pressure."""
+        damped = copy.copy(self)
+        damped.products = 0
+        damped._transfer = self._transfer + compliance
+        damped._inverse_symbol = self._inverse_symbol / (1.0 + compliance * self._inverse_symbol)
+        return damped
+
 
 @dataclass
 class HalfSpaceOperator(ConvolutionOperator):
