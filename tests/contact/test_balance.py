@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import viscofric as vf
 from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
 from viscofric.contact.balance import CUTS, lag, opening
 from viscofric.contact.control import GivenLoad
@@ -111,6 +112,22 @@ def test_error_estimate_covers_the_true_error_of_the_line_contact(modulus_ratio:
             value, error = friction_estimate(stages[:count])
             # The solver's tolerance of 1e-9, over slopes that are 1e-3 of the contact's at the least.
             assert abs(value - known) <= error + 1e-6 * known
+
+
+@pytest.mark.parametrize("slenderness", [5.0, 20.0])
+@pytest.mark.parametrize("accuracy", [0.02, 1e-3])
+def test_error_estimate_holds_on_thin_incompressible_layers(slenderness: float, accuracy: float) -> None:
+    """Their pressure is no square root at the edge, as the balance takes it to be, but nearly a square."""
+    modulus, size, radius, memory_length = 1e6, 1e-3, 1e-2, 1e-7
+    thickness = size / slenderness
+    rubber = vf.Material.standard_linear_solid(E0=modulus, E_inf=10.0 * modulus, tau=1e-3)
+    solution = vf.solve_steady(
+        rubber, vf.Cylinder(radius), speed=memory_length / 1e-3, layer=vf.Layer(thickness), accuracy=accuracy,
+        load=2.0 * modulus * size**5 / (45.0 * radius * thickness**3),
+    )  # fmt: skip
+    law = 0.9 * memory_length / radius  # (v/R) Σ C_k τ_k E0, on whatever the memory is short against
+    # The law's next term is about the memory over the contact, 1e-4, and a logarithm.
+    assert abs(solution.friction_coefficient - law) <= solution.diagnostics.friction_error + 3e-4 * law
 
 
 def test_low_speed_takes_no_fine_grid() -> None:

@@ -416,7 +416,7 @@ def test_any_broad_spectrum_gives_a_sound_contact(
 
 @pytest.mark.parametrize("modulus_ratio", [2.0, 100.0])
 def test_second_attempt_solves_for_the_same_material(monkeypatch: pytest.MonkeyPatch, modulus_ratio: float) -> None:
-    """Where the first attempt on a grid fails, the continuation must end at the material that was asked for."""
+    """Where the first attempt on a grid fails, proximal points must end at the material that was asked for."""
     problem = standard_linear_solid(modulus_ratio, 1.0)
     expected = problem.solve(accuracy=0.02)
     attempts = 0

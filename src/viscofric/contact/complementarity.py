@@ -6,9 +6,9 @@ Find p and the indentation δ with ::
 
 for a positive definite but nonsymmetric K.  Conjugate gradients do not apply.  The method is an active set
 whose linear problems are solved inexactly by truncated generalised conjugate residuals (GCR) [1]_, with the
-inverse symbol |q|/S(−q·v), restricted to the contact, as preconditioner.  With the load given, the indentation is
-eliminated by projecting the mean out of residuals and search directions, so that the load never changes within
-a linear solve.
+inverse of a periodic operator near K, restricted to the contact, as preconditioner.  With the load given, the
+indentation is eliminated by projecting the mean out of residuals and search directions, so that the load never
+changes within a linear solve.  Where K is nearly skew the set can cycle; see `viscofric.contact.proximal`.
 
 How tightly the linear problems are solved is the caller's choice.  "without headway": to a tenth of their initial
 residual at first, and ten times more tightly whenever the number of wrongly classified cells fails to halve, since
