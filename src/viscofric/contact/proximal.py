@@ -43,7 +43,7 @@ _STEP_TOLERANCE = 0.3  # of each step, relative to what is violated before it
 _NEAR = 1e-6  # what is violated where the problem itself is tried
 _HIGHEST = 1e4  # σ that is given up at
 # Products after which to give up: so many times so many cells, about a minute's work, but not fewer than these.
-_CELL_PRODUCTS, _FEWEST_PRODUCTS = 6e8, 400
+_CELL_PRODUCTS, _FEWEST_PRODUCTS = 6e8, 150
 
 
 def proximal_points(
