@@ -185,12 +185,12 @@ def test_residual_of_the_rough_benchmark_is_that_of_the_pressures() -> None:
 def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
     import scaling
 
-    scaling.main(["--sizes", "32", "64", "--problems", "elastic", "--json", str(tmp_path / "scaling.json")])
+    scaling.main(["--sizes", "64", "128", "--problems", "elastic", "--json", str(tmp_path / "scaling.json")])
     small, large = read(tmp_path / "scaling.json")["rows"]
-    assert (small["points"], large["points"]) == (32, 64)
+    assert (small["points"], large["points"]) == (64, 128)
     assert large["exponent"] == pytest.approx(np.log(large["seconds"] / small["seconds"]) / np.log(4.0))
     # At least pressure, displacement and heights; less than what a matrix would take.
-    assert all(3.0 < row["arrays"] < 32**2 for row in (small, large))
+    assert all(3.0 < row["arrays"] < 64**2 for row in (small, large))
     assert large["megabytes"] > small["megabytes"]
 
 
