@@ -9,8 +9,8 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from viscofric.contact.backend import Backend as Backend
-    from viscofric.contact.derivatives import FrictionDerivatives as FrictionDerivatives
+    from viscofric.contact.arrays.backend import Backend as Backend
+    from viscofric.contact.derivatives.friction import FrictionDerivatives as FrictionDerivatives
     from viscofric.contact.fields import highest_von_mises as highest_von_mises
     from viscofric.contact.fields import line_stress as line_stress
     from viscofric.contact.fields import stress_at as stress_at
@@ -18,18 +18,18 @@ if TYPE_CHECKING:
     from viscofric.contact.fields import stress_plane as stress_plane
     from viscofric.contact.fields import surface_displacement as surface_displacement
     from viscofric.contact.fields import surface_power as surface_power
-    from viscofric.contact.height_map import HeightMap as HeightMap
-    from viscofric.contact.height_map import Profile as Profile
-    from viscofric.contact.indenters import Ball as Ball
-    from viscofric.contact.indenters import Cylinder as Cylinder
+    from viscofric.contact.indenters.height_map import HeightMap as HeightMap
+    from viscofric.contact.indenters.height_map import Profile as Profile
+    from viscofric.contact.indenters.indenter import Ball as Ball
+    from viscofric.contact.indenters.indenter import Cylinder as Cylinder
+    from viscofric.contact.indenters.shapes import Cone as Cone
+    from viscofric.contact.indenters.shapes import Ellipsoid as Ellipsoid
+    from viscofric.contact.indenters.shapes import FlatPunch as FlatPunch
     from viscofric.contact.layers import Layer as Layer
     from viscofric.contact.periodic.solution import PeriodicDiagnostics as PeriodicDiagnostics
     from viscofric.contact.periodic.solution import PeriodicSolution as PeriodicSolution
     from viscofric.contact.periodic.solve import solve_periodic as solve_periodic
     from viscofric.contact.periodic.surface import PeriodicSurface as PeriodicSurface
-    from viscofric.contact.shapes import Cone as Cone
-    from viscofric.contact.shapes import Ellipsoid as Ellipsoid
-    from viscofric.contact.shapes import FlatPunch as FlatPunch
     from viscofric.contact.solution import ContactSolution as ContactSolution
     from viscofric.contact.solution import Diagnostics as Diagnostics
     from viscofric.contact.steady import solve_steady as solve_steady
@@ -97,8 +97,8 @@ __version__: str
 
 # public name -> the module that defines it
 _HOME = {
-    "Backend": "viscofric.contact.backend",
-    "FrictionDerivatives": "viscofric.contact.derivatives",
+    "Backend": "viscofric.contact.arrays.backend",
+    "FrictionDerivatives": "viscofric.contact.derivatives.friction",
     "highest_von_mises": "viscofric.contact.fields",
     "line_stress": "viscofric.contact.fields",
     "stress_at": "viscofric.contact.fields",
@@ -106,18 +106,18 @@ _HOME = {
     "stress_plane": "viscofric.contact.fields",
     "surface_displacement": "viscofric.contact.fields",
     "surface_power": "viscofric.contact.fields",
-    "HeightMap": "viscofric.contact.height_map",
-    "Profile": "viscofric.contact.height_map",
-    "Ball": "viscofric.contact.indenters",
-    "Cylinder": "viscofric.contact.indenters",
+    "HeightMap": "viscofric.contact.indenters.height_map",
+    "Profile": "viscofric.contact.indenters.height_map",
+    "Ball": "viscofric.contact.indenters.indenter",
+    "Cylinder": "viscofric.contact.indenters.indenter",
     "Layer": "viscofric.contact.layers",
     "PeriodicDiagnostics": "viscofric.contact.periodic.solution",
     "PeriodicSolution": "viscofric.contact.periodic.solution",
     "solve_periodic": "viscofric.contact.periodic.solve",
     "PeriodicSurface": "viscofric.contact.periodic.surface",
-    "Cone": "viscofric.contact.shapes",
-    "Ellipsoid": "viscofric.contact.shapes",
-    "FlatPunch": "viscofric.contact.shapes",
+    "Cone": "viscofric.contact.indenters.shapes",
+    "Ellipsoid": "viscofric.contact.indenters.shapes",
+    "FlatPunch": "viscofric.contact.indenters.shapes",
     "ContactSolution": "viscofric.contact.solution",
     "Diagnostics": "viscofric.contact.solution",
     "solve_steady": "viscofric.contact.steady",

@@ -13,10 +13,10 @@ import pytest
 
 import viscofric as vf
 from contact.made_surfaces import self_affine
-from viscofric.contact.backend import THREADS_VARIABLE, Backend
+from viscofric.contact.arrays.backend import THREADS_VARIABLE, Backend
 from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.grids import Window
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.free.grids import Window
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.errors import InputError

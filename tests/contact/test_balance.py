@@ -7,15 +7,15 @@ import pytest
 
 import viscofric as vf
 from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
-from viscofric.contact.balance import CUTS, lag, opening
-from viscofric.contact.control import GivenLoad
-from viscofric.contact.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
-from viscofric.contact.geometry import LINE, POINT, Geometry
-from viscofric.contact.grids import Strip, Window
-from viscofric.contact.indenters import Ball, Cylinder
-from viscofric.contact.nested import find_window, refine
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial, bent_share, second_difference
-from viscofric.contact.problem import Problem, Stage
+from viscofric.contact.free.balance import CUTS, lag, opening
+from viscofric.contact.free.control import GivenLoad
+from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
+from viscofric.contact.free.geometry import LINE, POINT, Geometry
+from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.free.nested import find_window, refine
+from viscofric.contact.free.problem import Problem, Stage
+from viscofric.contact.indenters.indenter import Ball, Cylinder
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial, bent_share, second_difference
 from viscofric.contact.reference import hunter_line
 
 INDENTERS = {POINT.name: Ball(radius=1.0), LINE.name: Cylinder(radius=1.0)}

@@ -31,9 +31,9 @@ from gallery import (
 )
 from viscofric.contact import control
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.grids import Window
-from viscofric.contact.indenters import Ball
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.free.grids import Window
+from viscofric.contact.indenters.indenter import Ball
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError, InputError

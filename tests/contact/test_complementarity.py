@@ -13,8 +13,8 @@ from contact.dense_reference import (
 )
 from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference, standard_linear_solid
 from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.grids import Window
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.free.grids import Window
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
 
 MATERIALS = {
     "elastic": SteadyMaterial(1.0, np.empty(0), np.empty(0)),

@@ -11,26 +11,26 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viscofric.contact.adjoint import friction_adjoint
-from viscofric.contact.balance import lag, lag_changes
-from viscofric.contact.control import GivenIndentation, GivenLoad
-from viscofric.contact.geometry import LINE, POINT
-from viscofric.contact.grids import Window
-from viscofric.contact.indenters import Ball, Cylinder, Indenter
-from viscofric.contact.influence import memory_influence
-from viscofric.contact.influence_moments import correlation, memory_moments
-from viscofric.contact.layer_operator import ScaledLayer
-from viscofric.contact.layer_potentials import LayerCell
+from viscofric.contact.derivatives.adjoint import friction_adjoint
+from viscofric.contact.derivatives.moving_cells import Motion
+from viscofric.contact.free.balance import lag, lag_changes
+from viscofric.contact.free.control import GivenIndentation, GivenLoad
+from viscofric.contact.free.geometry import LINE, POINT
+from viscofric.contact.free.grids import Window
+from viscofric.contact.free.nested import find_window
+from viscofric.contact.free.problem import Problem, Stage
+from viscofric.contact.free.scale import Scale, ScaledIndenter
+from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
+from viscofric.contact.indenters.shapes import FlatPunch
+from viscofric.contact.influence.layer_potentials import LayerCell
+from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence
+from viscofric.contact.influence.mixtures import memory_influence
+from viscofric.contact.influence.moments import correlation, memory_moments
+from viscofric.contact.influence.potentials import HalfSpaceCell
 from viscofric.contact.layers import Layer
-from viscofric.contact.line_influence import HalfSpaceStrip, line_memory_influence
-from viscofric.contact.moving_cells import Motion
-from viscofric.contact.nested import find_window
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
-from viscofric.contact.potentials import HalfSpaceCell
-from viscofric.contact.problem import Problem, Stage
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.reference import hunter_line
-from viscofric.contact.scale import Scale, ScaledIndenter
-from viscofric.contact.shapes import FlatPunch
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
@@ -41,9 +41,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.derivatives import FrictionDerivatives
-    from viscofric.contact.geometry import Geometry
-    from viscofric.contact.potentials import CellPotential
+    from viscofric.contact.derivatives.friction import FrictionDerivatives
+    from viscofric.contact.free.geometry import Geometry
+    from viscofric.contact.influence.potentials import CellPotential
 
     Array = NDArray[np.float64]
 

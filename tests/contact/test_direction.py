@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from viscofric.contact.height_map import HeightMap, Profile
-from viscofric.contact.indenters import Ball, Cylinder, Indenter
+from viscofric.contact.indenters.height_map import HeightMap, Profile
+from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
+from viscofric.contact.indenters.shapes import Cone, Ellipsoid
 from viscofric.contact.reference import hertz_ellipse
-from viscofric.contact.shapes import Cone, Ellipsoid
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material

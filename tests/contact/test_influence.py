@@ -12,9 +12,9 @@ from scipy.integrate import quad
 from scipy.special import gammainc
 
 from contact.dense_reference import memory_panels, square_potential
-from viscofric.contact.influence import memory_influence
-from viscofric.contact.memory_rules import lattice_interpolation, product_weights
-from viscofric.contact.potentials import cell_potential, cell_potential_xx
+from viscofric.contact.influence.memory_rules import lattice_interpolation, product_weights
+from viscofric.contact.influence.mixtures import memory_influence
+from viscofric.contact.influence.potentials import cell_potential, cell_potential_xx
 
 WINDOW = (32, 24)
 # Where the loaded cell lies: under the point, just behind and ahead of it, beside it, near and far.

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from viscofric.contact.grids import Strip, Window
-from viscofric.contact.layer_operator import LayerOperator, LineLayerOperator, ScaledLayer
-from viscofric.contact.layer_potentials import LayerCell, LayerStrip
-from viscofric.contact.line_operator import LineOperator
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
-from viscofric.contact.potentials import cell_potential, cell_potential_xx
+from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.influence.layer_potentials import LayerCell, LayerStrip
+from viscofric.contact.influence.potentials import cell_potential, cell_potential_xx
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operators.layer import LayerOperator, LineLayerOperator, ScaledLayer
+from viscofric.contact.operators.line import LineOperator
 from viscofric.errors import ConvergenceError
 
 TWO_MODES = SteadyMaterial(0.1, np.array([0.5, 0.4]), np.array([0.3, 3.0]))

@@ -21,12 +21,12 @@ from gallery import (
     cylinder_on_standard_linear_solid,
     cylinder_problem,
 )
-from viscofric.contact.grids import Strip
-from viscofric.contact.height_map import Profile
-from viscofric.contact.indenters import Cylinder
-from viscofric.contact.line_influence import line_memory_influence, scaled_exponential_integral, strip_potential
-from viscofric.contact.line_operator import LineOperator
-from viscofric.contact.operator import SteadyMaterial
+from viscofric.contact.free.grids import Strip
+from viscofric.contact.indenters.height_map import Profile
+from viscofric.contact.indenters.indenter import Cylinder
+from viscofric.contact.influence.line import line_memory_influence, scaled_exponential_integral, strip_potential
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.line import LineOperator
 from viscofric.contact.reference import HunterContact, high_speed_line_friction, hunter_line
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError

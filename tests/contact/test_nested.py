@@ -10,15 +10,15 @@ import pytest
 
 import viscofric as vf
 from gallery import standard_linear_solid
-from viscofric.contact.control import GivenIndentation, GivenLoad
-from viscofric.contact.estimates import FRICTION_FLOOR, Estimate, settled
-from viscofric.contact.geometry import LINE, POINT
-from viscofric.contact.grids import Strip, Window
-from viscofric.contact.indenters import Ball, Cylinder, Indenter
-from viscofric.contact.nested import find_window, refine
-from viscofric.contact.operator import SteadyMaterial
-from viscofric.contact.problem import Problem
-from viscofric.contact.proximal import proximal_points
+from viscofric.contact.free.control import GivenIndentation, GivenLoad
+from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, settled
+from viscofric.contact.free.geometry import LINE, POINT
+from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.free.nested import find_window, refine
+from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.proximal import proximal_points
+from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
+from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.errors import ConvergenceError
 
 # A standard linear solid in units of the Hertz contact at E0, and indenters whose radius is one there.
@@ -194,8 +194,8 @@ def test_slender_contacts_are_solved_where_the_active_set_cycles(ratio: float, m
 
 
 def test_grid_that_is_not_solved_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("viscofric.contact.nested.proximal_points", lambda *given: given[3])  # none are taken
-    monkeypatch.setattr("viscofric.contact.nested._PATIENCE", 0)
+    monkeypatch.setattr("viscofric.contact.free.nested.proximal_points", lambda *given: given[3])  # none are taken
+    monkeypatch.setattr("viscofric.contact.free.nested._PATIENCE", 0)
     with pytest.raises(ConvergenceError, match=r"did not converge on a grid of \d+ x \d+ cells: a gap of"):
         find_window(PROBLEM, 1.0)
 
@@ -204,8 +204,8 @@ def test_proximal_points_give_up_when_their_products_are_spent(monkeypatch: pyte
     stage = find_window(PROBLEM, 0.7)
     operator, height = stage.operator, PROBLEM.height_on(stage.window, stage.operator.shift)
     poor = PROBLEM.control.solve(operator, height, np.ones(stage.window.shape), 1e-8, 0)
-    monkeypatch.setattr("viscofric.contact.proximal._FEWEST_PRODUCTS", 5)
-    monkeypatch.setattr("viscofric.contact.proximal._CELL_PRODUCTS", 5.0)
+    monkeypatch.setattr("viscofric.contact.free.proximal._FEWEST_PRODUCTS", 5)
+    monkeypatch.setattr("viscofric.contact.free.proximal._CELL_PRODUCTS", 5.0)
     found = proximal_points(PROBLEM.control, operator, height, poor, 1e-10)
     assert not found.converged
     assert 1e-10 < found.complementarity <= poor.complementarity
@@ -213,7 +213,7 @@ def test_proximal_points_give_up_when_their_products_are_spent(monkeypatch: pyte
 
 @pytest.mark.parametrize("finest", [128, 2048])
 def test_accuracy_out_of_reach_is_refused_before_the_finest_grid(finest: int, caplog: pytest.LogCaptureFixture) -> None:
-    caplog.set_level(logging.INFO, logger="viscofric.contact.nested")
+    caplog.set_level(logging.INFO, logger="viscofric.contact.free.nested")
     with pytest.raises(ConvergenceError, match=r"known to \d\.\de-0\d of itself on .*ask for less accuracy") as caught:
         refine(find_window(PROBLEM, 0.7), 1e-9, finest)
     assert f"{finest} cells" in str(caught.value)
@@ -224,7 +224,7 @@ def test_accuracy_out_of_reach_is_refused_before_the_finest_grid(finest: int, ca
 
 
 def test_friction_that_is_not_a_number_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("viscofric.contact.nested.friction_estimate", lambda stages: Estimate(math.nan, math.inf))
+    monkeypatch.setattr("viscofric.contact.free.nested.friction_estimate", lambda stages: Estimate(math.nan, math.inf))
     with pytest.raises(ConvergenceError, match="not a number"):
         refine(find_window(PROBLEM, 0.7), 1e-3, 512)
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from contact.dense_reference import displacement_coefficients, displacement_matrix
-from viscofric.contact.grids import Window
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial, collocation_shift
+from viscofric.contact.free.grids import Window
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial, collocation_shift
 
 WINDOW = Window(spacing=0.25, behind=6, ahead=5, beside=4)
 ONE_MODE = SteadyMaterial(0.1, np.array([0.9]), np.array([0.7]))

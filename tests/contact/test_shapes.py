@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from gallery import BALL_RADIUS, HERTZ_RADIUS, LOAD, POISSON_RATIO, RUBBER_MODULUS, SPEED, standard_linear_solid
-from viscofric.contact.height_map import HeightMap, Profile
-from viscofric.contact.indenters import Ball, Cylinder, Indenter
+from viscofric.contact.free.scale import Scale
+from viscofric.contact.indenters.height_map import HeightMap, Profile
+from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
+from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ellipse, sneddon_cone
-from viscofric.contact.scale import Scale
-from viscofric.contact.shapes import Cone, Ellipsoid, FlatPunch
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material

@@ -20,9 +20,9 @@ from gallery import (
     standard_linear_solid,
 )
 from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.grids import Strip, Window
-from viscofric.contact.line_operator import LineOperator
-from viscofric.contact.operator import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operators.line import LineOperator
 from viscofric.contact.reference import hunter_line
 
 if TYPE_CHECKING:

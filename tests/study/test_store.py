@@ -9,7 +9,7 @@ import pytest
 
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
-from viscofric.study.store import CaseRecord, CaseStore, case_key
+from viscofric.study.store import CaseRecord, CaseStore, _sources, case_key
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -56,6 +56,14 @@ def test_key_changes_with_every_input() -> None:
     description: dict[str, object] = {"speed": 0.1, "load": 25.0, "C": [1.0, 2.0]}
     keys = {case_key(description), *(case_key({**description, name: 7.0}) for name in description)}
     assert len(keys) == 4
+
+
+def test_every_file_of_the_solver_counts_however_deep_it_lies(tmp_path: Path) -> None:
+    (tmp_path / "one" / "two").mkdir(parents=True)
+    for place in ("a.py", "one/b.py", "one/two/c.py", "one/notes.txt"):
+        (tmp_path / place).write_text(place, encoding="utf-8")
+    found = dict(_sources(tmp_path))
+    assert found == {"/a.py": b"a.py", "/one/b.py": b"one/b.py", "/one/two/c.py": b"one/two/c.py"}
 
 
 def test_unwritable_folder_is_told_in_a_sentence(tmp_path: Path) -> None:

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from viscofric.contact import steady
+from viscofric.contact.arrays.transforms import ScipyTransforms
+from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.layers import Layer
-from viscofric.contact.line_operator import LineOperator
-from viscofric.contact.operator import ConvolutionOperator, HalfSpaceOperator
+from viscofric.contact.operators.convolution import ConvolutionOperator, HalfSpaceOperator
+from viscofric.contact.operators.line import LineOperator
 from viscofric.contact.periodic.transfer import SlidingSolid
-from viscofric.contact.scale import Scale, ScaledIndenter
-from viscofric.contact.transforms import ScipyTransforms
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.rheology import material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum

@@ -12,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.contact.indenters import Indenter
+    from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
     from viscofric.rheology.material import Material
 
@@ -193,8 +193,8 @@ def chosen_indenter(asked: dict[str, Any]) -> NamedIndenter:
 
 
 def _simple(shape: str, text: str) -> NamedIndenter:
-    from viscofric.contact.indenters import Ball, Cylinder
-    from viscofric.contact.shapes import Cone, Ellipsoid, FlatPunch
+    from viscofric.contact.indenters.indenter import Ball, Cylinder
+    from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
     from viscofric.report.numbers import length
 
     if shape == "ellipsoid":
@@ -221,7 +221,7 @@ def _simple(shape: str, text: str) -> NamedIndenter:
 
 
 def _mapped(shape: str, asked: dict[str, Any]) -> NamedIndenter:
-    from viscofric.contact.height_map import HeightMap, Profile
+    from viscofric.contact.indenters.height_map import HeightMap, Profile
     from viscofric.errors import InputError
     from viscofric.readers.height_table import read_heights
 

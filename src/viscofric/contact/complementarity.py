@@ -8,7 +8,7 @@ for a positive definite but nonsymmetric K.  Conjugate gradients do not apply.  
 whose linear problems are solved inexactly by truncated generalised conjugate residuals (GCR) [1]_, with the
 inverse of a periodic operator near K, restricted to the contact, as preconditioner.  With the load given, the
 indentation is eliminated by projecting the mean out of residuals and search directions, so that the load never
-changes within a linear solve.  Where K is nearly skew the set can cycle; see `viscofric.contact.proximal`.
+changes within a linear solve.  Where K is nearly skew the set can cycle; see `viscofric.contact.free.proximal`.
 
 How tightly the linear problems are solved is the caller's choice.  "without headway": to a tenth of their initial
 residual at first, and ten times more tightly whenever the number of wrongly classified cells fails to halve, since
@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.contact.backend import AnyArray, Backend, Cells
+    from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
 
 # How far a linear residual is reduced while more than the given part of the contact's cells is wrongly classified.
 _REDUCTIONS = ((0.02, 0.3), (0.0003, 0.1), (1e-5, 1e-2), (0.0, 1e-4))

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
-    from viscofric.contact.derivatives import FrictionDerivatives
+    from viscofric.contact.derivatives.friction import FrictionDerivatives
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ class Diagnostics:
         Length of a cell along the motion, m.
     collocation_shift : float
         How far behind the cell centres the gap was held at zero, in cells; above zero only where the cells do not
-        resolve the shortest memory (see `viscofric.contact.operator.collocation_shift`).
+        resolve the shortest memory (see `viscofric.contact.operators.convolution.collocation_shift`).
     complementarity : float
         Largest gap under pressure or overlap without it, where the gap was looked at, relative to the indentation.
     load : float
@@ -117,7 +117,7 @@ class ContactSolution:
         K, as asked.
     friction_coefficient : float
         μ = F_t/F_N, with the sign of the speed: of the two below the one that has settled better on the nested
-        grids, the second with what the cells at the edge leave out (see `viscofric.contact.balance`).
+        grids, the second with what the cells at the edge leave out (see `viscofric.contact.free.balance`).
     pressure_friction_coefficient : float
         From the lean of the pressure on the indenter's slope, on the finest grid.
     energy_friction_coefficient : float

@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.assembly import assemble
-from viscofric.contact.backend import Backend
-from viscofric.contact.control import GivenIndentation, GivenLoad
+from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.counterface import indenter_compliance
-from viscofric.contact.derivatives import differentiate
-from viscofric.contact.given_grid import LEAST_FINEST, GivenGrid
-from viscofric.contact.indenters import SMALL_STRAIN, Indenter
-from viscofric.contact.layer_operator import ScaledLayer
+from viscofric.contact.derivatives.friction import differentiate
+from viscofric.contact.free.assembly import assemble
+from viscofric.contact.free.control import GivenIndentation, GivenLoad
+from viscofric.contact.free.given_grid import LEAST_FINEST, GivenGrid
+from viscofric.contact.free.nested import find_window, refine
+from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.scale import Scale, ScaledIndenter
+from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter
 from viscofric.contact.layers import Layer
 from viscofric.contact.motion import unit_direction
-from viscofric.contact.nested import find_window, refine
-from viscofric.contact.operator import SteadyMaterial
-from viscofric.contact.problem import Problem
-from viscofric.contact.scale import Scale, ScaledIndenter
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.control import Control
-    from viscofric.contact.grids import Extent
+    from viscofric.contact.free.control import Control
+    from viscofric.contact.free.grids import Extent
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 
-from viscofric.contact.indenters import Indenter
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
@@ -16,7 +16,7 @@ from viscofric.units import Quantities, Quantity, positive, to_si_array
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from viscofric.contact.backend import Backend
+    from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.layers import Layer
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from viscofric.contact.indenters import Indenter
+    from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
 
     Array: TypeAlias = NDArray[np.float64]

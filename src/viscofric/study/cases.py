@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from viscofric.contact.indenters import Ball
+    from viscofric.contact.indenters.indenter import Ball
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
 

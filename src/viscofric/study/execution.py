@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.indenters import Ball
+from viscofric.contact.indenters.indenter import Ball
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.agreement import compare
 from viscofric.friction.curves import FrictionCurves

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 from viscofric.files import write_atomically
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from importlib.resources.abc import Traversable
     from pathlib import Path
 
     from viscofric.contact.solution import ContactSolution
@@ -73,10 +75,19 @@ def case_key(description: dict[str, object]) -> str:
 def _solver_fingerprint() -> str:
     """Return what changes with any line of the solver, so that cases of an older one are not taken for new."""
     digest = hashlib.sha256()
-    for source in sorted(files("viscofric.contact").iterdir(), key=lambda entry: entry.name):
-        if source.name.endswith(".py"):
-            digest.update(source.read_bytes())
+    for name, source in _sources(files("viscofric.contact")):
+        digest.update(name.encode() + b"\0" + source)
     return digest.hexdigest()
+
+
+def _sources(folder: Traversable, path: str = "") -> Iterator[tuple[str, bytes]]:
+    """Yield names and texts of the Python files in a folder of a package and in those below it."""
+    for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        name = f"{path}/{entry.name}"
+        if entry.is_dir():
+            yield from _sources(entry, name)
+        elif entry.name.endswith(".py"):
+            yield name, entry.read_bytes()
 
 
 @dataclass(frozen=True)

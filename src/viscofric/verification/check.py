@@ -102,7 +102,7 @@ class Check:
         Parameters
         ----------
         backend : str
-            Arrays and FFTs that are checked; see `viscofric.contact.backend.Backend`.
+            Arrays and FFTs that are checked; see `viscofric.contact.arrays.backend.Backend`.
 
         Raises
         ------

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ball, hertz_ellipse, hertz_line, sneddon_cone
-from viscofric.contact.shapes import Cone, Ellipsoid, FlatPunch
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_steady
 from viscofric.verification.model_problems import (

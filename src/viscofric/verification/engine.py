@@ -7,13 +7,13 @@ from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
 from viscofric.contact import steady
-from viscofric.contact.backend import Backend
+from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.periodic import solve as periodic
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from viscofric.contact.indenters import Indenter
+    from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.periodic.surface import PeriodicSurface
     from viscofric.contact.solution import ContactSolution

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.control import GivenLoad
-from viscofric.contact.geometry import LINE, POINT
-from viscofric.contact.operator import SteadyMaterial, collocation_shift
-from viscofric.contact.problem import Problem, Stage
+from viscofric.contact.free.control import GivenLoad
+from viscofric.contact.free.geometry import LINE, POINT
+from viscofric.contact.free.problem import Problem, Stage
+from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
 from viscofric.errors import ConvergenceError
 from viscofric.verification.ball import ball_references
 from viscofric.verification.check import Check, Comparison
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.geometry import Geometry
+    from viscofric.contact.free.geometry import Geometry
 
     Array: TypeAlias = NDArray[np.float64]
 

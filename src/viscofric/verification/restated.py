@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.contact import steady
-from viscofric.contact.backend import Backend
+from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.indenters.shapes import Ellipsoid
 from viscofric.contact.layers import Layer
 from viscofric.contact.periodic import solve as periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.contact.shapes import Ellipsoid
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.verification.check import Check, Comparison

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from viscofric.contact.indenters import Ball, Cylinder
+from viscofric.contact.indenters.indenter import Ball, Cylinder
 from viscofric.contact.layers import Layer
 from viscofric.contact.reference import (
     foundation_modulus,

@@ -10,17 +10,17 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.fields._cells import on_cells, spacing
-from viscofric.contact.influence import memory_influence
-from viscofric.contact.layer_potentials import THINNEST, LayerCell, LayerStrip
-from viscofric.contact.line_influence import line_memory_influence, strip_potential
-from viscofric.contact.potentials import HalfSpaceCell
+from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
+from viscofric.contact.influence.line import line_memory_influence, strip_potential
+from viscofric.contact.influence.mixtures import memory_influence
+from viscofric.contact.influence.potentials import HalfSpaceCell
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from viscofric.contact.influence.potentials import CellPotential
     from viscofric.contact.layers import Layer
-    from viscofric.contact.potentials import CellPotential
 
     Array: TypeAlias = NDArray[np.float64]
 

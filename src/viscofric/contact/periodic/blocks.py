@@ -22,7 +22,7 @@ from viscofric.contact.periodic.operator import PeriodicOperator
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.contact.backend import AnyArray
+    from viscofric.contact.arrays.backend import AnyArray
 
 _SIZES = range(8, 3, -1)  # cells along an edge of a block, the first that divides the grid
 _FEWEST = 16  # blocks along an edge

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from viscofric.contact.backend import AnyArray
+    from viscofric.contact.arrays.backend import AnyArray
     from viscofric.contact.complementarity import ComplementaritySolution
 
     Array: TypeAlias = NDArray[np.float64]

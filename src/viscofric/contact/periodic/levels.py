@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.backend import Backend
+    from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.one_grid import Stage
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.backend import AnyArray, Backend
+    from viscofric.contact.arrays.backend import AnyArray, Backend
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.contact.backend import Backend
+from viscofric.contact.arrays.backend import Backend
 
 if TYPE_CHECKING:
-    from viscofric.contact.backend import AnyArray
+    from viscofric.contact.arrays.backend import AnyArray
 
 
 @dataclass

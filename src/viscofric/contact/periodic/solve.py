@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.backend import Backend
+from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.counterface import indenter_compliance
-from viscofric.contact.indenters import too_steep
+from viscofric.contact.indenters.indenter import too_steep
 from viscofric.contact.layers import Layer
 from viscofric.contact.motion import unit_direction
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from viscofric.contact.backend import AnyArray, Backend
+    from viscofric.contact.arrays.backend import AnyArray, Backend
     from viscofric.contact.periodic.operator import PeriodicOperator
 
 

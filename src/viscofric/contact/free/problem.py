@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.backend import Backend
-from viscofric.contact.balance import CUTS, lag, opening
-from viscofric.contact.control import GivenLoad
-from viscofric.contact.estimates import Estimate
-from viscofric.contact.footprint import Footprint
+from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.free.balance import CUTS, lag, opening
+from viscofric.contact.free.control import GivenLoad
+from viscofric.contact.free.estimates import Estimate
+from viscofric.contact.free.footprint import Footprint
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.control import Control
-    from viscofric.contact.geometry import Geometry
-    from viscofric.contact.grids import Extent, Grid
-    from viscofric.contact.layer_operator import ScaledLayer
-    from viscofric.contact.operator import ConvolutionOperator, SteadyMaterial
+    from viscofric.contact.free.control import Control
+    from viscofric.contact.free.geometry import Geometry
+    from viscofric.contact.free.grids import Extent, Grid
+    from viscofric.contact.operators.convolution import ConvolutionOperator, SteadyMaterial
+    from viscofric.contact.operators.layer import ScaledLayer
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.adjoint import Way, friction_way
-from viscofric.contact.control import GivenLoad
-from viscofric.contact.moving_cells import Motion, friction_gradient
+from viscofric.contact.derivatives.adjoint import Way, friction_way
+from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
+from viscofric.contact.free.control import GivenLoad
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.adjoint import Gradient
-    from viscofric.contact.problem import Stage
-    from viscofric.contact.scale import Scale
+    from viscofric.contact.derivatives.adjoint import Gradient
+    from viscofric.contact.free.problem import Stage
+    from viscofric.contact.free.scale import Scale
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array: TypeAlias = NDArray[np.float64]
@@ -75,10 +75,11 @@ class FrictionDerivatives:
 
     Notes
     -----
-    They are those of the solution on its cells, which move with the contact (see `viscofric.contact.moving_cells`);
-    where the indenter has walls, the cells stay where they are.  Against the closed form of the line contact, at E∞/E0
-    from 1.3 to 1000 and v τ/a0 from 1e-4 to 1000, they are right to 3e-4 of the largest of them (median; nine in ten
-    to 3e-3, all to 2e-2) at accuracy 1e-3, and to 2e-4 (nine in ten to 1e-3) at accuracy 1e-4.
+    They are those of the solution on its cells, which move with the contact (see
+    `viscofric.contact.derivatives.moving_cells`); where the indenter has walls, the cells stay where they are.
+    Against the closed form of the line contact, at E∞/E0 from 1.3 to 1000 and v τ/a0 from 1e-4 to 1000, they are right
+    to 3e-4 of the largest of them (median; nine in ten to 3e-3, all to 2e-2) at accuracy 1e-3, and to 2e-4 (nine in ten
+    to 1e-3) at accuracy 1e-4.
     """
 
     C: Array

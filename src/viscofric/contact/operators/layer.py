@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.geometry import LINE, Geometry
-from viscofric.contact.layer_potentials import THINNEST, LayerCell, LayerStrip
+from viscofric.contact.free.geometry import LINE, Geometry
+from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
+from viscofric.contact.influence.line import strip_potential
+from viscofric.contact.influence.potentials import cell_potential
 from viscofric.contact.layers import Layer
-from viscofric.contact.line_influence import strip_potential
-from viscofric.contact.operator import ConvolutionOperator, Influence, cell_influence
-from viscofric.contact.potentials import cell_potential
+from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, cell_influence
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from viscofric.contact.estimates import FRICTION_FLOOR, friction_estimate
-from viscofric.contact.footprint import FootprintErrors
+from viscofric.contact.free.estimates import FRICTION_FLOOR, friction_estimate
+from viscofric.contact.free.footprint import FootprintErrors
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
 
 if TYPE_CHECKING:
-    from viscofric.contact.problem import Stage
-    from viscofric.contact.scale import Scale
+    from viscofric.contact.free.problem import Stage
+    from viscofric.contact.free.scale import Scale
 
 
 def assemble(

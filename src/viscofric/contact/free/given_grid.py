@@ -6,14 +6,14 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from viscofric.contact.grids import Extent
+from viscofric.contact.free.grids import Extent
 from viscofric.errors import InputError
 from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.contact.scale import Scale
+    from viscofric.contact.free.scale import Scale
 
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
 LEAST_FINEST = 128  # three grids, so that the friction has an error estimate

@@ -1,8 +1,8 @@
 """Nested grids: the window found on a coarse one, then cells halved until the friction is known well enough.
 
-Everything here is in units of the Hertz contact at E0 (lengths a0, depths a0²/R; see `viscofric.contact.scale`), so
-that neither the user's units nor his material's modulus matter.  Whether it is a point or a line contact, and whether
-the load or the indentation is given, is a part of the problem.
+Everything here is in units of the Hertz contact at E0 (lengths a0, depths a0²/R; see `viscofric.contact.free.scale`),
+so that neither the user's units nor his material's modulus matter.  Whether it is a point or a line contact, and
+whether the load or the indentation is given, is a part of the problem.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.estimates import FEWEST_GRIDS, friction_estimate
-from viscofric.contact.given_grid import COARSEST, GivenGrid
-from viscofric.contact.operator import collocation_shift
-from viscofric.contact.problem import Problem, Stage
-from viscofric.contact.proximal import proximal_points
+from viscofric.contact.free.estimates import FEWEST_GRIDS, friction_estimate
+from viscofric.contact.free.given_grid import COARSEST, GivenGrid
+from viscofric.contact.free.problem import Problem, Stage
+from viscofric.contact.free.proximal import proximal_points
+from viscofric.contact.operators.convolution import collocation_shift
 from viscofric.errors import ConvergenceError, InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.grids import Grid
+    from viscofric.contact.free.grids import Grid
 
     Array: TypeAlias = NDArray[np.float64]
 

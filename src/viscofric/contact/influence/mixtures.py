@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.influence_parts import (
+from viscofric.contact.influence.parts import (
     FIRST,
     NODES,
     ROWS_AT_ONCE,
@@ -35,12 +35,12 @@ from viscofric.contact.influence_parts import (
     near_cells,
     near_memory,
 )
-from viscofric.contact.potentials import HalfSpaceCell
+from viscofric.contact.influence.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.influence_parts import Potential
+    from viscofric.contact.influence.parts import Potential
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.problem import Stage
+    from viscofric.contact.free.problem import Stage
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -1,6 +1,6 @@
 """What the delayed displacement around a loaded cell is made of: a lattice, finer rules near the cell, and a tail.
 
-See `viscofric.contact.influence`, which sums it up over modes, and `viscofric.contact.influence_moments`, over cells.
+`viscofric.contact.influence.mixtures` sums it up over modes, `viscofric.contact.influence.moments` over cells.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.memory_rules import lattice_interpolation, panel_points, panel_rule, product_weights
+from viscofric.contact.influence.memory_rules import lattice_interpolation, panel_points, panel_rule, product_weights
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.memory_rules import Inexact
+    from viscofric.contact.influence.memory_rules import Inexact
 
     Array: TypeAlias = NDArray[np.float64]
     Potential: TypeAlias = Callable[[Array, Array], Array]

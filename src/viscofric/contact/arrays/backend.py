@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
+from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.line_influence import HalfSpaceStrip, line_memory_influence, strip_potential
-from viscofric.contact.operator import ConvolutionOperator, Influence, bent_share, second_difference
+from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence, strip_potential
+from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, bent_share, second_difference
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

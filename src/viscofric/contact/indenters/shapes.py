@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.indenters import Indenter, too_steep
+from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.grids import Extent
+    from viscofric.contact.free.grids import Extent
 
     Array: TypeAlias = NDArray[np.float64]
 

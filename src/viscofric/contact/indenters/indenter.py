@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
-from viscofric.contact.geometry import LINE, POINT, Geometry
+from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from viscofric.contact.grids import Extent
+    from viscofric.contact.free.grids import Extent
 
     Array: TypeAlias = NDArray[np.float64]
 

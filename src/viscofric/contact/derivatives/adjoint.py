@@ -10,10 +10,10 @@ field λ on the same cells solves ::
 (dμ)_p the change at fixed pressure.  Kᵀ is the influence mirrored along the motion.  λᵀ dK p = Σ W dK with the
 correlation W of λ and p, so that any number of modes costs one pass through their influence coefficients.
 At the edges of a contact the pressure is zero, so that the cells that a change wins or loses count for nothing to first
-order.  The place where the gap is looked at (`viscofric.contact.operator.collocation_shift`) is held.
+order.  The place where the gap is looked at (`viscofric.contact.operators.convolution.collocation_shift`) is held.
 
 Of the balanced energy a part is Λ r, r = Σ q (K p + h − δ)/h² over free cells, q being the pressures beside each (see
-`viscofric.contact.balance`).  Held at −Λ q/h² there, λ tells the change of the gap too, by the same equations.
+`viscofric.contact.free.balance`).  Held at −Λ q/h² there, λ tells the change of the gap too, by the same equations.
 
 M. B. Giles, N. A. Pierce, Flow Turbul. Combust. 65 (2000) 393, on adjoints.
 
@@ -26,20 +26,20 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.balance import CUTS, free_gap, lag, lag_changes, neighbours
 from viscofric.contact.complementarity import solve_on_contact
-from viscofric.contact.control import GivenLoad
-from viscofric.contact.estimates import friction_estimate
-from viscofric.contact.influence_moments import correlation, memory_moments
-from viscofric.contact.operator import SHORT_MEMORY, bent_share
+from viscofric.contact.free.balance import CUTS, free_gap, lag, lag_changes, neighbours
+from viscofric.contact.free.control import GivenLoad
+from viscofric.contact.free.estimates import friction_estimate
+from viscofric.contact.influence.moments import correlation, memory_moments
+from viscofric.contact.operators.convolution import SHORT_MEMORY, bent_share
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.operator import ConvolutionOperator
-    from viscofric.contact.potentials import CellPotential
-    from viscofric.contact.problem import Stage
+    from viscofric.contact.free.problem import Stage
+    from viscofric.contact.influence.potentials import CellPotential
+    from viscofric.contact.operators.convolution import ConvolutionOperator
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -100,7 +100,7 @@ class Adjoint(NamedTuple):
 def friction_way(stages: list[Stage]) -> Way:
     """Return which expression of the friction coefficient is to be differentiated.
 
-    That which `viscofric.contact.estimates.friction_estimate` trusts.  Where it extrapolates the energy, the energy
+    That which `viscofric.contact.free.estimates` trusts.  Where it extrapolates the energy, the energy
     itself: extrapolated, the scatter of derivatives from grid to grid would grow threefold.
 
     Parameters
@@ -239,7 +239,7 @@ def _lost(energy: Array, lengths: Array, cell: CellPotential, *, bent: bool) -> 
     """Return what each mode dissipates per compliance, negative, and its change with ln λ.
 
     By its slope, (K − L)/λ, or λ ∂²L/∂x² of a short memory, or partly by the bends λ ∂²K/∂x²; see
-    `viscofric.contact.operator.cell_influence`.
+    `viscofric.contact.operators.convolution.cell_influence`.
     """
     (nx, ny) = energy.shape[0] // 2 + 1, energy.shape[1]
     # Second differences of K, summed over a correlation, are second differences of the correlation.

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.control import Control
-    from viscofric.contact.operator import ConvolutionOperator
+    from viscofric.contact.free.control import Control
+    from viscofric.contact.operators.convolution import ConvolutionOperator
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from viscofric.contact.operator import ConvolutionOperator
+    from viscofric.contact.operators.convolution import ConvolutionOperator
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.estimates import settled
+from viscofric.contact.free.estimates import settled
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.grids import Grid
-    from viscofric.contact.problem import Stage
+    from viscofric.contact.free.grids import Grid
+    from viscofric.contact.free.problem import Stage
 
     Array: TypeAlias = NDArray[np.float64]
 

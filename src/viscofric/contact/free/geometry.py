@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from viscofric.contact.grids import Grid, Strip, Window
-from viscofric.contact.line_operator import LineOperator
-from viscofric.contact.operator import ConvolutionOperator, HalfSpaceOperator
+from viscofric.contact.free.grids import Grid, Strip, Window
+from viscofric.contact.operators.convolution import ConvolutionOperator, HalfSpaceOperator
+from viscofric.contact.operators.line import LineOperator
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -1,8 +1,8 @@
 """Sums of influence coefficients over a correlation, and of their changes with the memory lengths, mode by mode.
 
 A bilinear form of the influence matrix is Σ a(x) K(x − x') b(x') = Σ W(Δ) K(Δ) with the correlation
-W(Δ) = Σ a(x) b(x − Δ).  With the lattice of `viscofric.contact.influence`, K = Σ V(n) L(i + n, y) but for corrections
-near the loaded cell and beyond the window, all modes share one correlation of W with the potential,
+W(Δ) = Σ a(x) b(x − Δ).  With the lattice of `viscofric.contact.influence.mixtures`, K = Σ V(n) L(i + n, y) but for
+corrections near the loaded cell and beyond the window, all modes share one correlation of W with the potential,
 
     Σ W K = Σ_n V(n) Z(n) + …,      Z(n) = Σ W(i, y) L(i + n, y),
 
@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.influence_parts import ROWS_AT_ONCE, Around, Modes, beyond, near_cells, near_memory
+from viscofric.contact.influence.parts import ROWS_AT_ONCE, Around, Modes, beyond, near_cells, near_memory
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.memory_rules import Inexact
-    from viscofric.contact.potentials import CellPotential
+    from viscofric.contact.influence.memory_rules import Inexact
+    from viscofric.contact.influence.potentials import CellPotential
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -71,8 +71,7 @@ def memory_moments(
     Returns
     -------
     moments, sensitivities : (k, m) array
-        Σ W K and Σ W ∂K/∂ln λ, K as in `viscofric.contact.influence.memory_influence`.  Right to about 1e-11 of
-        Σ |W| max |K|.
+        Σ W K and Σ W ∂K/∂ln λ, K as in `viscofric.contact.influence.mixtures`.  Right to about 1e-11 of Σ |W| max |K|.
     """
     sets, length, ny = weights.shape
     if len(memory_lengths) == 0:

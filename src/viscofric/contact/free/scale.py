@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.grids import Extent
+from viscofric.contact.free.grids import Extent
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.geometry import Geometry
-    from viscofric.contact.grids import Grid
-    from viscofric.contact.indenters import Indenter
+    from viscofric.contact.free.geometry import Geometry
+    from viscofric.contact.free.grids import Grid
+    from viscofric.contact.indenters.indenter import Indenter
 
     Array: TypeAlias = NDArray[np.float64]
 

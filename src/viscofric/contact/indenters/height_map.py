@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.geometry import LINE, Geometry
-from viscofric.contact.indenters import Indenter, too_steep
+from viscofric.contact.free.geometry import LINE, Geometry
+from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy.interpolate import PPoly, RectBivariateSpline
 
-    from viscofric.contact.grids import Extent
+    from viscofric.contact.free.grids import Extent
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 import numpy as np
 
+from viscofric.contact.influence.line import strip_potential
+from viscofric.contact.influence.potentials import cell_potential, cell_potential_xx
 from viscofric.contact.layers import Layer
-from viscofric.contact.line_influence import strip_potential
-from viscofric.contact.potentials import cell_potential, cell_potential_xx
 
 if TYPE_CHECKING:
     from collections.abc import Callable

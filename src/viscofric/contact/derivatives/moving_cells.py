@@ -19,14 +19,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.adjoint import friction_adjoint, mean_gradient
-from viscofric.contact.balance import CUTS, lag
+from viscofric.contact.derivatives.adjoint import friction_adjoint, mean_gradient
+from viscofric.contact.free.balance import CUTS, lag
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.adjoint import Gradient, Way
-    from viscofric.contact.problem import Stage
+    from viscofric.contact.derivatives.adjoint import Gradient, Way
+    from viscofric.contact.free.problem import Stage
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -72,7 +72,7 @@ def friction_gradient(stage: Stage, way: Way, motion: Motion | None) -> Gradient
     ----------
     stage : Stage
     way : {"pressure", "balance", "energy"}
-        As of `viscofric.contact.adjoint.friction_adjoint`.
+        As of `viscofric.contact.derivatives.adjoint.friction_adjoint`.
     motion : Motion or None
         With which cells move; they stay without, as they must for "energy", which is for indenters with walls.
 

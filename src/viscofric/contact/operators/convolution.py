@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.backend import Backend
-from viscofric.contact.influence import memory_influence
-from viscofric.contact.potentials import HalfSpaceCell
+from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.influence.mixtures import memory_influence
+from viscofric.contact.influence.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
     from typing import Self
 
     from numpy.typing import ArrayLike, NDArray
 
-    from viscofric.contact.backend import AnyArray
-    from viscofric.contact.grids import Grid
-    from viscofric.contact.potentials import CellPotential
+    from viscofric.contact.arrays.backend import AnyArray
+    from viscofric.contact.free.grids import Grid
+    from viscofric.contact.influence.potentials import CellPotential
 
     Array: TypeAlias = NDArray[np.float64]
     ComplexArray: TypeAlias = NDArray[np.complex128]
@@ -196,7 +196,7 @@ class ConvolutionOperator(ABC):
         The displacement of one mode, y_k − l_k ∂y_k/∂x = c_k L p, dissipates −∫ p ∂y_k/∂x dA = −l_k ∫ p ∂²y_k/∂x² dA,
         since the slope of c_k L p does no work.  With second differences in place of ∂²/∂x² every part of the
         displacement is dissipated as short waves bend it, and what cells leave out can be told from the bends of the
-        gap; see `viscofric.contact.balance`.  Modes whose memory is long against the cell keep the slope, which is
+        gap; see `viscofric.contact.free.balance`.  Modes whose memory is long against the cell keep the slope, which is
         more accurate for them; `bent_share` says how much of each mode.
         """
         return self._resistance(self._bent_dissipation, pressure)

@@ -32,13 +32,13 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.operator import bent_share
+from viscofric.contact.operators.convolution import bent_share
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.grids import Grid
-    from viscofric.contact.operator import SteadyMaterial
+    from viscofric.contact.free.grids import Grid
+    from viscofric.contact.operators.convolution import SteadyMaterial
 
     Array: TypeAlias = NDArray[np.float64]
 

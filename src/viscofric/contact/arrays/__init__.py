@@ -1,0 +1,1 @@
+"""Arrays and FFTs of the libraries with which contacts are solved."""

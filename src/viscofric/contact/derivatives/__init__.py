@@ -1,0 +1,1 @@
+"""Derivatives of the friction coefficient by an adjoint solve."""

@@ -1,0 +1,1 @@
+"""The isolated contact: window, nested grids, estimates of the errors, edges."""

@@ -1,0 +1,1 @@
+"""Indenters and their shapes."""

@@ -1,0 +1,1 @@
+"""Displacement around one loaded cell: half-space and layer, point and line, with the material's memory."""

@@ -1,0 +1,1 @@
+"""Pressure to displacement on a whole grid of cells."""
