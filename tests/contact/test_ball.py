@@ -29,8 +29,8 @@ from gallery import (
     low_speed_friction,
     standard_linear_solid,
 )
-from viscofric.contact import control
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.free import control
 from viscofric.contact.free.grids import Window
 from viscofric.contact.indenters.indenter import Ball
 from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
