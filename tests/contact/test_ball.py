@@ -24,6 +24,7 @@ from gallery import (
     BallReference,
     ball_problem,
     broad_spectrum_25,
+    broad_spectrum_37,
     high_speed_friction,
     in_hertz_units,
     low_speed_friction,
@@ -503,3 +504,14 @@ def test_units_at_the_edge() -> None:
     dressed = solve_steady(SLS.material, Ball(radius="10 mm"), speed="100 mm/s", load=f"{1e3 * LOAD!r} mN")
     # Unit conversion rounds in the last digit.
     assert dressed.friction_coefficient == pytest.approx(plain.friction_coefficient, rel=1e-9)
+
+
+def test_edges_are_claimed_to_be_known_to_a_cell_and_are() -> None:
+    """On one of the coarser grids here an edge is taken for half a cell further out than it can be told to be."""
+    coarse = broad_spectrum_37(10.0).solve(accuracy=1e-3)
+    fine = broad_spectrum_37(10.0).solve(grid=512)
+    error = coarse.diagnostics.edge_error
+    assert coarse.diagnostics.peak_resolved
+    assert error <= coarse.diagnostics.spacing
+    for edge in ("front", "rear", "half_width"):
+        assert abs(getattr(coarse, edge) - getattr(fine, edge)) < error

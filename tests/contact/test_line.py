@@ -451,3 +451,14 @@ def test_modulus_and_load_only_rescale_the_line_contact() -> None:
     assert other.friction_coefficient * 2.0 * BALL_RADIUS / length == pytest.approx(
         SLS.solve().friction_coefficient / SLOPE, rel=1e-9
     )
+
+
+def test_cycling_set_is_left_at_a_loose_tolerance_too() -> None:
+    """Where the active set cycles, proximal points end as soon as the tolerance is met, however loose it is."""
+    problem = cylinder_on_standard_linear_solid(129.00613719616837, 0.4912070649483007)
+    spectrum = problem.material.spectrum
+    hunter = hunter_line(
+        problem.load, problem.cylinder.radius, spectrum.E0, spectrum.E_inf, float(spectrum.tau[0]), problem.speed, 0.5
+    )
+    solution = problem.solve(accuracy=5e-3, tolerance=5e-6)
+    assert solution.friction_coefficient == pytest.approx(hunter.friction_coefficient, rel=5e-3)  # the accuracy

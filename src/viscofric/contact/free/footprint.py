@@ -97,8 +97,10 @@ class FootprintErrors:
         # A layer at the leading edge that is thinner than a cell may hide a pressure that no grid so far has seen.
         deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
         seen = shift == 0.0 and _hidden_peak(stages[-1]) < last.peak
+        # The edge lies between the last loaded cell's centre and the next one's, wherever a coarser grid had it.
+        most = cell if seen else math.inf
         return cls(
-            edge=max(least, *(error(name) for name in sides)),
+            edge=max(least, min(most, max(error(name) for name in sides))),
             area=max(least * rim, error("area")),
             peak=peak,
             peak_resolved=deep and still and seen,

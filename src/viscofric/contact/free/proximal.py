@@ -40,7 +40,7 @@ _FIRST, _FALL, _QUICK_FALL, _SLOW_FALL, _RISE, _FADE = 3.0, 0.5, 0.35, 0.8, 3.0,
 _QUICK = 4  # looks at the contact set within which a step is an easy one
 _LOOKS = 4  # looks without headway that end a step's attempt
 _STEP_TOLERANCE = 0.3  # of each step, relative to what is violated before it
-_NEAR = 1e-6  # what is violated where the problem itself is tried
+_NEAR = 1e-6  # what is violated where the problem itself is tried, if the tolerance is not looser than that
 _HIGHEST = 1e4  # σ that is given up at
 # Products after which to give up: so many times so many cells, about a minute's work, but not fewer than these.
 _CELL_PRODUCTS, _FEWEST_PRODUCTS = 6e8, 150
@@ -84,7 +84,7 @@ def proximal_points(
         pressure = step.pressure
         gap = step.displacement - damping * pressure + height - step.indentation
         violated = max(-float(gap.min()), float(np.abs(gap[pressure > 0.0]).max())) / abs(step.indentation)
-        if violated < _NEAR:
+        if violated < max(_NEAR, 2.0 * tolerance):
             found = control.solve(operator, height, pressure, tolerance, _LOOKS)
             products += found.products
         fall = _QUICK_FALL if step.set_changes <= _QUICK else _FALL
