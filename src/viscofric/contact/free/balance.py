@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from viscofric.contact.operators.convolution import SteadyMaterial
 
     Array: TypeAlias = NDArray[np.float64]
+    ComplexArray: TypeAlias = NDArray[np.complex128]
 
 #: Shortest and longest wave that might be the first one left out, and the likely one: wavenumbers times the cell.
 #: From the closed form of the line contact, for E∞/E0 from 1.1 to 1e4 and v τ/a0 from 1e-6 to 1e6.
@@ -89,14 +90,20 @@ def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
     cut : float
         Wavenumber of the longest wave left out, times the spacing.
     """
+    wavenumber, symbol, loss, weight = _left_out(material, spacing, cut)
+    return float((wavenumber * loss) @ weight) / float((wavenumber * symbol.real) @ weight)
+
+
+def _left_out(material: SteadyMaterial, spacing: float, cut: float) -> tuple[Array, ComplexArray, Array, Array]:
+    """Return, of the waves beyond the cut: wavenumber, S, what of the loss is found from bends, over q, and weight."""
     wavenumber = cut / spacing * np.exp(np.linspace(0.0, _LONGEST, _STEPS))
-    compliance = material.symbol(wavenumber)
+    symbol = material.symbol(wavenumber)
     loss = np.zeros(_STEPS)
     lengths = material.memory_lengths
     for share, length in zip(bent_share(lengths / spacing) * material.compliances, lengths, strict=True):
         loss += share * length / (1.0 + (wavenumber * length) ** 2)
-    weight = (wavenumber * np.abs(compliance)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
-    return float((wavenumber * loss) @ weight) / float((wavenumber * compliance.real) @ weight)
+    weight = (wavenumber * np.abs(symbol)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
+    return wavenumber, symbol, loss, weight
 
 
 def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[float, Array, Array]:
@@ -107,14 +114,9 @@ def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[f
     material, spacing, cut
         As of `lag`.
     """
-    wavenumber = cut / spacing * np.exp(np.linspace(0.0, _LONGEST, _STEPS))
+    wavenumber, symbol, loss, weight = _left_out(material, spacing, cut)
     lengths, compliances = material.memory_lengths, material.compliances
     share = bent_share(lengths / spacing)
-    symbol = material.symbol(wavenumber)
-    weight = (wavenumber * np.abs(symbol)) ** -2.0
-    loss = np.zeros(_STEPS)
-    for one, compliance, length in zip(share, compliances, lengths, strict=True):
-        loss += one * compliance * length / (1.0 + (wavenumber * length) ** 2)
     whole = float((wavenumber * symbol.real) @ weight)
     value = float((wavenumber * loss) @ weight) / whole
     # d(ab/c) with the weight's logarithm −2 Re(dS/S): what a change of S does, and what one of the loss.

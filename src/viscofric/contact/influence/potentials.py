@@ -40,13 +40,7 @@ def cell_potential(x: Array, y: Array, aspect: float = 1.0) -> Array:
     (1985), Eq. 3.25.  Far away: its multipole series up to the fourth moments of the rectangle.
     """
     x, y = np.broadcast_arrays(x, y)
-    x2, y2 = x * x, y * y
-    r2 = x2 + y2
-    least = (_FAR * max(1.0, aspect)) ** 2
-    near = r2 < least
-    inverse2 = 1.0 / np.where(near, least, r2)
-    x2 *= inverse2
-    y2 *= inverse2
+    near, x2, y2, inverse2 = _from_afar(x, y, aspect)
     if aspect == 1.0:
         fourth = -7.0 / 1920.0 + (7.0 / 96.0) * x2 * y2
         result = np.sqrt(inverse2) * (1.0 + inverse2 * (1.0 / 24.0 + inverse2 * fourth))
@@ -61,6 +55,18 @@ def cell_potential(x: Array, y: Array, aspect: float = 1.0) -> Array:
     if near.any():
         result[near] = _love(x[near], y[near], aspect)
     return result
+
+
+def _from_afar(x: Array, y: Array, aspect: float) -> tuple[NDArray[np.bool_], Array, Array, Array]:
+    """Return where the multipole series is not to be used; and x²/r², y²/r² and 1/r² for it (anything there)."""
+    x2, y2 = x * x, y * y
+    r2 = x2 + y2
+    least = (_FAR * max(1.0, aspect)) ** 2
+    near = r2 < least
+    inverse2 = 1.0 / np.where(near, least, r2)
+    x2 *= inverse2
+    y2 *= inverse2
+    return near, x2, y2, inverse2
 
 
 def _love(x: Array, y: Array, aspect: float) -> Array:
@@ -86,13 +92,7 @@ def cell_potential_xx(x: Array, y: Array, aspect: float = 1.0) -> Array:
     Far away by its multipole series, right to 1e-6 of it.
     """
     x, y = np.broadcast_arrays(x, y)
-    x2, y2 = x * x, y * y
-    r2 = x2 + y2
-    least = (_FAR * max(1.0, aspect)) ** 2
-    near = r2 < least
-    inverse2 = 1.0 / np.where(near, least, r2)
-    x2 *= inverse2
-    y2 *= inverse2
+    near, x2, y2, inverse2 = _from_afar(x, y, aspect)
     moments = x2 * (x2 - 3.0 * y2) + 0.375 * y2 * y2 - aspect**2 * (0.5 * x2 * x2 - 3.375 * x2 * y2 + 0.5 * y2 * y2)
     result = np.asarray(aspect * np.sqrt(inverse2) * inverse2 * (2.0 * x2 - y2 + inverse2 * moments))
 
