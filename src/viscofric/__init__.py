@@ -46,10 +46,10 @@ if TYPE_CHECKING:
     from viscofric.friction.agreement import Agreement as Agreement
     from viscofric.friction.agreement import compare as compare
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
-    from viscofric.friction.master_curve import FrictionMasterCurve as FrictionMasterCurve
-    from viscofric.friction.master_curve import shift_friction as shift_friction
+    from viscofric.friction.measurement.tribometry import separate as separate
     from viscofric.friction.prediction import predict_friction as predict_friction
-    from viscofric.friction.tribometry import separate as separate
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve as FrictionMasterCurve
+    from viscofric.friction.shifting.master_curve import shift_friction as shift_friction
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
     from viscofric.readers.dma.master_curves import read_master_curve as read_master_curve
@@ -135,9 +135,9 @@ _HOME = {
     "compare": "viscofric.friction.agreement",
     "FrictionCurves": "viscofric.friction.curves",
     "predict_friction": "viscofric.friction.prediction",
-    "FrictionMasterCurve": "viscofric.friction.master_curve",
-    "shift_friction": "viscofric.friction.master_curve",
-    "separate": "viscofric.friction.tribometry",
+    "FrictionMasterCurve": "viscofric.friction.shifting.master_curve",
+    "shift_friction": "viscofric.friction.shifting.master_curve",
+    "separate": "viscofric.friction.measurement.tribometry",
     "read_dma": "viscofric.readers",
     "read_mtm": "viscofric.readers",
     "read_master_curve": "viscofric.readers.dma.master_curves",

@@ -193,6 +193,14 @@ class TractionRuns:
         Where they came from.
     notes : tuple of str
         What the reader found doubtful or changed: one sentence each.
+    zero_force : (n,) array, optional
+        Reading of the force cell without traction, N; NaN where it was not recorded.
+    time : (n,) array, optional
+        Since the first reading, s; NaN where it was not recorded.
+    step : (n,) array of int, optional
+        Number of the step of the test that a row belongs to, counted through all files.
+    track_radius : (n,) array, optional
+        Of the ball's track on the disc, m; NaN where it was not recorded.
     """
 
     disc_speed: Array
@@ -203,6 +211,10 @@ class TractionRuns:
     replicate: NDArray[np.int64]
     source: str = ""
     notes: tuple[str, ...] = ()
+    zero_force: Array | None = None
+    time: Array | None = None
+    step: NDArray[np.int64] | None = None
+    track_radius: Array | None = None
 
     def __post_init__(self) -> None:
         rows = np.size(self.disc_speed)
@@ -211,11 +223,23 @@ class TractionRuns:
             if column.shape != (rows,) or not np.all(np.isfinite(column)):
                 raise InputError(f"{name} of traction runs must be one row of finite numbers, one per reading.")
             object.__setattr__(self, name, column)
-        replicate = np.array(self.replicate, dtype=np.int64)
-        if replicate.shape != (rows,):
-            raise InputError("replicate of traction runs must hold one whole number per reading.")
-        replicate.flags.writeable = False
-        object.__setattr__(self, "replicate", replicate)
+        for name in ("zero_force", "time", "track_radius"):
+            if getattr(self, name) is None:
+                continue
+            column = _column(getattr(self, name))
+            if column.shape != (rows,) or np.any(np.isinf(column)):
+                raise InputError(
+                    f"{name} of traction runs must hold one number per reading, NaN where it is not known."
+                )
+            object.__setattr__(self, name, column)
+        for name in ("replicate", "step"):
+            if getattr(self, name) is None and name == "step":
+                continue
+            numbers = np.array(getattr(self, name), dtype=np.int64)
+            if numbers.shape != (rows,):
+                raise InputError(f"{name} of traction runs must hold one whole number per reading.")
+            numbers.flags.writeable = False
+            object.__setattr__(self, name, numbers)
         if rows and not np.all(self.load > 0):
             raise InputError("load of traction runs must be above zero in every reading.")
 

@@ -12,8 +12,8 @@ import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.prediction import predict_friction
-from viscofric.friction.tribometry import separate
 
 ACCURACY = 1e-2
 BALL = vf.Ball(radius="10 mm")

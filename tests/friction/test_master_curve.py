@@ -9,7 +9,7 @@ import pytest
 
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
-from viscofric.friction.master_curve import shift_friction
+from viscofric.friction.shifting.master_curve import shift_friction
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from scipy.stats import binom
 
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
-from viscofric.friction.tribometry import separate
+from viscofric.friction.measurement.tribometry import separate
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
 ROUNDING = 1e-12

@@ -35,6 +35,9 @@ _OPTIONAL = (
     "consistency_error",
     "slip",
     "offset",
+    "material_error",
+    "viscoelastic_lower",
+    "viscoelastic_upper",
 )
 
 # name -> (unit, what it is), for labelled data
@@ -53,6 +56,15 @@ _LABELS = {
     "consistency_error": ("1", "standard error of the consistency"),
     "slip": ("m/s", "magnitude of the sliding velocity"),
     "offset": ("N", "zero reading of the force cell"),
+    "material_error": ("1", "standard error of the viscoelastic friction coefficient that the material's leaves"),
+    "viscoelastic_lower": (
+        "1",
+        "lower 95 % limit of the viscoelastic friction coefficient, from the material's errors",
+    ),
+    "viscoelastic_upper": (
+        "1",
+        "upper 95 % limit of the viscoelastic friction coefficient, from the material's errors",
+    ),
 }
 
 
@@ -93,6 +105,10 @@ class FrictionCurves:
         Zero reading of the force cell, N; None where predicted.
     load_unit : {"N", "N/m"}
         That of the load: of a line contact it is per length.
+    material_error : (n,) array or None
+        Standard error that the material's own (of spectrum and shift factors) leaves on predicted friction.
+    viscoelastic_lower, viscoelastic_upper : (n,) array or None
+        Limits that hold predicted friction with 95 % probability, as far as the material's errors go.
 
     Raises
     ------
@@ -118,6 +134,9 @@ class FrictionCurves:
     slip: Array | None = None
     offset: Array | None = None
     load_unit: str = "N"
+    material_error: Array | None = None
+    viscoelastic_lower: Array | None = None
+    viscoelastic_upper: Array | None = None
 
     def __post_init__(self) -> None:
         shape = (np.size(self.speed),)

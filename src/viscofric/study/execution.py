@@ -12,8 +12,8 @@ from viscofric.contact.indenters.indenter import Ball
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.agreement import compare
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.master_curve import shift_friction
-from viscofric.friction.tribometry import separate
+from viscofric.friction.measurement.tribometry import separate
+from viscofric.friction.shifting.master_curve import shift_friction
 from viscofric.readers import read_mtm
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study import labels

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.friction.conditions import Condition, where
 from viscofric.friction.curves import SAME_LOAD
+from viscofric.friction.measurement.conditions import Condition, where
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import TractionRuns
-    from viscofric.friction.separation import Entry
+    from viscofric.friction.measurement.separation import Entry
 
     Array: TypeAlias = NDArray[np.float64]
 

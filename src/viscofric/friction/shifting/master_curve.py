@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.friction.curves import SAME_LOAD
-from viscofric.friction.smoothing import smoothing_weights
+from viscofric.friction.shifting.smoothing import smoothing_weights
 from viscofric.units import Quantities, Quantity, celsius, positive, to_si_array
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import TractionRuns
-    from viscofric.friction.conditions import Condition
+    from viscofric.friction.measurement.conditions import Condition
 
     Array: TypeAlias = NDArray[np.float64]
 

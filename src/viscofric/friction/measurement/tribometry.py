@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.conditions import Condition, conditions, where
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.doubts import doubts, outliers
-from viscofric.friction.separation import Entry, regressors
+from viscofric.friction.measurement.conditions import Condition, conditions, where
+from viscofric.friction.measurement.doubts import doubts, outliers
+from viscofric.friction.measurement.separation import Entry, regressors
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:

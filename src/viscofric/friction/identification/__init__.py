@@ -1,0 +1,1 @@
+"""The rubber read back from its friction."""

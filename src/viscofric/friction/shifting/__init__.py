@@ -1,0 +1,1 @@
+"""Friction curves of several temperatures shifted onto one."""
