@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.curves import SAME_LOAD
+from viscofric.nominal import SAME_LOAD
 from viscofric.units import celsius
 
 if TYPE_CHECKING:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 from viscofric.units import Quantity, celsius, positive
 
 if TYPE_CHECKING:
@@ -20,11 +21,6 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
 
     Array: TypeAlias = NDArray[np.float64]
-
-#: A temperature or load that is asked for finds the curves at the nearest one, if it is no further off than
-#: this.
-SAME_TEMPERATURE = 1.0  # K
-SAME_LOAD = 0.05  # relative
 
 _REQUIRED = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
 _OPTIONAL = (

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.data import TractionRuns
 from viscofric.errors import DataFileError, InputError
+from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.readers.table import Table, read_table
 
 if TYPE_CHECKING:
@@ -29,10 +30,6 @@ COLUMNS = {
 }
 REPLICATE = frozenset({"replicate", "repetition", "repeat"})
 
-#: Readings scatter about their nominal condition; the next condition is further off than this.
-SAME_TEMPERATURE = 1.0  # K
-SAME_SPEED = 0.05  # relative
-SAME_LOAD = 0.05  # relative
 LARGEST_REPLICATE = 1e9
 
 
@@ -152,21 +149,12 @@ def _all_replicates(
     seen: Counter[tuple[int, ...]] = Counter()
     numbers = []
     temperature = columns["temperature"]
-    nominal = [_nominal(temperature, np.full(temperature.shape, SAME_TEMPERATURE))]
+    nominal = [numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE))]
     for name, same in (("load", SAME_LOAD), ("disc speed", SAME_SPEED), ("ball speed", SAME_SPEED)):
-        nominal.append(_nominal(columns[name], same * np.abs(columns[name])))
+        nominal.append(numbered(columns[name], same * np.abs(columns[name])))
     for condition in np.stack(nominal, axis=1):
         key = tuple(int(value) for value in condition)
         seen[key] += 1
         numbers.append(seen[key])
     note = "There is no replicate column; readings of equal speeds, load and temperature are numbered in their order."
     return np.array(numbers, dtype=np.int64), (note,)
-
-
-def _nominal(values: Array, scatter: Array) -> NDArray[np.int64]:
-    """Give readings of one nominal value one number; those further apart than their scatter get another."""
-    order = np.argsort(values, kind="stable")
-    apart = np.diff(values[order]) > np.maximum(scatter[order][1:], scatter[order][:-1])
-    nominal = np.empty(len(values), dtype=np.int64)
-    nominal[order] = np.concatenate([[0], np.cumsum(apart)])
-    return nominal

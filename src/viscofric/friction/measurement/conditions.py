@@ -8,13 +8,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
-from viscofric.friction.curves import SAME_LOAD
+from viscofric.nominal import SAME_LOAD, clusters
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     from viscofric.data import TractionRuns
@@ -22,9 +19,6 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
     Labels: TypeAlias = NDArray[np.int64]
 
-# Readings that follow each other so closely that they stretch over this many tolerances are not one
-# condition.
-_LONGEST_CHAIN = 4.0
 # Slip over speed below which a ball rolls, however still the speeds are.
 _PURE_ROLLING = 1e-3
 
@@ -172,35 +166,3 @@ def _slips(ratio: Array, tolerance: float, resolution: float) -> tuple[Array, La
         direction[members], magnitude[members] = (0.0, 0.0) if rolls else (np.sign(mean), abs(mean))
     # Rolling stays apart from sliding, however slow.
     return direction, np.where(direction == 0.0, 0, numbered(magnitude) + 1)
-
-
-def clusters(values: Array, allowed: Array, shown: Callable[[float, float], str]) -> Labels:
-    """Find the nominal values behind scattered ones and number them in ascending order.
-
-    Parameters
-    ----------
-    values : (n,) array
-    allowed : (n,) array
-        The widest gap that each value may have to its neighbour of the same nominal value.
-    shown : callable
-        Puts the field and a range of its values into words, for the error message.
-
-    Raises
-    ------
-    InputError
-        If values without gaps stretch over more than four times what is allowed between neighbours.
-    """
-    order = np.argsort(values, kind="stable")
-    ascending, allowed = values[order], allowed[order]
-    apart = np.diff(ascending) > np.maximum(allowed[1:], allowed[:-1])
-    ends = np.flatnonzero(apart)
-    labels = np.empty(values.size, dtype=np.int64)
-    labels[order] = np.concatenate([[0], np.cumsum(apart)])[: values.size]
-    for first, last in zip([0, *(ends + 1)], [*ends, values.size - 1], strict=True):
-        low, high = float(ascending[first]), float(ascending[last])
-        if values.size and high - low > _LONGEST_CHAIN * max(allowed[first], allowed[last]):
-            raise InputError(
-                f"{shown(low, high)} has no gap that would tell nominal values from scatter; give a smaller "
-                "tolerance or leave out the readings in between."
-            )
-    return labels

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.friction.curves import SAME_LOAD
 from viscofric.friction.measurement.conditions import Condition, where
+from viscofric.nominal import SAME_LOAD
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

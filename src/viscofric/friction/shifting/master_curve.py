@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.curves import SAME_LOAD
 from viscofric.friction.shifting.smoothing import smoothing_weights
+from viscofric.nominal import SAME_LOAD
 from viscofric.units import Quantities, Quantity, celsius, positive, to_si_array
 
 if TYPE_CHECKING:

@@ -1,0 +1,78 @@
+"""Nominal values behind readings that scatter about them, and how far apart readings of one nominal value may be."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+    Labels: TypeAlias = NDArray[np.int64]
+
+#: Readings scatter about their nominal condition; the next condition is further off than this.
+SAME_TEMPERATURE = 1.0  # K
+SAME_SPEED = 0.05  # relative
+SAME_LOAD = 0.05  # relative
+
+# Readings that follow each other so closely that they stretch over this many tolerances are not one
+# condition.
+_LONGEST_CHAIN = 4.0
+
+
+def numbered(values: Array, allowed: Array) -> Labels:
+    """Give nominal values numbers in ascending order: a gap wider than allowed starts the next one.
+
+    Parameters
+    ----------
+    values : (n,) array
+    allowed : (n,) array
+        The widest gap that each value may have to its neighbour of the same nominal value.
+
+    Returns
+    -------
+    (n,) array of int
+        Number of the nominal value of each reading, from 0.
+    """
+    order = np.argsort(values, kind="stable")
+    apart = np.diff(values[order]) > np.maximum(allowed[order][1:], allowed[order][:-1])
+    labels = np.empty(values.size, dtype=np.int64)
+    labels[order] = np.concatenate([[0], np.cumsum(apart)])[: values.size]
+    return labels
+
+
+def clusters(values: Array, allowed: Array, shown: Callable[[float, float], str]) -> Labels:
+    """Give nominal values numbers as `numbered` does, and insist that they can be told from scatter.
+
+    Parameters
+    ----------
+    values : (n,) array
+    allowed : (n,) array
+        The widest gap that each value may have to its neighbour of the same nominal value.
+    shown : callable
+        Puts the field and a range of its values into words, for the error message.
+
+    Raises
+    ------
+    InputError
+        If values without gaps stretch over more than four times what is allowed between neighbours.
+    """
+    labels = numbered(values, allowed)
+    order = np.argsort(values, kind="stable")
+    ends = np.flatnonzero(np.diff(labels[order]))
+    for first, last in zip([0, *(ends + 1)], [*ends, values.size - 1], strict=True):
+        if not values.size:
+            break
+        low, high = float(values[order[first]]), float(values[order[last]])
+        if high - low > _LONGEST_CHAIN * max(allowed[order[first]], allowed[order[last]]):
+            raise InputError(
+                f"{shown(low, high)} has no gap that would tell nominal values from scatter; give a smaller "
+                "tolerance or leave out the readings in between."
+            )
+    return labels
