@@ -1,10 +1,10 @@
 """One smooth curve through shifted isotherms: a spline as rough as the data ask for.
 
-log E' and log E'' over log reduced frequency are cubic splines; the square of their third derivative is penalised.
-How much is found by restricted maximum likelihood (S. N. Wood, J. R. Stat. Soc. B 73 (2011) 3), for each modulus:
-noisy sweeps get a smoother curve.  The errors of the shifts depend on it.  A curve that follows the noise has
-noise in its slope, and that passes for information on the shifts: at 3 % noise, 95 % bands from splines without
-penalty hold 88 %.
+log E' and log E'' over log reduced frequency, or friction over reduced speed, are cubic splines; the square of their
+third derivative is penalised.  How much is found by restricted maximum likelihood (S. N. Wood, J. R. Stat. Soc. B 73
+(2011) 3), for each quantity: noisy sweeps get a smoother curve.  The errors of the shifts depend on it.  A curve that
+follows the noise has noise in its slope, and that passes for information on the shifts: at 3 % noise, 95 % bands from
+splines without penalty hold 88 %.
 """
 
 from __future__ import annotations
@@ -43,10 +43,10 @@ class Smoother:
         3, or less where the points are very few.
     penalty : (K, K) array
         Integrals of products of third derivatives of the K basis functions, 1/decades⁵.
-    smoothing : (2,) array
-        What multiplies it, for E' and for E''.
-    scatter : (2,) array
-        Standard deviation of log10 E' and of log10 E'' about the curves, decades.
+    smoothing : (m,) array
+        What multiplies it, for each of m quantities, such as E' and E''.
+    scatter : (m,) array
+        Standard deviation of each about its curve, of a point of weight 1; decades where they are logarithms.
     """
 
     knots: Array
@@ -56,38 +56,45 @@ class Smoother:
     scatter: Array
 
     @classmethod
-    def fitted(cls, frequency: Array, moduli: Array) -> Smoother:
+    def fitted(cls, frequency: Array, moduli: Array, weights: Array | None = None) -> Smoother:
         """Place knots for points and choose the smoothing by restricted maximum likelihood.
 
         Parameters
         ----------
         frequency : (n,) array
             log10 of the reduced angular frequency.
-        moduli : (n, 2) array
-            log10 of E' and E'', free of vertical shifts.
+        moduli : (n, m) array
+            log10 of E' and E'', free of vertical shifts, or other quantities.
+        weights : (n,) array, optional
+            Inverse variances of the points relative to each other; all alike if left out.
         """
         from scipy.interpolate import BSpline
 
         knots, degree = _knots(frequency)
         penalty = _penalty(knots, degree)
         basis = BSpline.design_matrix(frequency, knots, degree).toarray()
-        smoothing, scatter = _restricted_likelihood(basis, penalty, moduli)
+        root = _roots(frequency, weights)
+        smoothing, scatter = _restricted_likelihood(basis * root, penalty, moduli * root)
         return cls(knots, degree, penalty, smoothing, scatter)
 
-    def curves(self, frequency: Array, moduli: Array) -> Curves:
+    def curves(self, frequency: Array, moduli: Array, weights: Array | None = None) -> Curves:
         """Draw the curves through points; shapes as for `fitted`."""
         from scipy.interpolate import BSpline
 
-        basis = BSpline.design_matrix(frequency, self.knots, self.degree, extrapolate=True).toarray()
+        root = _roots(frequency, weights)
+        basis = BSpline.design_matrix(frequency, self.knots, self.degree, extrapolate=True).toarray() * root
+        moduli = moduli * root
         square = _ridged(basis.T @ basis)
         inverse = np.linalg.inv(square + self.smoothing[:, None, None] * self.penalty)
         coefficients = np.einsum("mij,jm->im", inverse, basis.T @ moduli)
-        return Curves(self, frequency, basis, np.asarray(inverse), coefficients, moduli - basis @ coefficients)
+        return Curves(self, frequency, root, basis, np.asarray(inverse), coefficients, moduli - basis @ coefficients)
 
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Curves of log E' and log E'' through n points.
+    """Curves of m quantities, such as log E' and log E'', through n points.
+
+    With weights w, whatever belongs to a point is multiplied by √w.
 
     Parameters
     ----------
@@ -95,18 +102,21 @@ class Curves:
         How they were drawn.
     frequency : (n,) array
         Of the points.
+    root : (n, 1) array
+        √w.
     basis : (n, K) array
-        Basis functions B at the points.
-    inverse : (2, K, K) array
-        (BᵀB + λP)⁻¹ of each modulus.
-    coefficients : (K, 2) array
+        Basis functions B at the points, times √w.
+    inverse : (m, K, K) array
+        (BᵀB + λP)⁻¹ of each quantity.
+    coefficients : (K, m) array
         Of the curves.
-    residual : (n, 2) array
-        Points less curves.
+    residual : (n, m) array
+        Points less curves, times √w.
     """
 
     smoother: Smoother
     frequency: Array
+    root: Array
     basis: Array
     inverse: Array
     coefficients: Array
@@ -114,27 +124,27 @@ class Curves:
 
     @property
     def cost(self) -> float:
-        """What the fit minimised: squared residuals and penalised roughness of both moduli."""
+        """What the fit minimised: squared residuals and penalised roughness of all quantities."""
         rough = np.einsum("im,ij,jm->m", self.coefficients, self.smoother.penalty, self.coefficients)
         return float(np.sum(self.residual**2) + self.smoother.smoothing @ rough)
 
     @property
     def freedom(self) -> float:
-        """Degrees of freedom left in the residuals of both moduli."""
+        """Degrees of freedom left in the residuals of all quantities."""
         used = np.sum(self.inverse * (self.basis.T @ self.basis))
         return float(self.residual.size - used)
 
     def bends(self) -> Array:
-        """Return the second derivatives of the curves at the points (n, 2)."""
+        """Return the second derivatives of the curves at the points, times √w (n, m)."""
         from scipy.interpolate import BSpline
 
         if self.smoother.degree < 2:
             return np.zeros_like(self.residual)
         curve = BSpline(self.smoother.knots, self.coefficients, self.smoother.degree)
-        return np.asarray(curve.derivative(2)(self.frequency))
+        return np.asarray(self.root * curve.derivative(2)(self.frequency))
 
     def slopes_of_basis(self) -> Array:
-        """Return the first derivatives of the basis functions at the points (n, K)."""
+        """Return the first derivatives of the basis functions at the points, times √w (n, K)."""
         from scipy.interpolate import BSpline
 
         knots, degree = self.smoother.knots, self.smoother.degree
@@ -143,7 +153,11 @@ class Curves:
         slopes = np.zeros_like(self.basis)
         slopes[:, 1:] = scaled
         slopes[:, :-1] -= scaled
-        return slopes
+        return slopes * self.root
+
+
+def _roots(frequency: Array, weights: Array | None) -> Array:
+    return np.ones((len(frequency), 1)) if weights is None else np.sqrt(weights)[:, None]
 
 
 def _knots(frequency: Array) -> tuple[Array, int]:
@@ -176,7 +190,7 @@ def _ridged(square: Array) -> Array:
 
 
 def _restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[Array, Array]:
-    """Return the smoothing of each modulus that maximises its restricted likelihood, and the scatter then.
+    """Return the smoothing of each quantity that maximises its restricted likelihood, and the scatter then.
 
     In the basis that makes BᵀB the identity and the penalty diagonal (d), the likelihood of all smoothings λ
     follows at once: −2 log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and
@@ -198,4 +212,4 @@ def _restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple
     penalised = len(rough) - unpenalised
     criterion = freedom * np.log(squares) + np.sum(np.log(growth), axis=1) - penalised * np.log(SMOOTHING)
     best = np.argmin(criterion, axis=1)
-    return SMOOTHING[best], np.sqrt(squares[[0, 1], best] / freedom)
+    return SMOOTHING[best], np.sqrt(squares[np.arange(len(best)), best] / freedom)

@@ -18,6 +18,8 @@ from viscofric.rheology.superposition.plateau import continued, told
 from viscofric.rheology.superposition.shift_problem import ShiftProblem, State
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from viscofric.rheology.superposition.common_curve import Smoother
@@ -93,7 +95,7 @@ def _fitted_together(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) ->
     """Fit all isotherms; those that are moved past each other are joined pair by pair instead."""
     apart: set[int] = set()
     while True:
-        found, signal = _fitted(sweeps, joins, gauge, apart)
+        found, signal = fitted(sweeps, joins, gauge, apart)
         held = {place for place in gauge.held if place + 1 in gauge.held}
         more = set(parted(sweeps, found.values)) - apart - held
         if not more:
@@ -105,8 +107,24 @@ def _fitted_together(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) ->
         ]
 
 
-def _fitted(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, apart: set[int]) -> tuple[CommonShifts, Array]:
-    """Fit all isotherms, and say how clearly their curves slope."""
+def fitted(
+    sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, apart: Iterable[int] = ()
+) -> tuple[CommonShifts, Array]:
+    """Fit all isotherms as they are, of moduli or of any other quantities.
+
+    Parameters
+    ----------
+    sweeps, joins, gauge
+        As for `common_shifts`.
+    apart : iterable of int
+        Places of neighbours that get curves of their own on each side.
+
+    Returns
+    -------
+    CommonShifts
+    (n,) array
+        How clearly the curves slope at each isotherm: their squared slope in units of its noise.
+    """
     problem = ShiftProblem(sweeps, joins, gauge, apart)
     shifts = gauge.brought_to(-np.concatenate([[0.0], np.cumsum([found.step for found in joins])]))
     parameters = np.concatenate([shifts, np.zeros(len(problem.start) - problem.size)])

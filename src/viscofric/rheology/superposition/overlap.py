@@ -34,10 +34,15 @@ SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
 
 @dataclass(frozen=True, eq=False)
 class LogSweep:
-    """One isotherm in logarithms: frequency (n,), and moduli (n, 2), storage and loss."""
+    """One isotherm in logarithms: frequency (n,), and moduli (n, 2), storage and loss.
+
+    Fits take other quantities than moduli too, in any number of columns (of friction one, over the speed), and weights
+    (n,), the inverse variances of the points relative to each other.
+    """
 
     frequency: Array
     moduli: Array
+    weights: Array | None = None
 
     @classmethod
     def of(cls, isotherm: Isotherm, log10_b: float = 0.0) -> LogSweep:

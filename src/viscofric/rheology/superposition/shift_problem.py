@@ -32,13 +32,14 @@ VERTICAL_PRIOR = 0.03  # decades
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """Isotherms that share their curves: their places, and the points (n,) and moduli (n, 2) of all of them."""
+    """Isotherms that share their curves: their places, and points (n,), moduli (n, m) and weights (n,) of all."""
 
     first: int
     last: int
     isotherm: Array
     frequency: Array
     moduli: Array
+    weights: Array
 
     @classmethod
     def of(cls, sweeps: list[LogSweep], first: int, last: int) -> _Piece:
@@ -50,14 +51,15 @@ class _Piece:
             np.repeat(np.arange(last - first), [len(sweep) for sweep in chosen]),
             np.concatenate([sweep.frequency for sweep in chosen]),
             np.concatenate([sweep.moduli for sweep in chosen]),
+            np.concatenate([np.ones(len(sweep)) if sweep.weights is None else sweep.weights for sweep in chosen]),
         )
 
     @property
     def size(self) -> int:
         return self.last - self.first
 
-    def reduced(self, shifts: Array, vertical: Array) -> tuple[Array, Array]:
-        """Return frequencies and moduli of all points at one temperature, that of the mean shift.
+    def reduced(self, shifts: Array, vertical: Array) -> tuple[Array, Array, Array]:
+        """Return frequencies and moduli of all points at one temperature, that of the mean shift, and weights.
 
         To move all isotherms together then changes nothing, wherever the knots lie.
         """
@@ -65,6 +67,7 @@ class _Piece:
         return (
             self.frequency + (shifts[inside] - shifts[inside].mean())[self.isotherm],
             self.moduli - vertical[inside][self.isotherm][:, None],
+            self.weights,
         )
 
     def gathered(self, values: Array) -> Array:
@@ -173,13 +176,12 @@ class ShiftProblem:
         return State(cost, gradient, normal, curvature, score, freedom)
 
 
-def _derivatives(piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array], free_vertical: bool) -> State:
+def _derivatives(piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array, Array], free_vertical: bool) -> State:
     """Return cost, gradient and curvature of one piece, the curves being refitted wherever the shifts go.
 
     With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y the moduli and s a shift, the cost is yᵀMy.  Both its derivatives are exact.
     """
-    frequency, moduli = reduced
-    curves = smoother.curves(frequency, moduli)
+    curves = smoother.curves(*reduced)
     basis_slopes = curves.slopes_of_basis()
     slopes = basis_slopes @ curves.coefficients
     bends = curves.bends()
@@ -188,12 +190,12 @@ def _derivatives(piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array]
     gradient, normal = np.zeros(count), np.zeros((count, count))
     curvature, score = np.zeros((count, count)), np.zeros((count, count))
     same = piece.isotherm[1:] == piece.isotherm[:-1]
-    for modulus in range(2):
+    for modulus in range(curves.residual.shape[1]):
         residual = curves.residual[:, modulus]
         moved = belongs * slopes[:, modulus : modulus + 1]
         turned = piece.gathered(basis_slopes * residual[:, None])
         if free_vertical:
-            moved = np.concatenate([moved, belongs], axis=1)
+            moved = np.concatenate([moved, belongs * curves.root], axis=1)
             turned = np.concatenate([turned, np.zeros_like(turned)])
         onto = curves.basis.T @ moved
         inverse = curves.inverse[modulus]
