@@ -9,6 +9,7 @@ import numpy as np
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
+from viscofric.friction.bands import DrawnMaterials, solve_with_sensitivity, with_material_band
 from viscofric.friction.curves import FrictionCurves
 from viscofric.processes import call_all
 from viscofric.units import Quantities, Quantity, positive, to_si_array
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
 
     from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.layers import Layer
-    from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
 class ContactSettings(TypedDict, total=False):
@@ -43,6 +44,7 @@ def predict_friction(
     speeds: Quantities,
     temperatures: Quantities,
     load: Quantity,
+    samples: MaterialSamples | None = None,
     accuracy: float = 1e-3,
     workers: int = 1,
     progress: Callable[[int, int], object] | None = None,
@@ -62,6 +64,10 @@ def predict_friction(
         K if plain numbers.
     load : float, str or pint.Quantity
         Normal load, N if a plain number; of a line contact per length, N/m.
+    samples : MaterialSamples, optional
+        The material as other measurements might have given it, from `sample_materials` or `identify_material`: the
+        curves then hold the standard error that this leaves on friction and the limits of its 95 % band, found to
+        first order by one adjoint solve for each contact (see `viscofric.friction.bands`).
     accuracy : float
         Relative error of each friction coefficient that is aimed at; see `solve_steady`.
     workers : int
@@ -75,7 +81,8 @@ def predict_friction(
     Returns
     -------
     FrictionCurves
-        Temperature after temperature in the order given, each with all speeds.
+        Temperature after temperature in the order given, each with all speeds; with samples also `material_error`,
+        `viscoelastic_lower` and `viscoelastic_upper`.
 
     Raises
     ------
@@ -110,6 +117,7 @@ def predict_friction(
             raise InputError(f"{name} must hold at least one value.")
         if not np.all(values > 0.0):
             raise InputError(f"{name} must be above zero everywhere, but one is {values.min():g} {unit}.")
+    drawn = None if samples is None else DrawnMaterials(samples, material)
     contacts = [
         {
             "material": material,
@@ -129,5 +137,8 @@ def predict_friction(
             progress(done, len(contacts))
 
     tell(0)
-    solutions: list[ContactSolution] = call_all(solve_steady, contacts, workers=workers, progress=tell)
-    return FrictionCurves.from_solutions(solutions)
+    if drawn is None:
+        return FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=tell))
+    pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=tell)
+    curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
+    return with_material_band(curves, [sensitivity for _, sensitivity in pairs], drawn)

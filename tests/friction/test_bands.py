@@ -1,0 +1,180 @@
+"""Bands of predicted friction: what spectra and shift factors drawn anew make of it, against solving each of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.data import Isotherm, IsothermalSweeps
+from viscofric.errors import InputError
+from viscofric.friction.bands import DrawnMaterials, solve_with_sensitivity
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit
+
+BALL = vf.Ball(radius="9.525 mm")
+LOAD = 25.0
+CONDITIONS = ((303.15, 0.02), (333.15, 0.2), (363.15, 0.05))
+
+
+def measured_material(noise: float = 0.01, samples: int = 40, seed: int = 5):
+    """Spectrum and shift factors from SYNTHETIC sweeps of the built-in rubber, and materials drawn about them."""
+    rubber, random = vf.synthetic_fluoroelastomer(), np.random.default_rng(seed)
+    omega = 2.0 * np.pi * np.logspace(-1.0, 1.0, 9)
+    isotherms = []
+    for kelvin in np.arange(273.15, 400.0, 10.0):
+        modulus, scatter = rubber.complex_modulus(omega, kelvin), 1.0 + noise * random.standard_normal((2, 9))
+        isotherms.append(Isotherm(kelvin, omega, modulus.real * scatter[0], modulus.imag * scatter[1]))
+    fit = vf.superpose(IsothermalSweeps(tuple(isotherms)), reference="30 degC")
+    spectrum = vf.fit_retardation_spectrum(fit.master_curve)
+    drawn = vf.sample_materials(fit, spectrum, samples=samples, seed=seed)
+    return vf.Material(spectrum, fit.shift_factors), drawn
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return measured_material()
+
+
+def drawn_from(*materials: vf.Material, misfit: SystematicMisfit | None = None) -> MaterialSamples:
+    """Make samples of given materials; the limits of the band of two are these two."""
+    count = max(len(one.spectrum.C) for one in materials)
+    C = np.array([np.pad(one.spectrum.C, (0, count - len(one.spectrum.C))) for one in materials])
+    tau = np.array([np.pad(one.spectrum.tau, (0, count - len(one.spectrum.C)), mode="edge") for one in materials])
+    return MaterialSamples(materials, C, tau, (1e-3, 1e6), misfit)
+
+
+def predicted(material: vf.Material, samples: MaterialSamples | None, temperature: float, speed: float, **settings):
+    asked = {"speeds": speed, "temperatures": temperature, "load": LOAD, "samples": samples}
+    return vf.predict_friction(material, BALL, **(asked | settings))
+
+
+def solved(material: vf.Material, temperature: float, speed: float, load: float = LOAD) -> float:
+    return vf.solve_steady(material, BALL, speed=speed, load=load, temperature=temperature).friction_coefficient
+
+
+@pytest.mark.parametrize(("temperature", "speed"), CONDITIONS)
+def test_each_drawn_material_has_the_friction_of_its_own_contact(measured, temperature: float, speed: float) -> None:
+    """They lie up to 1 % off, and so does what is left out, ½ (1 %)² = 5e-5 of μ, as a rule.
+
+    As α alone moves μ by up to 2 % before the spectrum makes it good, four times that is allowed for.
+    """
+    material, samples = measured
+    ten = replace(samples, materials=samples.materials[:10])
+    _, sensitivity = solve_with_sensitivity(material, BALL, speed=speed, load=LOAD, temperature=temperature)
+    found = DrawnMaterials(ten, material).friction(sensitivity, temperature)
+    by_themselves = [solved(one, temperature, speed) for one in ten.materials]
+    assert np.std(by_themselves) > 5e-4 * sensitivity.friction
+    np.testing.assert_allclose(found, by_themselves, rtol=2e-4)
+
+
+def test_the_samples_do_not_move_what_is_predicted(measured) -> None:
+    material, samples = measured
+    alone, beside = (predicted(material, given, 333.15, [0.02, 0.2]) for given in (None, samples))
+    np.testing.assert_allclose(beside.viscoelastic, alone.viscoelastic, rtol=1e-12)
+    assert alone.material_error is None
+    assert np.all(beside.viscoelastic_lower < beside.viscoelastic)
+    assert np.all(beside.viscoelastic < beside.viscoelastic_upper)
+
+
+def test_what_is_known_exactly_has_no_band(measured) -> None:
+    material, _ = measured
+    curves = predicted(material, drawn_from(*[material] * 25), 333.15, 0.1)
+    # Sums of fifty products of either sign, rounded.
+    assert curves.material_error[0] < 1e-10 * curves.viscoelastic[0]
+    assert curves.viscoelastic_upper[0] - curves.viscoelastic_lower[0] < 1e-10 * curves.viscoelastic[0]
+    assert not curves.notes
+
+
+def test_shift_factors_alone_move_friction_along_its_slope() -> None:
+    """Errors of log10 α of 0.01 decades: Δμ = ∂μ/∂ln v · ln 10 · Δlog10 α, to the curvature's 0.5 % of the error."""
+    rubber = vf.synthetic_fluoroelastomer()
+    kelvin, error = np.array([303.15, 333.15, 363.15]), 0.01
+    tables = [
+        vf.ShiftFactors(kelvin, rubber.shift.log10(kelvin) + np.array([0.0, one, one]), 303.15)
+        for one in error * np.random.default_rng(2).standard_normal(30)
+    ]
+    samples = drawn_from(*(replace(rubber, shift=one) for one in tables))
+    curves = predicted(rubber, samples, 333.15, 0.05)
+    contact = vf.solve_steady(rubber, BALL, speed=0.05, load=LOAD, temperature=333.15, derivatives=True)
+    slope = contact.derivatives.logarithmic.speed
+    spread = np.std([one.log10(333.15) for one in tables], ddof=1)
+    assert curves.material_error[0] == pytest.approx(abs(slope) * np.log(10.0) * spread, rel=0.01)
+    at_reference = predicted(rubber, samples, 303.15, 0.05)
+    assert at_reference.material_error[0] < 1e-10 * at_reference.viscoelastic[0]
+
+
+def test_a_vertical_shift_moves_friction_by_the_load_rule() -> None:
+    """Moduli b times larger at a temperature are a load b times smaller: Δμ = −F ∂μ/∂F Δln b."""
+    rubber = vf.synthetic_fluoroelastomer()
+    kelvin = np.array([303.15, 333.15])
+    raised = [vf.VerticalShiftFactors(kelvin, np.array([0.0, one]), 303.15) for one in (0.02, 0.03)]
+    material = replace(rubber, vertical_shift=vf.VerticalShiftFactors(kelvin, np.array([0.0, 0.025]), 303.15))
+    curves = predicted(material, drawn_from(*(replace(rubber, vertical_shift=one) for one in raised)), 333.15, 0.05)
+    expected = [solved(rubber, 333.15, 0.05, LOAD / 10.0**one) for one in (0.03, 0.02)]
+    # A factor of 1.012 either way: second order ½ · 1/3 · (1.2 %)², 2.4e-5, beside 1e-5 of either solution.
+    found = sorted([curves.viscoelastic_lower[0], curves.viscoelastic_upper[0]])
+    np.testing.assert_allclose(found, np.sort(expected), rtol=6e-5)
+
+
+def test_what_the_spectrum_misses_widens_the_band(measured) -> None:
+    """Moduli off by one factor throughout move friction by the load rule, losses off by one factor by that factor."""
+    material, _ = measured
+    grid = np.linspace(-8.0, 8.0, 5)
+    contact = vf.solve_steady(material, BALL, speed=0.1, load=LOAD, temperature=333.15, derivatives=True)
+    load = contact.derivatives.logarithmic.load / contact.friction_coefficient
+    for size, relative in (((0.0, 0.02), 0.02), ((0.02, 0.0), 0.02 * (1.0 + load))):
+        misfit = SystematicMisfit(grid, np.tile(size, (5, 1)))
+        curves = predicted(material, drawn_from(*[material] * 20, misfit=misfit), 333.15, 0.1)
+        expected = np.log(10.0) * relative * curves.viscoelastic[0]
+        assert curves.material_error[0] == pytest.approx(expected, rel=1e-6)
+        # 1.96 standard errors, either side
+        width = curves.viscoelastic_upper[0] - curves.viscoelastic_lower[0]
+        assert width == pytest.approx(2.0 * 1.959964 * expected, rel=1e-6)
+
+
+def test_a_wide_band_and_a_foreign_one_are_told() -> None:
+    rubber = vf.synthetic_fluoroelastomer()
+    softer, stiffer = (replace(rubber, spectrum=rubber.spectrum.shifted(1.0, b)) for b in (0.4, 2.0))
+    notes = predicted(rubber, drawn_from(softer, stiffer), 333.15, 0.1).notes
+    assert any("more than 30 %" in note and "first order" in note for note in notes)
+    notes = predicted(rubber, drawn_from(stiffer, stiffer), 333.15, 0.1).notes
+    assert any("scatter about another material" in note for note in notes)
+
+
+def test_a_line_contact_under_an_elastic_cylinder_has_its_band_too(measured) -> None:
+    """Second order as above; a line contact is solved to 1e-5."""
+    material, samples = measured
+    pair = samples.materials[:2]
+    asked = {"speed": 0.1, "load": 1000.0, "temperature": 333.15, "indenter_modulus": 20e6}
+    cylinder = vf.Cylinder(radius="10 mm")
+    by_themselves = [vf.solve_steady(one, cylinder, **asked).friction_coefficient for one in pair]
+    curves = vf.predict_friction(
+        material,
+        cylinder,
+        speeds=0.1,
+        temperatures=333.15,
+        load=1000.0,
+        samples=drawn_from(*pair),
+        indenter_modulus=20e6,
+    )
+    found = [curves.viscoelastic_lower[0], curves.viscoelastic_upper[0]]
+    np.testing.assert_allclose(found, np.sort(by_themselves), rtol=2e-4)
+
+
+def test_samples_that_do_not_fit_are_refused(measured) -> None:
+    material, samples = measured
+    with pytest.raises(InputError, match="must be a MaterialSamples"):
+        predicted(material, material.spectrum, 333.15, 0.1)
+    compressible = replace(material, poisson_ratio=0.4)
+    with pytest.raises(InputError, match=r"samples have Poisson's ratio 0\.5, the material 0\.4"):
+        predicted(compressible, samples, 333.15, 0.1)
+    with pytest.raises(InputError, match="has no shift"):
+        predicted(material, drawn_from(replace(material, shift=None)), 333.15, 0.1)
+    omega = np.geomspace(1e-3, 1e6, 40)
+    modulus = material.complex_modulus(omega)
+    table = vf.ModulusTable(omega, modulus.real, modulus.imag)
+    with pytest.raises(InputError, match="not a table of moduli"):
+        predicted(replace(material, spectrum=table), samples, 333.15, 0.1)
