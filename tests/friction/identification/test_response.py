@@ -1,0 +1,109 @@
+"""Friction at many speeds and its derivatives: the forward model of an identification."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import ConvergenceError, InputError
+from viscofric.friction.identification.response import FrictionResponse, friction_response
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+BALL, CYLINDER = vf.Ball(radius=10e-3), vf.Cylinder(radius=10e-3)
+ACCURACY = 1e-2
+FIELDS = ("speed", "load", "friction", "error", "C", "log_C", "log_E_inf", "log_speed", "log_load")
+
+
+def rubber(E0: float = 1e6, E_inf: float = 1e8, tau: tuple[float, ...] = (1e-5, 1e-4, 1e-3)) -> vf.RetardationSpectrum:
+    """Modes of equal compliance."""
+    times = np.array(tau)
+    return vf.RetardationSpectrum(E0, E_inf, np.full(len(times), (1.0 / E0 - 1.0 / E_inf) / len(times)), times)
+
+
+@pytest.fixture(scope="module")
+def response() -> FrictionResponse:
+    return friction_response(rubber(), 0.5, BALL, [0.1, 1.0, 3.0], [1.0, 1.0, 2.0], accuracy=ACCURACY)
+
+
+def test_numbers_are_those_of_the_contacts(response: FrictionResponse) -> None:
+    material = vf.Material(rubber(), poisson_ratio=0.5)
+    solution = vf.solve_steady(material, BALL, speed=3.0, load=2.0, accuracy=ACCURACY, derivatives=True)
+    assert solution.derivatives is not None
+    assert (response.speed[2], response.load[2]) == (3.0, 2.0)
+    assert response.friction[2] == pytest.approx(solution.friction_coefficient, rel=1e-12)
+    assert response.C[2] == pytest.approx(solution.derivatives.C, rel=1e-6)  # the adjoint problem is solved to 1e-8
+    assert response.log_C[2] == pytest.approx(solution.derivatives.logarithmic.C, rel=1e-6)
+    assert response.log_E_inf[2] == pytest.approx(solution.derivatives.logarithmic.E_inf, rel=1e-6)
+    assert response.log_speed[2] == pytest.approx(solution.derivatives.logarithmic.speed, rel=1e-6)
+    assert response.log_load[2] == pytest.approx(solution.derivatives.logarithmic.load, rel=1e-6)
+
+
+def test_stiffness_and_load_have_one_effect(response: FrictionResponse) -> None:
+    # With E_inf and 1/C times as large, everything is as under a load so many times smaller; exactly so on the cells,
+    # and the adjoint problem is solved to 1e-8.
+    size = np.abs(response.log_C).sum(axis=1)
+    assert np.all(np.abs(response.log_C.sum(axis=1) - response.log_E_inf - response.log_load) <= 1e-6 * size)
+
+
+def test_workers_give_the_same_digits(response: FrictionResponse) -> None:
+    shared = friction_response(rubber(), 0.5, BALL, [0.1, 1.0, 3.0], [1.0, 1.0, 2.0], accuracy=ACCURACY, workers=2)
+    for name in FIELDS:
+        assert np.array_equal(getattr(shared, name), getattr(response, name))
+
+
+def test_modes_without_compliance_have_a_derivative() -> None:
+    whole, empty = rubber(), rubber()
+    times, compliances = np.append(empty.tau, [3e-4, 1e8, 1e-20]), np.append(empty.C, [0.0, 0.0, 1e-18])
+    E_inf = 1.0 / (1.0 / empty.E0 - compliances.sum())
+    one = friction_response(whole, 0.5, CYLINDER, 0.5, 100.0, accuracy=ACCURACY)
+    other = friction_response(
+        vf.RetardationSpectrum(empty.E0, E_inf, compliances, times), 0.5, CYLINDER, 0.5, 100.0, accuracy=ACCURACY
+    )
+    near = {"rel": 1e-6}  # the tolerance of the two solutions, 1e-8, in derivatives
+    assert other.C[0, :3] == pytest.approx(one.C[0], **near)
+    assert other.log_C[0, 3:5] == pytest.approx(0.0, abs=0.0)
+    assert np.all(np.isfinite(other.C))
+    # Between two modes lies what a mode there would do.
+    assert min(one.C[0, 1:]) <= other.C[0, 3] <= max(one.C[0, 1:])
+    # A mode that never yields adds nothing, one that yields at once is a part of the glass.
+    assert abs(other.C[0, 4]) <= 1e-6 * np.abs(one.C).max()
+    assert other.C[0, 5] == pytest.approx(-one.log_E_inf[0] * whole.E_inf, rel=1e-3)
+
+
+def test_progress_is_told() -> None:
+    told = []
+    friction_response(
+        rubber(), 0.5, CYLINDER, [0.1, 1.0], 100.0, accuracy=0.1, progress=lambda *done: told.append(done)
+    )
+    assert told == [(1, 2), (2, 2)]
+
+
+def test_failed_contact_is_named() -> None:
+    with pytest.raises(ConvergenceError, match=r"speed 0\.1 m/s under 2 N: "):
+        friction_response(rubber(), 0.5, BALL, [0.1], 2.0, accuracy=1e-5, finest=128)
+
+
+@pytest.mark.parametrize(
+    ("speeds", "load", "words"),
+    [
+        ([], 1.0, "speeds must hold at least one value"),
+        ([1.0, 0.0], 1.0, "speeds must be above zero everywhere, but one is 0 m/s"),
+        ([1.0, 2.0, 3.0], [1.0, 2.0], "load holds 2 values: must hold one, or one for each of 3 speeds"),
+        ([1.0, 2.0], [1.0, -2.0], "load"),
+    ],
+)
+def test_bad_input_is_refused(speeds: list[float], load: float | list[float], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        friction_response(rubber(), 0.5, BALL, speeds, load)
+
+
+def test_indenter_must_be_one() -> None:
+    with pytest.raises(InputError, match="must be an indenter"):
+        friction_response(rubber(), 0.5, "ball", 1.0, 1.0)  # type: ignore[arg-type]
