@@ -29,6 +29,7 @@ _COMMANDS = {
     "demo": "Run the built-in example (synthetic data) from start to end.",
     "run": "Run a study: DMA sweeps in, friction, figures and a report out.",
     "new": "Write a run file to start from, with synthetic data to replace.",
+    "friction": "Separate measured friction, shift it onto one curve, find the rubber behind it.",
     "material": "Make a rubber of DMA sweeps, look at one, write it for other programs.",
     "solve": "Solve one contact: friction, indentation, pressure, a picture.",
     "verify": "Check the contact engine on this machine, in less than a minute.",

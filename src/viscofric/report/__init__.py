@@ -17,7 +17,11 @@ if TYPE_CHECKING:
         plot_wicket,
     )
     from viscofric.report.drawing import draw_figures
-    from viscofric.report.friction_figures import plot_friction_curves, plot_friction_master_curve
+    from viscofric.report.friction_figures import (
+        plot_coulomb_friction,
+        plot_friction_curves,
+        plot_friction_master_curve,
+    )
     from viscofric.report.html import write_report
     from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_residuals
     from viscofric.report.shift_figures import plot_law_residuals, plot_shift_factors, plot_vertical_shift
@@ -28,6 +32,7 @@ _HOME = {
     "draw_figures": "viscofric.report.drawing",
     "plot_booij_thoone_palmen": "viscofric.report.consistency_figures",
     "plot_cole_cole": "viscofric.report.consistency_figures",
+    "plot_coulomb_friction": "viscofric.report.friction_figures",
     "plot_friction_curves": "viscofric.report.friction_figures",
     "plot_friction_master_curve": "viscofric.report.friction_figures",
     "plot_isotherms": "viscofric.report.rubber_figures",
@@ -48,6 +53,7 @@ __all__ = [
     "draw_figures",
     "plot_booij_thoone_palmen",
     "plot_cole_cole",
+    "plot_coulomb_friction",
     "plot_friction_curves",
     "plot_friction_master_curve",
     "plot_isotherms",

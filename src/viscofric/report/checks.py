@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.report.doubts import is_extrapolated, knows_range, reach
+from viscofric.report.friction_summary import CONSISTENT_WITHIN, consistency_words
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import percent, several, significant
 from viscofric.report.results import SAME_TEMPERATURE, group, number, numbers, sentences, values
@@ -216,16 +217,15 @@ def _measurement(tree: xr.DataTree) -> Iterator[Check]:
     if measurement is None:
         return
     left_over, error = values(measurement, "consistency"), values(measurement, "consistency_error")
-    known = np.isfinite(left_over) & np.isfinite(error)
-    if not known.any():
+    told = consistency_words(left_over, error)
+    if told is None:
         return
-    sound = int(np.sum(np.abs(left_over[known]) <= 2.0 * error[known]))
+    known = np.isfinite(left_over) & np.isfinite(error)
+    sound = np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]
     yield _check(
         "Consistency of the four configurations",
-        sound >= _CONSISTENT * known.sum(),
-        "The combination of the four sign configurations that should vanish does so within twice its "
-        f"standard error at {sound} of {known.sum()} points; it reaches "
-        f"{significant(float(np.max(np.abs(left_over[known]))), 2)} of the load.",
+        bool(np.mean(sound) >= _CONSISTENT),
+        f"The combination of the four sign configurations that should vanish is {told}.",
     )
 
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import io
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import matplotlib
 import numpy as np
 from scipy.ndimage import uniform_filter
 
-from viscofric.files import write_atomically
-from viscofric.report.house_style import BLUE, GREY, INK, STYLE, VERMILION, mark_synthetic, new_figure
+from viscofric.report.house_style import BLUE, GREY, INK, VERMILION, new_figure
 from viscofric.report.numbers import prefixed, significant
+from viscofric.report.pictures import save_picture
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
-_DOTS_PER_INCH = 180
 #: More cells along an edge than this do not show; the map draws every n-th.
 _MOST_CELLS = 256
 #: Share of the loaded cells within the colours of a pressure whose largest value means nothing.
@@ -240,16 +238,4 @@ def draw_contact(
     DataFileError
         If the file cannot be written.
     """
-    form = path.suffix.lower().removeprefix(".")
-    undated: dict[str, dict[str, Any]] = {
-        "png": {"Software": "viscofric"},
-        "svg": {"Creator": "viscofric", "Date": None},
-        "pdf": {"Creator": "viscofric", "CreationDate": None},
-    }
-    target = io.BytesIO()
-    with matplotlib.rc_context({**STYLE, "svg.hashsalt": "viscofric contact"}):
-        figure = contact_figure(solution, indenter, title)
-        if synthetic:
-            mark_synthetic([axes for axes in figure.axes if axes.get_label() != "<colorbar>"])
-        figure.savefig(target, format=form, dpi=_DOTS_PER_INCH, metadata=undated[form])
-    write_atomically(path, target.getvalue())
+    save_picture(path, lambda: contact_figure(solution, indenter, title), name="contact", synthetic=synthetic)

@@ -1,0 +1,81 @@
+"""``viscofric friction separate RUNS``: viscoelastic and Coulomb friction of tribometer files."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.errors import refuse_to_overwrite, told
+from viscofric.cli.friction.files import PICTURES, check_ending, tell_notes
+from viscofric.cli.friction.options import separation_options, settings_of
+
+if TYPE_CHECKING:
+    from viscofric.friction.curves import FrictionCurves
+
+_EXAMPLE = """\b
+Such as
+  viscofric friction separate run1.txt run2.txt --picture curves.svg
+"""
+
+
+@click.command(name="separate", epilog=_EXAMPLE)
+@click.argument("runs", nargs=-1, required=True, type=click.Path(path_type=Path))
+@separation_options
+@click.option(
+    "--picture",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Draw viscoelastic and Coulomb friction against speed (PNG, SVG or PDF).",
+)
+@click.option("--synthetic", is_flag=True, help="The data were made, not measured; the picture then says so.")
+@click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
+def command(runs: tuple[Path, ...], picture: Path | None, synthetic: bool, as_json: bool, **asked: Any) -> None:
+    """Separate viscoelastic from Coulomb friction in RUNS, files of a mini-traction machine (MTM, ETM).
+
+    Every reading's force is split by the signs of the surface speeds: viscoelastic friction turns with the motion of
+    the rubber, Coulomb friction with the slip, the zero of the force cell with neither.  Several files make one test.
+    """
+    check_ending(picture, "--picture", PICTURES)
+    if picture is not None:
+        refuse_to_overwrite(picture, runs)
+    with told():
+        from viscofric.friction.measurement.tribometry import separate
+        from viscofric.readers import read_mtm
+        from viscofric.report.friction_summary import friction_record
+
+        curves = separate(read_mtm(*runs), **settings_of(asked))
+        if as_json:
+            inputs = {"runs": [str(path) for path in runs], **settings_of(asked)}
+            record = friction_record(curves, inputs)
+            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+        else:
+            _tell(curves)
+        tell_notes(curves.notes)
+        for written in _write(curves, picture, synthetic):
+            click.echo(written, err=as_json)
+
+
+def _tell(curves: FrictionCurves) -> None:
+    from viscofric.report.friction_summary import friction_lines, friction_table
+
+    for line in friction_table(curves):
+        click.echo(line)
+    said = friction_lines(curves)
+    if said:
+        click.echo()
+    width = max((len(name) for name, _ in said), default=0)
+    for name, value in said:
+        click.echo(f"{name:<{width}}  {value}")
+
+
+def _write(curves: FrictionCurves, picture: Path | None, synthetic: bool) -> list[str]:
+    """Write the files that were asked for, and return what to say of them."""
+    said = []
+    if picture is not None:
+        from viscofric.report.friction_pictures import draw_friction
+
+        draw_friction(picture, curves, synthetic=synthetic)
+        said.append(f"picture  {picture}")
+    return said

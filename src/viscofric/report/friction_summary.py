@@ -1,0 +1,146 @@
+"""Friction curves in words and numbers: a table for people, plain types for other programs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.report.numbers import ABSENT, percent, short, significant
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+
+    Array = NDArray[np.float64]
+
+#: Standard errors within which what should be zero counts as zero.
+CONSISTENT_WITHIN = 2.0
+
+#: Units of what `friction_record` holds, but those of the load and of what is a share of it ("1").
+UNITS = {"speed": "m/s", "temperature": "K", "slip": "m/s", "offset": "N"}
+
+
+def friction_table(curves: FrictionCurves) -> list[str]:
+    """Return friction against speed and temperature as lines of a table.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    """
+    columns = [
+        _column("T (°C)", [f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in curves.temperature]),
+        _column("speed (mm/s)", [significant(1e3 * float(speed), 4) for speed in curves.speed]),
+    ]
+    if curves.slip is not None:
+        columns.append(_column("slip (mm/s)", [significant(1e3 * float(slip), 3) for slip in curves.slip]))
+    columns += [
+        _column(f"load ({curves.load_unit})", [significant(float(load), 4) for load in curves.load]),
+        _column("n", [str(count) for count in curves.replicates]),
+        *_coefficient("viscoelastic", curves.viscoelastic, curves.viscoelastic_error, curves.viscoelastic_scatter),
+        *_coefficient("Coulomb", curves.coulomb, curves.coulomb_error, curves.coulomb_scatter),
+    ]
+    if curves.consistency is not None:
+        columns.append(_column("left over", _pairs(curves.consistency, curves.consistency_error)))
+    return ["  ".join(cells).rstrip() for cells in zip(*columns, strict=True)]
+
+
+def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
+    """Return what is to be said of separated friction as a whole, as pairs of name and value.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    """
+    lines = []
+    if curves.offset is not None:
+        low, high = float(curves.offset.min()), float(curves.offset.max())
+        span = f"{short(low, 3)} N" if low == high else f"{short(low, 3)} to {short(high, 3)} N"
+        lines.append(("zero of the force cell", span))
+    if curves.consistency is not None and curves.consistency_error is not None:
+        told = consistency_words(curves.consistency, curves.consistency_error)
+        if told is not None:
+            lines.append(("left over", told))
+    return lines
+
+
+def consistency_words(left_over: Array, error: Array) -> str | None:
+    """Say how many points' configurations agree with each other, or None where none can tell.
+
+    Parameters
+    ----------
+    left_over, error : (n,) array
+        What the sign configurations leave over, relative to the load, and its standard error.
+    """
+    known = np.isfinite(left_over) & np.isfinite(error)
+    if not known.any():
+        return None
+    sound = int(np.sum(np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]))
+    largest = significant(float(np.max(np.abs(left_over[known]))), 2)
+    return f"within twice its standard error at {sound} of {known.sum()} points; {largest} of the load at most"
+
+
+def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:
+    """Return friction curves in plain types, SI units, without a NaN: what is not known is None.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    inputs : dict
+        What was asked for, in plain types.
+    """
+    columns = {
+        field.name: getattr(curves, field.name)
+        for field in fields(curves)
+        if isinstance(getattr(curves, field.name), np.ndarray)
+    }
+    return {
+        "format": "viscofric friction curves 1",
+        "inputs": inputs,
+        "points": [{name: _plain(column[row]) for name, column in columns.items()} for row in range(len(curves))],
+        "notes": list(curves.notes),
+        "units": {name: UNITS.get(name, curves.load_unit if name == "load" else "1") for name in columns},
+    }
+
+
+def _plain(value: Any) -> int | float | None:
+    if isinstance(value, np.integer):
+        return int(value)
+    return float(value) if math.isfinite(value) else None
+
+
+def _column(heading: str, cells: list[str]) -> list[str]:
+    width = max(map(len, [heading, *cells]))
+    return [f"{cell:>{width}}" for cell in [heading, *cells]]
+
+
+def _coefficient(name: str, value: Array | None, error: Array | None, scatter: Array | None) -> list[list[str]]:
+    """Return the columns of a coefficient with its standard error, and of its scatter where it has any."""
+    if value is None:
+        return []
+    columns = [_column(name, _pairs(value, error))]
+    if scatter is not None and np.any(scatter > 0.0):
+        columns.append(_column("scatter", [_share(one, of) for one, of in zip(scatter, value, strict=True)]))
+    return columns
+
+
+def _share(part: float, whole: float) -> str:
+    """Return a scatter as a percentage of its mean."""
+    return percent(part / abs(whole)) if whole != 0.0 and math.isfinite(part) else ABSENT
+
+
+def _pairs(values: Array, errors: Array | None) -> list[str]:
+    """Return values with their errors, all with the decimals that the usual error leaves."""
+    known = np.zeros(0) if errors is None else errors[np.isfinite(errors) & (errors > 0.0)]
+    if errors is None or not known.size:
+        return [significant(float(value), 4) for value in values]
+    decimals = int(np.clip(1 - math.floor(math.log10(float(np.median(known)))), 0, 9))
+    written = []
+    for value, error in zip(values, errors, strict=True):
+        doubt = f" ± {error:.{decimals}f}" if math.isfinite(error) else " ± ?"
+        written.append(f"{value:z.{decimals}f}{doubt}".replace("-", "−"))
+    return written

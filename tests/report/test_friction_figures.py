@@ -1,0 +1,162 @@
+"""Figures of friction drawn from friction curves, and their bands: the numbers on the axes are those given."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from matplotlib.collections import PolyCollection
+from matplotlib.container import ErrorbarContainer
+from matplotlib.figure import Figure
+
+import viscofric as vf
+from viscofric import report
+from viscofric.report.friction_pictures import draw_friction
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+ZERO = 273.15
+SPEEDS = np.geomspace(0.02, 0.2, 6)
+KELVIN = np.array([30.0, 60.0]) + ZERO
+
+
+def curves(coulomb: bool = True) -> vf.FrictionCurves:
+    """Return friction of a formula at two temperatures."""
+    temperature, speed = (grid.ravel() for grid in np.meshgrid(KELVIN, SPEEDS, indexing="ij"))
+    friction = 0.01 + 1e-4 * (temperature - ZERO) - 0.002 * np.log10(speed)
+    found = vf.FrictionCurves(
+        speed=speed,
+        temperature=temperature,
+        load=np.full(speed.shape, 25.0),
+        viscoelastic=friction,
+        viscoelastic_error=0.01 * friction,
+        viscoelastic_scatter=0.03 * friction,
+        replicates=np.full(speed.shape, 8),
+    )
+    if not coulomb:
+        return found
+    level = 0.04 + 0.001 * np.log10(speed)
+    return replace(found, coulomb=level, coulomb_error=0.01 * level, coulomb_scatter=0.02 * level)
+
+
+def with_band(found: vf.FrictionCurves) -> vf.FrictionCurves:
+    return replace(found, viscoelastic_lower=0.9 * found.viscoelastic, viscoelastic_upper=1.2 * found.viscoelastic)
+
+
+@pytest.fixture
+def axes() -> Axes:
+    return Figure().subplots()
+
+
+def bars(axes: Axes) -> list[ErrorbarContainer]:
+    return [container for container in axes.containers if isinstance(container, ErrorbarContainer)]
+
+
+def bands(axes: Axes) -> list[PolyCollection]:
+    return [found for found in axes.collections if isinstance(found, PolyCollection)]
+
+
+def ends(band: PolyCollection) -> np.ndarray:
+    """Corners of a band, without repeats, lowest first at each place."""
+    corners = np.unique(np.round(band.get_paths()[0].vertices, 12), axis=0)
+    return corners[np.lexsort((corners[:, 1], corners[:, 0]))]
+
+
+def legend_of(axes: Axes) -> tuple[str, list[str]]:
+    legend = axes.get_legend()
+    assert legend is not None
+    return legend.get_title().get_text(), [text.get_text() for text in legend.get_texts()]
+
+
+def test_measured_curves_are_drawn_without_any_prediction(axes: Axes) -> None:
+    found = curves()
+    report.plot_friction_curves(axes, measurement=found)
+    assert legend_of(axes) == ("points: measured ± scatter", ["60 °C", "30 °C"])
+    for kelvin, points in zip(KELVIN, bars(axes), strict=True):
+        here = found.at_temperature(kelvin)
+        np.testing.assert_allclose(points.lines[0].get_xdata(), 1e3 * here.speed)
+        np.testing.assert_allclose(points.lines[0].get_ydata(), here.viscoelastic)
+        (segments,) = points.lines[2]
+        heights = [np.ptp(segment[:, 1]) for segment in segments.get_segments()]
+        np.testing.assert_allclose(heights, 2.0 * here.viscoelastic_scatter)
+
+
+def test_band_of_each_temperature_is_that_of_the_prediction(axes: Axes) -> None:
+    found = with_band(curves(coulomb=False))
+    report.plot_friction_curves(axes, found, found)
+    assert legend_of(axes)[0].endswith("lines: predicted, 95 % bands")
+    assert len(bands(axes)) == 2
+    for kelvin, band in zip(KELVIN, bands(axes), strict=True):
+        friction = found.at_temperature(kelvin).viscoelastic
+        limits = ends(band)[:, 1].reshape(-1, 2)
+        np.testing.assert_allclose(limits, np.stack([0.9 * friction, 1.2 * friction], axis=1), rtol=1e-9)
+
+
+def test_bands_of_results_are_drawn_and_those_without_are_not(axes: Axes, tree: xr.DataTree) -> None:
+    prediction = tree["prediction_master"].to_dataset()
+    report.plot_friction_master_curve(axes, prediction)
+    assert bands(axes) == []
+    friction = prediction["friction_coefficient"]
+    banded = prediction.assign(friction_lower=0.9 * friction, friction_upper=1.1 * friction)
+    report.plot_friction_master_curve(axes, banded)
+    (band,) = bands(axes)
+    np.testing.assert_allclose(ends(band)[0::2, 1], 0.9 * friction.values, rtol=1e-9)
+    assert legend_of(axes)[1] == ["predicted", "its 95 % band"]
+
+
+def test_coulomb_friction_is_drawn_with_its_own_scatter(axes: Axes) -> None:
+    found = curves()
+    report.plot_coulomb_friction(axes, found)
+    assert "Coulomb" in axes.get_ylabel()
+    assert found.coulomb is not None
+    drawn = np.concatenate([points.lines[0].get_ydata() for points in bars(axes)])
+    np.testing.assert_allclose(drawn, found.coulomb)
+    assert axes.get_ylim()[0] == 0.0
+
+
+def test_coulomb_friction_that_was_not_measured_is_refused(axes: Axes) -> None:
+    with pytest.raises(vf.InputError, match="no Coulomb friction"):
+        report.plot_coulomb_friction(axes, curves(coulomb=False))
+
+
+def test_nothing_to_draw_is_told(axes: Axes) -> None:
+    for plot in (report.plot_friction_curves, report.plot_friction_master_curve):
+        with pytest.raises(vf.InputError, match="no friction to draw"):
+            plot(axes)
+
+
+def test_points_of_unknown_scatter_have_no_bars(axes: Axes) -> None:
+    found = replace(curves(), viscoelastic_scatter=np.full(12, np.inf))
+    report.plot_friction_curves(axes, measurement=found)
+    for points in bars(axes):
+        (segments,) = points.lines[2]
+        assert all(np.ptp(segment[:, 1]) == 0.0 for segment in segments.get_segments())
+    assert np.all(np.isfinite(axes.get_ylim()))
+
+
+def test_smooth_line_of_a_master_curve_bridges_no_gap(axes: Axes) -> None:
+    # α moves the warm curve by two decades, so that one decade lies between the two.
+    shift = vf.ShiftFactors(KELVIN, np.array([0.0, -2.0]), KELVIN[0])
+    master = vf.shift_friction(curves(), shift=shift)
+    assert len(master.stretches) == 2
+    report.plot_friction_master_curve(axes, measurement=master)
+    (smooth,) = [line for line in axes.lines if len(np.asarray(line.get_xdata())) > 100]
+    speed, friction = (np.asarray(part, dtype=float) for part in smooth.get_data())
+    for low, high in master.stretches:
+        inside = (speed >= 1e3 * low) & (speed <= 1e3 * high) & np.isfinite(friction)
+        np.testing.assert_allclose(friction[inside], master(1e-3 * speed[inside]), rtol=1e-12)
+    assert np.isnan(friction).sum() == 1
+    assert "at 30 °C" in axes.get_xlabel()
+    assert legend_of(axes)[1] == ["smoothed", "its 95 % band", "60 °C", "30 °C"]
+
+
+def test_picture_is_the_same_bytes_every_time(tmp_path: Path) -> None:
+    for name in ("a.svg", "b.svg"):
+        draw_friction(tmp_path / name, curves(coulomb=False), synthetic=True)
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
