@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
@@ -34,6 +34,8 @@ _OPTIONAL = (
     "material_error",
     "viscoelastic_lower",
     "viscoelastic_upper",
+    "viscoelastic_freedom",
+    "coulomb_freedom",
 )
 
 # name -> (unit, what it is), for labelled data
@@ -61,6 +63,8 @@ _LABELS = {
         "1",
         "upper 95 % limit of the viscoelastic friction coefficient, from the material's errors",
     ),
+    "viscoelastic_freedom": ("1", "degrees of freedom behind the standard error of viscoelastic friction"),
+    "coulomb_freedom": ("1", "degrees of freedom behind the standard error of Coulomb friction"),
 }
 
 
@@ -105,6 +109,11 @@ class FrictionCurves:
         Standard error that the material's own (of spectrum and shift factors) leaves on predicted friction.
     viscoelastic_lower, viscoelastic_upper : (n,) array or None
         Limits that hold predicted friction with 95 % probability, as far as the material's errors go.
+    viscoelastic_freedom, coulomb_freedom : (n,) array or None
+        Degrees of freedom behind the standard errors of measured friction, infinite where these are known exactly;
+        `interval` uses them.
+    assumption : str
+        What was assumed to find the viscoelastic friction, in one sentence; empty where nothing was.
 
     Raises
     ------
@@ -133,6 +142,9 @@ class FrictionCurves:
     material_error: Array | None = None
     viscoelastic_lower: Array | None = None
     viscoelastic_upper: Array | None = None
+    viscoelastic_freedom: Array | None = None
+    coulomb_freedom: Array | None = None
+    assumption: str = ""
 
     def __post_init__(self) -> None:
         shape = (np.size(self.speed),)
@@ -204,6 +216,46 @@ class FrictionCurves:
             load_unit=units.pop() if units else "N",
         )
 
+    def interval(
+        self, level: float = 0.95, *, of: Literal["viscoelastic", "coulomb"] = "viscoelastic"
+    ) -> tuple[Array, Array]:
+        """Return the limits that hold a measured friction coefficient with the probability `level`.
+
+        Student's t with the degrees of freedom behind the standard errors; normal where these are not known.
+
+        Parameters
+        ----------
+        level : float
+            Between 0 and 1.
+        of : {"viscoelastic", "coulomb"}
+
+        Returns
+        -------
+        lower, upper : (n,) array
+            Infinite where the standard error is.
+
+        Raises
+        ------
+        InputError
+            If the level is not between 0 and 1, or there is no such coefficient.
+        """
+        from scipy.special import ndtri, stdtrit
+
+        if not 0.0 < level < 1.0:
+            raise InputError(f"level = {level!r}: must lie between 0 and 1, such as 0.95.")
+        value, error = getattr(self, of, None), getattr(self, f"{of}_error", None)
+        if of not in ("viscoelastic", "coulomb") or value is None or error is None:
+            raise InputError(f"of = {of!r}: these friction curves hold no such coefficient with a standard error.")
+        freedom = getattr(self, f"{of}_freedom")
+        freedom = np.full(len(self), np.inf) if freedom is None else freedom
+        known = np.isfinite(error)
+        student = known & np.isfinite(freedom) & (freedom > 0.0)
+        wide = np.full(len(self), float(ndtri(0.5 + 0.5 * level)))
+        wide[student] = stdtrit(freedom[student], 0.5 + 0.5 * level)
+        half = np.full(len(self), np.inf)
+        half[known] = wide[known] * error[known]
+        return value - half, value + half
+
     def select(self, keep: NDArray[np.bool_] | NDArray[np.int64]) -> FrictionCurves:
         """Return the entries that a mask or row numbers pick, in that order; notes and source stay."""
         columns = {
@@ -271,7 +323,9 @@ class FrictionCurves:
         names = [name for name in ("speed", "temperature", "load", "slip") if name in columns]
         coordinates = {name: columns.pop(name) for name in names}
         return xarray.Dataset(
-            columns, coords=coordinates, attrs={"source": self.source, "notes": "\n".join(self.notes)}
+            columns,
+            coords=coordinates,
+            attrs={"source": self.source, "notes": "\n".join(self.notes), "assumption": self.assumption},
         )
 
 
@@ -279,7 +333,7 @@ def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
     column = np.array(values, dtype=float)
     if column.shape != shape:
         raise InputError(f"{name} of friction curves must hold one value per speed.")
-    if name.endswith(("_error", "_scatter")):
+    if name.endswith(("_error", "_scatter", "_freedom")):
         if not np.all(column >= 0.0):
             raise InputError(f"{name} of friction curves must be zero or above everywhere.")
     elif not np.all(np.isfinite(column)):

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.errors import InputError
 from viscofric.nominal import SAME_LOAD, clusters
 from viscofric.units import celsius
 
@@ -15,10 +17,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import TractionRuns
+    from viscofric.friction.measurement.course import Course
 
     Array: TypeAlias = NDArray[np.float64]
     Labels: TypeAlias = NDArray[np.int64]
 
+# Width of the intervals that swept slip is cut into, in tolerances: as far as readings of one slip may stretch.
+_INTERVAL = 4.0
 # Slip over speed below which a ball rolls, however still the speeds are.
 _PURE_ROLLING = 1e-3
 
@@ -50,26 +55,34 @@ class Condition:
     def __str__(self) -> str:
         return f"{celsius(self.temperature):z.1f} °C and {1e3 * self.speed:.4g} mm/s"
 
-    @property
+    @cached_property
+    def signs(self) -> frozenset[tuple[int, int]]:
+        """The different sgn(u_disc) and sgn(u_disc − u_ball)."""
+        return frozenset((round(one / 3), one - 3 * round(one / 3)) for one in set(self.configurations.tolist()))
+
+    @cached_property
     def configurations(self) -> Labels:
         """Number of the sign configuration of each reading."""
         return np.asarray(3 * self.disc_sign + self.slip_sign, dtype=np.int64)
 
 
 def conditions(
-    runs: TractionRuns, speed_tolerance: float, temperature_tolerance: float
+    runs: TractionRuns, course: Course, speed_tolerance: float, temperature_tolerance: float
 ) -> tuple[list[Condition], tuple[str, ...]]:
     """Group the readings of a traction test by their measured temperature, load, speed and slip.
 
     Values are sorted, and a gap wider than the tolerance starts the next nominal value.  The tolerance of the
     slip ratio follows the measured jitter of the speeds, since slip is a small difference of two of them: it
     is three standard deviations of that difference, though not below a tenth of the speeds' tolerance.  Slip
-    that cannot be told from zero by this is pure rolling.
+    that cannot be told from zero by this is pure rolling.  Slip that was swept without gaps is cut into
+    intervals four tolerances wide.
 
     Parameters
     ----------
     runs : TractionRuns
         All disc speeds other than zero are used.
+    course : Course
+        Speed and slip by which the readings are grouped.
     speed_tolerance : float
         Of speeds, relative; that of loads is 5 %.
     temperature_tolerance : float
@@ -80,14 +93,14 @@ def conditions(
     list of Condition
         By temperature, load, speed and slip.
     tuple of str
-        Notes on what was left out or taken for pure rolling.
+        Notes on what was left out, taken for pure rolling, or cut into intervals.
 
     Raises
     ------
     InputError
         If neighbouring values are too close to tell nominal values from each other.
     """
-    moving = np.flatnonzero(runs.disc_speed != 0.0)
+    moving = np.flatnonzero((runs.disc_speed != 0.0) & (course.speed > 0.0))
     notes = []
     if moving.size < len(runs):
         notes.append(
@@ -95,7 +108,7 @@ def conditions(
         )
     if not moving.size:
         return [], tuple(notes)
-    temperature, speed, load = runs.temperature[moving], np.abs(runs.disc_speed[moving]), runs.load[moving]
+    temperature, speed, load = runs.temperature[moving], course.speed[moving], runs.load[moving]
     isotherm = clusters(
         temperature,
         np.full(temperature.size, temperature_tolerance),
@@ -107,28 +120,27 @@ def conditions(
         speed_tolerance * speed,
         lambda low, high: f"disc_speed from {1e3 * low:.4g} to {1e3 * high:.4g} mm/s",
     )
-    means = np.bincount(pace, speed) / np.bincount(pace)
-    jitter = float(np.std(speed / means[pace]))
+    mean_speed = np.bincount(pace, speed) / np.bincount(pace)
+    mean_temperature = np.bincount(isotherm, temperature) / np.bincount(isotherm)
+    jitter = float(np.std(speed / mean_speed[pace]))
     resolution = max(0.1 * speed_tolerance, 3.0 * math.sqrt(2.0) * jitter)
-    slip = runs.disc_speed[moving] - runs.ball_speed[moving]
-    found = []
-    for key in np.unique(np.stack([isotherm, loading, pace], axis=1), axis=0):
-        here = np.flatnonzero((isotherm == key[0]) & (loading == key[1]) & (pace == key[2]))
-        disc_sign = np.sign(runs.disc_speed[moving][here])
-        ratio = slip[here] / runs.disc_speed[moving][here]
-        direction, sliding = _slips(ratio, speed_tolerance, resolution)
-        for number in np.unique(sliding):
-            these = sliding == number
-            rows = here[these]
+    slip = np.abs(runs.disc_speed[moving] - runs.ball_speed[moving])
+    disc_sign = np.sign(runs.disc_speed[moving])
+    found, swept = [], 0
+    for here in _equal_rows(np.stack([isotherm, loading, pace], axis=1)):
+        direction, sliding, cut = _slips(course.slip[moving][here], speed_tolerance, resolution)
+        swept += cut
+        for part in _equal_rows(sliding[:, None]):
+            rows = here[part]
             found.append(
                 Condition(
                     rows=moving[rows],
-                    temperature=float(temperature[isotherm == key[0]].mean()),
-                    speed=float(means[key[2]]),
+                    temperature=float(mean_temperature[isotherm[rows[0]]]),
+                    speed=float(mean_speed[pace[rows[0]]]),
                     load=float(load[rows].mean()),
-                    slip=float(np.abs(slip[rows]).mean()),
-                    disc_sign=disc_sign[these],
-                    slip_sign=disc_sign[these] * direction[these],
+                    slip=float(slip[rows].mean()),
+                    disc_sign=disc_sign[rows],
+                    slip_sign=disc_sign[rows] * direction[part],
                 )
             )
     rolling = [one for one in found if not np.any(one.slip_sign) and one.slip > 0.0]
@@ -137,7 +149,20 @@ def conditions(
             f"{where(rolling, len(found))} the slip ({1e3 * rolling[0].slip:.2g} mm/s) cannot be told from "
             "none and is taken for pure rolling."
         )
+    if swept:
+        notes.append(
+            f"At {swept} set{'s' if swept > 1 else ''} of temperature, load and speed the slip was swept without gaps "
+            "and is cut into intervals; Coulomb friction is its mean over each of them."
+        )
     return found, tuple(notes)
+
+
+def _equal_rows(keys: Labels) -> list[Labels]:
+    """Return the places of equal rows, by ascending rows."""
+    _, number = np.unique(keys, axis=0, return_inverse=True)
+    number = number.reshape(-1)
+    order = np.argsort(number, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(number[order])) + 1)
 
 
 def where(some: list[Condition], total: int) -> str:
@@ -147,8 +172,8 @@ def where(some: list[Condition], total: int) -> str:
     return f"At {len(some)} of {total} conditions, the first being {some[0]},"
 
 
-def _slips(ratio: Array, tolerance: float, resolution: float) -> tuple[Array, Labels]:
-    """Find the sense of sliding (along the disc's motion, ±1 or 0) and number the magnitudes of slip."""
+def _slips(ratio: Array, tolerance: float, resolution: float) -> tuple[Array, Labels, bool]:
+    """Find the sense of sliding (along the disc's motion, ±1 or 0), number the magnitudes; say if they were swept."""
 
     def numbered(values: Array) -> Labels:
         return clusters(
@@ -157,12 +182,23 @@ def _slips(ratio: Array, tolerance: float, resolution: float) -> tuple[Array, La
             lambda low, high: f"slip from {100 * low:.3g} to {100 * high:.3g} % of the disc's speed",
         )
 
-    signed = numbered(ratio)
-    direction, magnitude = np.empty(ratio.size), np.empty(ratio.size)
-    for number in np.unique(signed):
-        members = signed == number
-        mean = ratio[members].mean()
-        rolls = ratio[members].min() < 0.0 < ratio[members].max() or abs(mean) < _PURE_ROLLING
-        direction[members], magnitude[members] = (0.0, 0.0) if rolls else (np.sign(mean), abs(mean))
-    # Rolling stays apart from sliding, however slow.
-    return direction, np.where(direction == 0.0, 0, numbered(magnitude) + 1)
+    try:
+        signed = numbered(ratio)
+        count = np.bincount(signed)
+        mean = np.bincount(signed, ratio) / count
+        low, high = np.full(count.size, np.inf), np.full(count.size, -np.inf)
+        np.minimum.at(low, signed, ratio)
+        np.maximum.at(high, signed, ratio)
+        rolls = ((low < 0.0) & (high > 0.0)) | (np.abs(mean) < _PURE_ROLLING)
+        direction = np.where(rolls, 0.0, np.sign(mean))[signed]
+        magnitude = np.where(rolls, 0.0, np.abs(mean))[signed]
+        # Rolling stays apart from sliding, however slow.
+        return direction, np.where(direction == 0.0, 0, numbered(magnitude) + 1), False
+    except InputError:
+        pass
+    size = np.abs(ratio)
+    direction = np.where(size < resolution, 0.0, np.sign(ratio))
+    # In tolerances, which are absolute below the knee and relative above it.
+    knee = resolution / tolerance
+    steps = np.where(size < knee, size / resolution, (1.0 + np.log(np.maximum(size / knee, 1.0))) / tolerance)
+    return direction, np.where(direction == 0.0, 0, 1 + (steps / _INTERVAL).astype(np.int64)), True

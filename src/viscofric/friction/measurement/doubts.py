@@ -1,7 +1,8 @@
-"""Notes on what does not look like a sound traction test: signs, inconsistency, missing runs, outliers."""
+"""Notes on what does not look like a sound traction test: signs, inconsistency, another zero, missing runs."""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -12,65 +13,94 @@ from viscofric.nominal import SAME_LOAD
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
-    from viscofric.friction.measurement.separation import Entry
+    from viscofric.friction.measurement.entry import Entry
+    from viscofric.friction.measurement.separation import Fit
+    from viscofric.friction.measurement.zeros import Zeros
 
     Array: TypeAlias = NDArray[np.float64]
 
-# A deviation is worth a note if chance makes it so large once in 370 times: three standard errors where
-# they are well known, more (Student's t) where few replicates stand behind them.
-_CHANCE = 0.00135  # on either side
-_ROUNDING = 1e-9  # relative; smaller deviations come from rounding
-_OUTLIER = 5.0  # robust standard deviations
-_FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
+#: How often a sound test, of however many conditions, is noted for one kind of deviation: once in 370 times.  The
+#: threshold in standard errors is Student's t, larger where few replicates or many conditions stand behind them.
+CHANCE = 0.0027
+ROUNDING = 1e-9  # relative; smaller deviations come from rounding
 
 
-def _threshold(freedom: int) -> float:
-    """How many standard errors chance reaches once in 370 times."""
-    from scipy.special import stdtrit
+def threshold(freedom: float, chance: float) -> float:
+    """How many standard errors a deviation of either sign reaches by chance, that often."""
+    from scipy.special import ndtri, stdtrit
 
-    return float(stdtrit(freedom, 1.0 - _CHANCE)) if freedom > 0 else np.inf
+    if freedom <= 0.0:
+        return np.inf
+    return float(stdtrit(freedom, 1.0 - 0.5 * chance) if np.isfinite(freedom) else -ndtri(0.5 * chance))
 
 
-def doubts(groups: list[Condition], entries: list[Entry]) -> list[str]:
+def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[str]:
     """Note what does not look like a sound measurement."""
-    total = len(groups)
+    groups = [fit.group for fit in fits]
+    return [
+        *_negative(groups, entries),
+        *_inconsistent(groups, entries),
+        *_another_zero(fits, entries, zeros),
+        *_incomplete(groups, entries),
+    ]
+
+
+def _negative(groups: list[Condition], entries: list[Entry]) -> list[str]:
     notes = []
-
-    def those(number: int, sign: float | None) -> tuple[list[Condition], str]:
-        """Find where a value is significantly negative (or other than zero), and show the first."""
-        found = []
-        for group, entry in zip(groups, entries, strict=True):
-            value = abs(entry.value[number]) if sign is None else sign * entry.value[number]
-            size = abs(entry.value[0]) / group.load + abs(entry.value[1]) + abs(entry.value[2])
-            chance = _threshold(entry.freedom[number == 3])
-            known = np.isfinite(entry.error[number])
-            if known and value > max(chance * entry.error[number], _ROUNDING * size):
-                found.append((group, f"{entry.value[number]:.2g} ± {entry.error[number]:.2g}"))
-        return [group for group, _ in found], found[0][1] if found else ""
-
     for number, name in ((1, "viscoelastic"), (2, "Coulomb")):
-        negative, shown = those(number, -1.0)
+        deviation = np.array([-entry.value[number] for entry in entries])
+        negative = _significant(groups, entries, number, deviation)
         if negative:
             notes.append(
-                f"{where(negative, total)} the {name} friction coefficient is negative ({shown}): the sign "
-                "of the force or of a velocity is probably reversed."
+                f"{where([groups[one] for one in negative], len(groups))} the {name} friction coefficient is negative "
+                f"({_shown(entries[negative[0]], number)}): the sign of the force or of a velocity is probably "
+                "reversed."
             )
-    inconsistent, shown = those(3, None)
-    if inconsistent:
-        notes.append(
-            f"{where(inconsistent, total)} the four sign configurations do not fit together: the "
-            f"consistency is {shown} of the load where scatter alone would give zero."
-        )
+    return notes
+
+
+def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[str]:
+    found = _significant(groups, entries, 3, np.array([abs(entry.value[3]) for entry in entries]))
+    if not found:
+        return []
+    told = (
+        f"{where([groups[one] for one in found], len(groups))} the four sign configurations do not fit together: the "
+        f"consistency is {_shown(entries[found[0]], 3)} of the load where scatter alone would give zero."
+    )
+    return [told]
+
+
+def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[str]:
+    """Compare the zero that is fitted with the one that was recorded."""
+    groups = [fit.group for fit in fits]
+    recorded = np.array([zeros.mean(fit.group) if fit.fits_offset else np.nan for fit in fits])
+    deviation = np.abs([entry.value[0] for entry in entries] - recorded)
+    found = _significant(groups, entries, 0, np.where(np.isfinite(deviation), deviation, 0.0), zeros.error)
+    if not found:
+        return []
+    first = found[0]
+    told = (
+        f"{where([groups[one] for one in found], len(groups))} the zero of the force cell told by the configurations, "
+        f"{_shown(entries[first], 0)} N, is not the recorded one, {recorded[first]:.2g} N; the former is used."
+    )
+    return [told]
+
+
+def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[str]:
+    """Name the conditions where replicates lack configurations, or are too few."""
+    total = len(groups)
+    notes = []
     together = [group for group, entry in zip(groups, entries, strict=True) if entry.together]
-    rolled = [group for group in together if _rolling_beside(group, groups)]
+    beside = _rolling_beside(together, groups)
+    rolled = [(group, readings) for group, readings in zip(together, beside, strict=True) if readings]
     if rolled:
-        readings = _rolling_beside(rolled[0], groups)
+        readings = rolled[0][1]
         notes.append(
-            f"{where(rolled, total)} slip is zero (pure rolling) in {readings} reading{'s' if readings > 1 else ''}, "
-            "so that not every replicate has all configurations and all readings are fitted together."
+            f"{where([group for group, _ in rolled], total)} slip is zero (pure rolling) in {readings} "
+            f"reading{'s' if readings > 1 else ''}, so that not every replicate has all configurations and all "
+            "readings are fitted together."
         )
-    missing = [group for group in together if group not in rolled]
+    missing = [group for group, readings in zip(together, beside, strict=True) if not readings]
     if missing:
         notes.append(
             f"{where(missing, total)} not every replicate has all sign configurations, so all readings "
@@ -85,56 +115,39 @@ def doubts(groups: list[Condition], entries: list[Entry]) -> list[str]:
     return notes
 
 
-def _rolling_beside(group: Condition, groups: list[Condition]) -> int:
-    """Count the readings in pure rolling at a condition's temperature and speed, whatever its own slip."""
-    return sum(
-        one.rows.size
-        for one in groups
-        if not np.any(one.slip_sign)
-        and one.temperature == group.temperature
-        and one.speed == group.speed
-        and abs(one.load - group.load) <= SAME_LOAD * group.load
-    )
+def _significant(
+    groups: list[Condition], entries: list[Entry], number: int, deviation: Array, more_error: float = 0.0
+) -> list[int]:
+    """Find the conditions where one of the four values deviates by more than chance and rounding make it."""
+    chance = CHANCE / len(groups)
+    found = []
+    for place, (group, entry) in enumerate(zip(groups, entries, strict=True)):
+        size = (abs(entry.value[0]) / group.load + abs(entry.value[1]) + abs(entry.value[2])) * (
+            group.load if number == 0 else 1.0
+        )
+        error = np.hypot(entry.error[number], more_error)
+        if deviation[place] <= ROUNDING * size or not np.isfinite(error):
+            continue
+        if deviation[place] > threshold(entry.freedom[number], chance) * error:
+            found.append(place)
+    return found
 
 
-def outliers(runs: TractionRuns, groups: list[Condition], entries: list[Entry]) -> list[str]:
-    """Note the readings far from the others of their configuration."""
-    deviations = [_deviations(runs, group, entry.value[0]) for group, entry in zip(groups, entries, strict=True)]
-    whole = _robust_deviation(np.concatenate(deviations))
-    found: list[tuple[Condition, int]] = []
-    for group, deviation in zip(groups, deviations, strict=True):
-        # Few readings tell a scale badly; the whole test tells what it may be at least.
-        rounding = _ROUNDING * float(np.abs(runs.traction_force[group.rows]).max())
-        scale = max(_robust_deviation(deviation), whole, rounding)
-        far = np.flatnonzero(np.abs(deviation) > _OUTLIER * scale)
-        found += [(group, int(group.rows[row])) for row in far]
-    if not found:
-        return []
-    group, row = found[0]
-    count = "One reading deviates" if len(found) == 1 else f"{len(found)} readings deviate"
-    note = (
-        f"{count} from the others of the same configuration by more than {_OUTLIER:g} robust standard "
-        f"deviations and {'was' if len(found) == 1 else 'were'} kept; "
-        f"{'it is' if len(found) == 1 else 'the first is'} at {group}, replicate {runs.replicate[row]}, "
-        f"with {runs.traction_force[row]:.4g} N."
-    )
-    return [note]
+def _shown(entry: Entry, number: int) -> str:
+    return f"{entry.value[number]:.2g} ± {entry.error[number]:.2g}"
 
 
-def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
-    """Compare forces, brought to the mean load, with their configuration's median (not a number if few)."""
-    force = (runs.traction_force[group.rows] - zero) * group.load / runs.load[group.rows]
-    deviation = np.full(force.size, np.nan)
-    for configuration in np.unique(group.configurations):
-        same = group.configurations == configuration
-        if np.count_nonzero(same) >= _FEWEST_FOR_OUTLIERS:
-            deviation[same] = force[same] - np.median(force[same])
-    return deviation
-
-
-def _robust_deviation(deviation: Array) -> float:
-    """Return the standard deviation told by the median, or by the mean where more than half are equal."""
-    size = np.abs(deviation[np.isfinite(deviation)])
-    if not size.size:
-        return 0.0
-    return 1.4826 * float(np.median(size)) or 1.2533 * float(np.mean(size))
+def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]:
+    """Count the readings in pure rolling at each condition's temperature and speed, whatever its own slip."""
+    rolling = defaultdict(list)
+    for group in groups:
+        if not np.any(group.slip_sign):
+            rolling[group.temperature, group.speed].append(group)
+    return [
+        sum(
+            one.rows.size
+            for one in rolling[group.temperature, group.speed]
+            if abs(one.load - group.load) <= SAME_LOAD * group.load
+        )
+        for group in some
+    ]

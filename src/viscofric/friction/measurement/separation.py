@@ -2,95 +2,236 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+
+from viscofric.friction.measurement.entry import Entry
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import TractionRuns
     from viscofric.friction.measurement.conditions import Condition
+    from viscofric.friction.measurement.zeros import Zeros
 
     Array: TypeAlias = NDArray[np.float64]
 
+_OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
+_FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
+#: The force as it is read, and what may be taken from it: drift (per N/s) and changes of the recorded zero.
+FORCE, DRIFT, ZERO_CHANGES = range(3)
 
-def regressors(group: Condition, zero: float | None) -> Array:
-    """Signs that go with zero, viscoelastic and Coulomb friction."""
-    offset = np.full(group.rows.size, float(zero is None))
-    return np.stack([offset, group.disc_sign, group.slip_sign], axis=1)
+
+def regressors(group: Condition, *, offset: bool, coulomb: bool) -> Array:
+    """Signs that go with zero, viscoelastic and Coulomb friction; zeros for what is not fitted."""
+    return np.stack(
+        [np.full(group.rows.size, float(offset)), group.disc_sign, group.slip_sign * float(coulomb)], axis=1
+    )
+
+
+def told_apart(group: Condition, *, offset: bool, coulomb: bool) -> bool:
+    """Whether the signs alone, whatever the jitter of the loads, tell the unknowns apart."""
+    return _full_rank(group.signs, offset, coulomb)
+
+
+@lru_cache(maxsize=512)
+def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -> bool:
+    unknowns = 1 + offset + (coulomb and any(slip for _, slip in signs))
+    columns = [(float(offset), disc, slip * coulomb) for disc, slip in signs]
+    return int(np.linalg.matrix_rank(np.array(columns))) == unknowns
 
 
 @dataclass(frozen=True, eq=False)
-class Entry:
-    """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition, in this order.
+class Fit:
+    """Least squares on the readings of a condition, of the force and of what may be taken from it.
 
-    `freedom` is the number of degrees of freedom behind the errors; what cannot be known has an infinite
-    error.
+    The fit is linear in the force, so that a drift is taken out of its coefficients as well as out of the readings.
+
+    Attributes
+    ----------
+    each : (r, 4, 3) array
+        Zero, viscoelastic and Coulomb coefficient and consistency of each replicate (of all readings where they are
+        fitted together), of the force, of time and of the changes of the recorded zero.
+    time : float
+        Mean time of the readings, s; NaN where it was not recorded.
+    residual, checked : (n, 3) array
+        What the fits without and with the consistency leave over.
+    spread : (4,) array
+        Variance of the coefficients where that of a reading is one.
+    freedom : (2,) tuple
+        Degrees of freedom of the residuals without and with the consistency.
+    zero_variance, coulomb_variance : (4,) array
+        Left by the errors of a zero and of a Coulomb coefficient that are not fitted, where scatter does not show them.
     """
 
-    value: Array
-    error: Array
-    scatter: Array
+    group: Condition
+    each: Array
+    time: float
     replicates: int
-    freedom: tuple[int, int]
     together: bool
+    fits_offset: bool
+    coulomb: tuple[float, float] | None
     slides: bool
     checks: bool
+    residual: Array = field(repr=False)
+    checked: Array = field(repr=False)
+    spread: Array
+    freedom: tuple[int, int]
+    zero_variance: Array
+    coulomb_variance: Array
 
     @classmethod
-    def of(cls, runs: TractionRuns, group: Condition, zero: float | None) -> Entry:
-        """Fit a condition's readings, each replicate by itself where all are complete."""
-        numbers = np.unique(runs.replicate[group.rows])
-        mine = [runs.replicate[group.rows] == number for number in numbers]
-        configurations = [set(group.configurations[rows].tolist()) for rows in mine]
-        complete = all(these == set(group.configurations.tolist()) for these in configurations)
+    def of(cls, runs: TractionRuns, group: Condition, zeros: Zeros, coulomb: tuple[float, float] | None = None) -> Fit:
+        """Fit a condition's readings, each replicate by itself where all are complete.
+
+        Parameters
+        ----------
+        runs : TractionRuns
+        group : Condition
+        zeros : Zeros
+            Used where the signs do not tell the zero.
+        coulomb : (float, float), optional
+            Coulomb coefficient and its standard error where they are assumed.
+        """
+        slides = bool(np.any(group.slip_sign))
+        checks = coulomb is None and group.signs >= _FOUR
+        offset = zeros.fitted(group, coulomb=coulomb is None)
+        load = runs.load[group.rows] / group.load
+        design = regressors(group, offset=offset, coulomb=coulomb is None)
+        design[:, 1:] *= load[:, None]
+        crossed = -(group.disc_sign * group.slip_sign) * load
+        pattern = group.load * group.slip_sign * load
+        target = _parts(runs, group, zeros, offset)
+        if coulomb is not None:
+            target[:, FORCE] -= coulomb[0] * pattern
+        numbers, replicate = np.unique(runs.replicate[group.rows], return_inverse=True)
         count = numbers.size
-        slides, checks = bool(np.any(group.slip_sign)), _has_all_four(group)
-        if complete and count > 1:
-            each = np.array([_fit(runs, group, rows, zero)[0] for rows in mine])
-            value, scatter = each.mean(axis=0), each.std(axis=0, ddof=1)
-            error, freedom = scatter / np.sqrt(count), (count - 1, count - 1)
+        complete = _complete(group, replicate)
+        parts = _parted(replicate) if complete and count > 1 else [np.arange(load.size)]
+        scale = np.array([1.0, *[group.load] * 3])
+        operator, each, solved = np.zeros((4, load.size)), np.zeros((len(parts), 4, 3)), []
+        for number, rows in enumerate(parts):
+            one = _least_squares(design[rows], target[rows], crossed[rows] if checks else None)
+            solved.append(one)
+            each[number] = (one.operator @ target[rows]) / scale[:, None]
+            operator[:, rows] = one.operator / scale[:, None] / len(parts)
+        return cls(
+            group=group,
+            each=each,
+            time=float(_times(runs, group).mean()),
+            replicates=count,
+            together=not complete,
+            fits_offset=offset,
+            coulomb=coulomb,
+            slides=slides,
+            checks=checks,
+            residual=solved[0].residual,
+            checked=solved[0].checked,
+            spread=solved[0].spread / scale**2,
+            freedom=solved[0].freedom,
+            zero_variance=np.zeros(4) if offset else zeros.variance(group, operator, replicate, len(parts) > 1),
+            coulomb_variance=np.zeros(4) if coulomb is None else (coulomb[1] * (operator @ pattern)) ** 2,
+        )
+
+    def offset(self, weights: Array) -> Array:
+        """Zero of each replicate, N."""
+        return np.asarray(self.each[:, _OFFSET] @ weights)
+
+    def entry(self, weights: Array, zeros: Zeros) -> Entry:
+        """Put the replicates together; `weights` (3,) are those of force, drift and changes of the zero."""
+        each = self.each @ weights
+        value = each.mean(axis=0)
+        count = self.replicates
+        if len(each) > 1:
+            scatter = each.std(axis=0, ddof=1)
+            error, freedom = scatter / np.sqrt(count), np.full(4, count - 1.0)
         else:
-            value, error, freedom = _fit(runs, group, np.full(group.rows.size, True), zero)
+            variance = np.full(4, _variance(self.residual @ weights, self.freedom[0]))
+            variance[_CONSISTENCY] = _variance(self.checked @ weights, self.freedom[1])
+            with np.errstate(invalid="ignore"):
+                error = np.where(np.isfinite(variance), np.sqrt(variance * self.spread), np.inf)
             scatter = error * np.sqrt(count)
-        unknown = np.array([False, False, not slides, not checks])
+            freedom = np.array([*[self.freedom[0]] * 3, self.freedom[1]], dtype=float)
+        unknown = np.array([False, False, not self.slides, not self.checks])
         error, scatter = (np.where(unknown, np.inf, spread) for spread in (error, scatter))
-        return cls(value, error, scatter, count, freedom, not complete, slides, checks)
+        if not self.fits_offset:
+            value[_OFFSET] = zeros.mean(self.group)
+        found = Entry(value, error, scatter, freedom, count, self.together, self.slides, self.checks)
+        if self.coulomb is not None and self.slides:
+            value[_COULOMB], error[_COULOMB] = self.coulomb
+            freedom[_COULOMB], scatter[_COULOMB] = np.inf, 0.0
+            found = found.widened(self.coulomb_variance * (np.arange(4) == _VISCOELASTIC), np.inf)
+        return found.widened(np.where(np.arange(4) == _OFFSET, 0.0, self.zero_variance), zeros.freedom)
 
 
-def _has_all_four(group: Condition) -> bool:
-    return {-4, -2, 2, 4} <= set(group.configurations.tolist())
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """What makes coefficients (4,) of readings, and what the readings leave over."""
+
+    operator: Array
+    residual: Array
+    checked: Array
+    spread: Array
+    freedom: tuple[int, int]
 
 
-def _fit(
-    runs: TractionRuns, group: Condition, rows: NDArray[np.bool_], zero: float | None
-) -> tuple[Array, Array, tuple[int, int]]:
-    """Fit readings of a condition: values, standard errors, degrees of freedom without and with the check."""
-    force = runs.traction_force[group.rows][rows] - (zero or 0.0)
-    load = runs.load[group.rows][rows] / group.load
-    signs = regressors(group, zero)[rows] * np.stack([np.ones(load.size), load, load], axis=1)
-    crossed = -(group.disc_sign * group.slip_sign)[rows] * load
-    used = np.any(signs != 0.0, axis=0)
-    value, error = np.zeros(4), np.zeros(4)
-    value[:3][used], error[:3][used], freedom = _least_squares(signs[:, used], force)
-    checked_freedom = 0
-    if _has_all_four(group):
-        coefficients, errors, checked_freedom = _least_squares(np.column_stack([signs[:, used], crossed]), force)
-        value[3], error[3] = coefficients[-1], errors[-1]
-    value[1:] /= group.load
-    error[1:] /= group.load
-    if zero is not None:
-        value[0] = zero
-    return value, error, (freedom, checked_freedom)
+def _parts(runs: TractionRuns, group: Condition, zeros: Zeros, offset: bool) -> Array:
+    force = runs.traction_force[group.rows]
+    target = np.zeros((force.size, 3))
+    time = _times(runs, group)
+    if np.all(np.isfinite(time)):
+        target[:, DRIFT] = -(time - time.mean())
+    known = zeros.of(group)
+    if offset:
+        target[:, FORCE] = force
+        if np.all(np.isfinite(known)):
+            target[:, ZERO_CHANGES] = -(known - known.mean())
+    else:
+        target[:, FORCE] = force - known
+        # The zeros that were recorded hold their own drift.
+        target[:, DRIFT] = 0.0
+    return target
 
 
-def _least_squares(design: Array, force: Array) -> tuple[Array, Array, int]:
-    coefficients: Array = np.asarray(np.linalg.lstsq(design, force, rcond=None)[0], dtype=float)
-    freedom = len(force) - design.shape[1]
-    if freedom < 1:
-        return coefficients, np.full(coefficients.shape, np.inf), 0
-    variance = float(np.sum((force - design @ coefficients) ** 2)) / freedom
-    covariance: Array = variance * np.linalg.inv(design.T @ design)
-    return coefficients, np.sqrt(np.diag(covariance)), freedom
+def _times(runs: TractionRuns, group: Condition) -> Array:
+    return np.full(group.rows.size, np.nan) if runs.time is None else runs.time[group.rows]
+
+
+def _complete(group: Condition, replicate: NDArray[np.intp]) -> bool:
+    """Whether every replicate has all the configurations that there are."""
+    pairs = np.unique(10 * replicate.astype(np.int64) + group.configurations)
+    return pairs.size == (int(replicate.max()) + 1) * len(group.signs)
+
+
+def _parted(replicate: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+    order = np.argsort(replicate, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(replicate[order])) + 1)
+
+
+def _variance(residual: Array, freedom: int) -> float:
+    return float(np.sum(residual**2)) / freedom if freedom > 0 else np.inf
+
+
+def _least_squares(design: Array, target: Array, crossed: Array | None) -> _Solved:
+    """Fit by the regressors in use, and once more with the consistency's."""
+    used = np.flatnonzero(np.any(design != 0.0, axis=0))
+    operator = np.zeros((4, len(target)))
+    operator[used] = _operator(design[:, used])
+    residual = target - design @ (operator[:3] @ target)
+    checked, freedom = residual, 0
+    if crossed is not None:
+        more = np.column_stack([design[:, used], crossed])
+        solved = _operator(more)
+        operator[_CONSISTENCY] = solved[-1]
+        checked = target - more @ (solved @ target)
+        freedom = len(target) - used.size - 1
+    return _Solved(operator, residual, checked, np.sum(operator**2, axis=1), (len(target) - used.size, freedom))
+
+
+def _operator(design: Array) -> Array:
+    """Return (XᵀX)⁻¹Xᵀ, by the QR factors of X; the sums of its squares are the diagonal of (XᵀX)⁻¹."""
+    orthogonal, triangle = np.linalg.qr(design)
+    return np.asarray(np.linalg.inv(triangle) @ orthogonal.T, dtype=float)

@@ -2,36 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.measurement.conditions import Condition, conditions, where
-from viscofric.friction.measurement.doubts import doubts, outliers
-from viscofric.friction.measurement.separation import Entry, regressors
-from viscofric.units import Quantity, positive, to_si
+from viscofric.friction.measurement.assumed_coulomb import Assumed
+from viscofric.friction.measurement.doubts import doubts
+from viscofric.friction.measurement.drift import Drift
+from viscofric.friction.measurement.grouping import Grouping
+from viscofric.friction.measurement.outliers import outliers as far_readings
+from viscofric.friction.measurement.outliers import told_of
+from viscofric.friction.measurement.separation import Fit
+from viscofric.friction.measurement.zeros import Zeros
+from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import TractionRuns
+    from viscofric.friction.measurement.entry import Entry
 
     Array: TypeAlias = NDArray[np.float64]
-
-# (sgn u_disc, sgn(u_disc − u_ball)) in words
-_WORDS = {
-    (sign, slip): f"u_disc {'<' if sign < 0 else '>'} 0 with u_disc − u_ball {'<' if slip < 0 else '>'} 0"
-    for sign in (-1, 1)
-    for slip in (-1, 1)
-}
 
 
 def separate(
     runs: TractionRuns,
     *,
-    zero: Quantity | None = None,
+    zero: Quantity | tuple[Quantity, Quantity] | None = None,
+    coulomb: float | tuple[float, float] | Literal["constant"] | None = None,
+    outliers: Literal["keep", "leave out"] = "keep",
     speed_tolerance: float = 0.05,
     temperature_tolerance: Quantity = 1.0,
 ) -> FrictionCurves:
@@ -41,8 +43,18 @@ def separate(
     ----------
     runs : TractionRuns
         Readings with signed surface velocities.
-    zero : float, str or pint.Quantity, optional
-        Zero reading O of the force cell where it is known, N; fitted at each condition if left out.
+    zero : float, str or pint.Quantity, or two of them, optional
+        Zero reading O of the force cell where it is known, N, and its standard error.  If left out, O is fitted
+        where the signs of the velocities tell it, and `runs.zero_force` used where they do not.
+    coulomb : float, (float, float) or "constant", optional
+        What to assume where one direction of slip only was measured, which is refused otherwise: a Coulomb friction
+        coefficient known from elsewhere, with its standard error; or one that is the same at all speeds of a
+        temperature and load, and as large as the friction measured there allows, so that viscoelastic friction
+        is what varies with speed and a lower limit.
+    outliers : {"keep", "leave out"}
+        What to do with readings that differ from the median of their configuration by more than five standard
+        deviations (1.4826 × the median absolute deviation), of their condition and of the whole test.  They are
+        noted in either case.
     speed_tolerance : float
         Relative gap that parts nominal speeds, slips and loads from each other; measured ones scatter by
         less.
@@ -53,13 +65,14 @@ def separate(
     -------
     FrictionCurves
         One entry per temperature, load, magnitude of disc speed and magnitude of slip, in that order.
-        Temperatures and speeds are the means over all readings of the same nominal value.
+        Temperatures and speeds are the means over all readings of the same nominal value.  `assumption` says
+        what was assumed, if anything.
 
     Raises
     ------
     InputError
-        If there are no readings, conditions cannot be told apart, or the sign configurations measured at
-        one of them do not suffice.
+        If there are no readings, conditions cannot be told apart, or the sign configurations measured suffice at
+        none of them.
 
     Notes
     -----
@@ -76,11 +89,20 @@ def separate(
     from.
 
     With four configurations a fourth coefficient, of −sgn(u_disc) sgn(u_disc − u_ball) F_N, is fitted as
-    well: the
-    consistency, (F_I − F_II + F_III − F_IV)/4F_N, zero in the model.
+    well: the consistency, (F_I − F_II + F_III − F_IV)/4F_N, zero in the model.
 
-    No reading is dropped.  One is noted that differs from the median of its configuration by more than five
-    standard deviations (1.4826 × the median absolute deviation), of its condition and of the whole test.
+    One direction of the disc with slip reversed gives O + F_v, half the sum of the two forces, and F_c, half their
+    difference, so that viscoelastic friction is no better known than O.  Each reading is then taken above the zero
+    recorded with it.  The standard error of one recording, √(½ mean (z_{k+1} − z_k)²) over the recordings of the
+    test, enters those of friction, unless each replicate has recordings of its own, whose errors its scatter shows.
+    Degrees of freedom are put together after Welch and Satterthwaite.
+
+    A zero that moves evenly with time is found in the zeros of repeated conditions by a line of one slope through
+    each, and taken out before configurations measured one after the other are compared; zeros that were recorded
+    more than once are followed if the forces do.
+
+    Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
+    put no reversed slips together, those of equal mean speed of disc and ball are.
 
     Examples
     --------
@@ -99,60 +121,92 @@ def separate(
     """
     if not 0.0 < speed_tolerance < 1.0:
         raise InputError(f"speed_tolerance = {speed_tolerance!r}: must lie between 0 and 1, such as 0.05.")
-    known = None if zero is None else to_si(zero, "N", "zero")
+    if outliers not in ("keep", "leave out"):
+        raise InputError(f"outliers = {outliers!r}: must be 'keep' or 'leave out'.")
+    assumed = Assumed.of(coulomb)
     kelvin = positive(temperature_tolerance, "delta_degC", "temperature_tolerance")
-    groups, notes = conditions(runs, speed_tolerance, kelvin)
-    if not groups:
-        raise InputError("traction runs hold no reading with the disc in motion: nothing to separate.")
-    _insist_on_configurations(groups, known)
-    entries = [Entry.of(runs, group, known) for group in groups]
-    sliding = any(entry.slides for entry in entries)
-    checked = any(entry.checks for entry in entries)
-
-    def column(number: int, kind: str) -> Array:
-        return np.array([getattr(entry, kind)[number] for entry in entries])
-
-    return FrictionCurves(
-        speed=np.array([group.speed for group in groups]),
-        temperature=np.array([group.temperature for group in groups]),
-        load=np.array([group.load for group in groups]),
-        viscoelastic=column(1, "value"),
-        viscoelastic_error=column(1, "error"),
-        viscoelastic_scatter=column(1, "scatter"),
-        replicates=np.array([entry.replicates for entry in entries]),
-        coulomb=column(2, "value") if sliding else None,
-        coulomb_error=column(2, "error") if sliding else None,
-        coulomb_scatter=column(2, "scatter") if sliding else None,
-        consistency=column(3, "value") if checked else None,
-        consistency_error=column(3, "error") if checked else None,
-        source=runs.source,
-        notes=(*runs.notes, *notes, *doubts(groups, entries), *outliers(runs, groups, entries)),
-        slip=np.array([group.slip for group in groups]),
-        offset=column(0, "value"),
-    )
+    found = _Separation.of(runs, zero, assumed, speed_tolerance, kelvin)
+    groups = [fit.group for fit in found.fits]
+    far = far_readings(runs, groups, found.entries)
+    told = told_of(runs, far, left_out=outliers == "leave out")
+    if far and outliers == "leave out":
+        rest = _without(runs, np.array([row for _, row in far]))
+        found = _Separation.of(rest, zero, assumed, speed_tolerance, kelvin)
+    return found.curves(runs, assumed, told)
 
 
-def _insist_on_configurations(groups: list[Condition], zero: float | None) -> None:
-    """Raise where the signs alone, whatever the jitter of the loads, do not tell the unknowns apart."""
-    poor = [g for g in groups if np.linalg.matrix_rank(regressors(g, zero)) < _unknowns(g, zero)]
-    if not poor:
-        return
-    first = poor[0]
-    there = set(zip(first.disc_sign.astype(int), first.slip_sign.astype(int), strict=True))
-    missing = [words for signs, words in _WORDS.items() if signs not in there]
-    rolls = not np.any(first.slip_sign)
-    advice = f"measure also {' or '.join(missing)}"
-    if rolls:
-        advice = "measure also with the velocities of disc and ball reversed"
-    unknowns = ["the force cell's zero"] * (zero is None) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
-    told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
-    if zero is None:
-        advice += ", or read the force cell with ball and disc apart and give that zero (zero= in Python)"
-    because = "slip is zero (pure rolling) and " if rolls else ""
-    raise InputError(
-        f"{where(poor, len(groups))} {because}the signs of the velocities do not tell {told} friction apart; {advice}."
-    )
+@dataclass(frozen=True, eq=False)
+class _Separation:
+    """Fits and what they say, condition by condition."""
+
+    fits: list[Fit]
+    entries: list[Entry]
+    assumed: list[int]
+    notes: list[str]
+
+    @classmethod
+    def of(
+        cls,
+        runs: TractionRuns,
+        zero: Quantity | tuple[Quantity, Quantity] | None,
+        assumed: Assumed,
+        speed_tolerance: float,
+        temperature_tolerance: float,
+    ) -> _Separation:
+        """Separate a test without looking for outliers."""
+        zeros = Zeros.known(runs, zero)
+        grouping = Grouping.of(runs, zeros, assumed, speed_tolerance, temperature_tolerance)
+        fits = [Fit.of(runs, group, zeros, assumed.at(group, zeros)) for group in grouping.groups]
+        drift = Drift.of(fits)
+        entries = [drift.entry(fit, zeros) for fit in fits]
+        entries, places = assumed.completed(fits, entries)
+        resting = [fit.group for fit in fits if not fit.fits_offset]
+        load = float(np.mean([fit.group.load for fit in fits]))
+        notes = [
+            *grouping.notes,
+            *zeros.notes(grouping.groups, resting),
+            *zeros.drift(load),
+            *drift.notes(fits),
+            *doubts(fits, entries, zeros),
+        ]
+        return cls(fits, entries, places, notes)
+
+    def curves(self, runs: TractionRuns, assumed: Assumed, told: list[str]) -> FrictionCurves:
+        """Return one entry for each condition."""
+        groups = [fit.group for fit in self.fits]
+        sliding = any(entry.slides for entry in self.entries)
+        checked = any(entry.checks for entry in self.entries)
+        assumption = assumed.sentence([groups[place] for place in self.assumed], len(groups))
+
+        def column(number: int, kind: str) -> Array:
+            return np.array([getattr(entry, kind)[number] for entry in self.entries])
+
+        return FrictionCurves(
+            speed=np.array([group.speed for group in groups]),
+            temperature=np.array([group.temperature for group in groups]),
+            load=np.array([group.load for group in groups]),
+            viscoelastic=column(1, "value"),
+            viscoelastic_error=column(1, "error"),
+            viscoelastic_scatter=column(1, "scatter"),
+            viscoelastic_freedom=column(1, "freedom"),
+            replicates=np.array([entry.replicates for entry in self.entries]),
+            coulomb=column(2, "value") if sliding else None,
+            coulomb_error=column(2, "error") if sliding else None,
+            coulomb_scatter=column(2, "scatter") if sliding else None,
+            coulomb_freedom=column(2, "freedom") if sliding else None,
+            consistency=column(3, "value") if checked else None,
+            consistency_error=column(3, "error") if checked else None,
+            source=runs.source,
+            notes=(*runs.notes, *([assumption] if assumption else []), *self.notes, *told),
+            slip=np.array([group.slip for group in groups]),
+            offset=column(0, "value"),
+            assumption=assumption,
+        )
 
 
-def _unknowns(group: Condition, zero: float | None) -> int:
-    return 1 + (zero is None) + bool(np.any(group.slip_sign))
+def _without(runs: TractionRuns, rows: NDArray[np.int64]) -> TractionRuns:
+    """Leave out rows."""
+    keep = np.full(len(runs), True)
+    keep[rows] = False
+    columns = {one.name: getattr(runs, one.name) for one in fields(runs)}
+    return replace(runs, **{name: value[keep] for name, value in columns.items() if isinstance(value, np.ndarray)})

@@ -1,0 +1,153 @@
+"""What may be assumed of Coulomb friction where only one direction of slip was measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.nominal import SAME_LOAD
+from viscofric.friction.measurement.conditions import Condition, where
+from viscofric.units import to_si
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.measurement.entry import Entry
+    from viscofric.friction.measurement.separation import Fit
+    from viscofric.friction.measurement.zeros import Zeros
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Assumed:
+    """Coulomb friction that the user lets be assumed.
+
+    Attributes
+    ----------
+    value, error : float or None
+        Coefficient and its standard error; None where nothing, or only its constancy, is assumed.
+    constant : bool
+        The same at all speeds of a temperature and load.
+    """
+
+    value: float | None = None
+    error: float = 0.0
+    constant: bool = False
+
+    @classmethod
+    def of(cls, coulomb: object) -> Assumed:
+        """Understand what the user says."""
+        if coulomb is None:
+            return cls()
+        if isinstance(coulomb, str) and coulomb.strip().lower() == "constant":
+            return cls(constant=True)
+        value, error = coulomb if isinstance(coulomb, (tuple, list)) and len(coulomb) == 2 else (coulomb, 0.0)
+        try:
+            number = to_si(value, "dimensionless", "coulomb")  # type: ignore[arg-type]
+            deviation = to_si(error, "dimensionless", "standard error of coulomb")
+        except InputError:
+            number, deviation = -1.0, 0.0
+        if number < 0.0 or deviation < 0.0:
+            raise InputError(
+                f"coulomb = {coulomb!r}: must be a friction coefficient such as 0.05, it and its standard error as "
+                "(0.05, 0.01), or 'constant'."
+            )
+        return cls(number, deviation)
+
+    @property
+    def nothing(self) -> bool:
+        """Whether nothing may be assumed."""
+        return self.value is None and not self.constant
+
+    def suffices(self, group: Condition, zeros: Zeros) -> bool:
+        """Whether a condition can be separated, by what is assumed if need be."""
+        return zeros.suffices(group, coulomb=True) or self._helps(group, zeros)
+
+    def at(self, group: Condition, zeros: Zeros) -> tuple[float, float] | None:
+        """Coulomb coefficient and standard error to take at a condition; None where it is fitted."""
+        if zeros.suffices(group, coulomb=True):
+            return None
+        # Where it is to be constant it follows from all speeds together, see `completed`.
+        return (0.0, 0.0) if self.value is None else (self.value, self.error)
+
+    def _helps(self, group: Condition, zeros: Zeros) -> bool:
+        if self.nothing or not zeros.suffices(group, coulomb=False):
+            return False
+        # With both directions of slip a Coulomb force is in the zero that is fitted: no limit follows from it.
+        return not self.constant or np.unique(group.disc_sign * group.slip_sign).size == 1
+
+    def completed(self, fits: list[Fit], entries: list[Entry]) -> tuple[list[Entry], list[int]]:
+        """Part the friction of one direction of slip where Coulomb friction is constant.
+
+        Its forces along the disc's motion are μ_v ± μ_c, + where the disc is faster than the ball.  Neither is
+        negative, so that μ_c is at most the lowest of them with +, and at least the highest of −(μ_v − μ_c) with −.
+
+        Returns
+        -------
+        list of Entry
+        list of int
+            Places of the conditions where Coulomb friction is assumed.
+        """
+        places = [place for place, fit in enumerate(fits) if fit.coulomb is not None]
+        if not self.constant or not places:
+            return entries, places
+        entries = list(entries)
+        remaining = places
+        while remaining:
+            first = fits[remaining[0]].group
+            alike = [place for place in remaining if _alike(fits[place].group, first)]
+            remaining = [place for place in remaining if place not in alike]
+            if np.unique([fits[place].group.speed for place in alike]).size < 2:
+                raise InputError(
+                    f"coulomb = 'constant': at {first} one speed was measured with one direction of slip, so that "
+                    "nothing tells viscoelastic friction; measure more speeds or both directions of slip."
+                )
+            sense = _sense(first)
+            friction = np.array([sense * entries[place].value[1] for place in alike])
+            limit = int(np.argmin(sense * friction))
+            for place in alike:
+                entries[place] = _parted(entries[place], sense, friction[limit], entries[alike[limit]])
+        return entries, places
+
+    def sentence(self, some: list[Condition], total: int) -> str:
+        """Name what is assumed and what follows from it; nothing where nothing was."""
+        if not some:
+            return ""
+        if self.constant:
+            return (
+                f"{where(some, total)} one direction of slip was measured and Coulomb friction is assumed to be the "
+                "same at all speeds of a temperature, as large as the friction measured allows: the viscoelastic "
+                "friction given is what varies with speed, a lower limit."
+            )
+        size = f"{self.value:g} ± {self.error:g}" if self.error else f"{self.value:g}"
+        return (
+            f"{where(some, total)} one direction of slip was measured and a Coulomb friction coefficient of {size} is "
+            "assumed: what is wrong with it is wrong with viscoelastic friction in full."
+        )
+
+
+def _sense(group: Condition) -> float:
+    return float(group.disc_sign[0] * group.slip_sign[0])
+
+
+def _alike(one: Condition, other: Condition) -> bool:
+    return (
+        one.temperature == other.temperature
+        and abs(one.load - other.load) <= SAME_LOAD * other.load
+        and _sense(one) == _sense(other)
+    )
+
+
+def _parted(entry: Entry, sense: float, coulomb: float, limit: Entry) -> Entry:
+    """Take constant Coulomb friction, as that of the condition which limits it, from friction as a whole."""
+    value, error, scatter, freedom = (
+        np.array(part) for part in (entry.value, entry.error, entry.scatter, entry.freedom)
+    )
+    value[1], value[2] = value[1] - sense * coulomb, coulomb
+    error[2], scatter[2], freedom[2] = limit.error[1], limit.scatter[1], limit.freedom[1]
+    parted = replace(entry, value=value, error=error, scatter=scatter, freedom=freedom)
+    return parted.widened(np.array([0.0, limit.error[1] ** 2, 0.0, 0.0]), limit.freedom[1])

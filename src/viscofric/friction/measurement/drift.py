@@ -1,0 +1,139 @@
+"""Drift of the force cell's zero: found in the zeros that are fitted, taken out of the separation, told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.friction.measurement.doubts import CHANCE, ROUNDING, threshold
+from viscofric.friction.measurement.separation import DRIFT, FORCE, ZERO_CHANGES, Fit
+from viscofric.friction.measurement.zeros import Zeros, wanders
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.measurement.entry import Entry
+
+    Array: TypeAlias = NDArray[np.float64]
+
+_FEWEST = 3  # degrees of freedom behind a rate
+# The recorded zeros are followed where this makes the sum of squares smaller by more than chance would.
+_WORTH = 0.8
+_PER_HOUR = 3600.0
+
+
+@dataclass(frozen=True)
+class Drift:
+    """What is taken from the forces besides the zero of each condition.
+
+    Attributes
+    ----------
+    rate, error : float
+        Of a zero that moves evenly with time, and its standard error, N/s.
+    freedom : float
+    follows : bool
+        Whether the zero follows its changes from one recording to the next.
+    wandering : float
+        Standard deviation of a zero that moves unevenly, N; zero where it does not.
+    """
+
+    rate: float = 0.0
+    error: float = 0.0
+    freedom: float = np.inf
+    follows: bool = False
+    wandering: float = 0.0
+
+    @property
+    def weights(self) -> Array:
+        """Of force, drift and changes of the recorded zero."""
+        weights = np.zeros(3)
+        weights[FORCE], weights[DRIFT], weights[ZERO_CHANGES] = 1.0, self.rate, float(self.follows)
+        return weights
+
+    @classmethod
+    def of(cls, fits: list[Fit]) -> Drift:
+        """Find the drift in the zeros that are fitted.
+
+        Each replicate's zero is fitted at the mean time of its readings.  The rate is that of one straight line for
+        each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
+        """
+        fitted = [fit for fit in fits if fit.fits_offset]
+        follows = _follows(fitted)
+        plain = cls(follows=follows).weights
+        timed = [fit for fit in fitted if np.isfinite(fit.time)]
+        repeated = [fit for fit in timed if len(fit.each) > 1]
+        taken = repeated or timed
+        if not taken:
+            return cls(follows=follows)
+        zero = np.concatenate([fit.offset(plain) for fit in taken])
+        # Where readings of a replicate weigh unequally, its zero is that of the time which the fit makes of theirs.
+        time = np.concatenate([fit.time - fit.each[:, 0, DRIFT] for fit in taken])
+        line = np.repeat(np.arange(len(taken)), [len(fit.each) for fit in taken])
+        if not repeated:
+            line = np.zeros(line.size, dtype=np.int64)
+        early = _centred(time, line)
+        sensitivity, freedom = float(np.sum(early**2)), line.size - line.max() - 2
+        if freedom < _FEWEST or sensitivity <= 0.0:
+            return cls(follows=follows)
+        centred = _centred(zero, line)
+        rate = float(np.sum(early * centred)) / sensitivity
+        residual = centred - rate * early
+        error = float(np.sqrt(np.sum(residual**2) / freedom / sensitivity))
+        rounding = ROUNDING * max(fit.group.load for fit in taken)
+        unexplained = float(np.sqrt(np.mean(residual**2)))
+        if unexplained > rounding and wanders(residual[np.argsort(time, kind="stable")]):
+            return cls(follows=follows, wandering=float(np.std(zero, ddof=1)))
+        if abs(rate) * float(np.ptp(time)) <= rounding or abs(rate) < threshold(freedom, CHANCE) * error:
+            return cls(follows=follows)
+        return cls(rate, error, freedom, follows)
+
+    def entry(self, fit: Fit, zeros: Zeros) -> Entry:
+        """Return what a condition's fit says, the error of the drift in its standard errors."""
+        entry = fit.entry(self.weights, zeros)
+        return entry.widened((self.error * fit.each[:, :, DRIFT].mean(axis=0)) ** 2, self.freedom)
+
+    def notes(self, fits: list[Fit]) -> list[str]:
+        """Say what drifts, by how much, and what was done."""
+        told = []
+        load = float(np.mean([fit.group.load for fit in fits]))
+        if self.follows:
+            told.append(
+                "The zero of the force cell changes from one recording to the next and the forces change with it, so "
+                "that each reading is taken above its own recorded zero."
+            )
+        if self.rate:
+            moved = np.array([fit.each[:, 1:3, DRIFT].mean(axis=0) for fit in fits if fit.fits_offset])
+            size = np.abs(self.rate * moved).max(axis=0)
+            told.append(
+                f"The zero of the force cell drifts by {_PER_HOUR * self.rate:.2g} ± {_PER_HOUR * self.error:.1g} N/h, "
+                f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
+                f"(viscoelastic) and {size[1]:.2g} (Coulomb)."
+            )
+        if self.wandering:
+            told.append(
+                f"The zero of the force cell moves unevenly in the course of the test, with a standard deviation of "
+                f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; measure "
+                "the configurations of a condition in quick succession."
+            )
+        return told
+
+
+def _centred(values: Array, line: NDArray[np.int64]) -> Array:
+    return np.asarray(values - (np.bincount(line, values) / np.bincount(line))[line])
+
+
+def _follows(fits: list[Fit]) -> bool:
+    """Whether the forces follow the changes of the recorded zero: what is left over says it."""
+    left, force = np.zeros(2), 0.0
+    for follows in (0, 1):
+        weights = np.array([1.0, 0.0, float(follows)])
+        for fit in fits:
+            force = max(force, fit.group.load)
+            if len(fit.each) > 1:
+                each = fit.each[:, 1:] @ weights * fit.group.load
+                left[follows] += np.sum((each - each.mean(axis=0)) ** 2) + np.sum(each[:, -1] ** 2)
+            else:
+                left[follows] += np.sum((fit.residual @ weights) ** 2)
+    return bool(left[1] < _WORTH * left[0] and left[0] > (ROUNDING * force) ** 2)

@@ -1,0 +1,121 @@
+"""Conditions of a traction test that can be separated, and what is said of those that cannot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.friction.measurement.conditions import Condition, conditions, where
+from viscofric.friction.measurement.course import Course, of_both, of_the_disc
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import TractionRuns
+    from viscofric.friction.measurement.assumed_coulomb import Assumed
+    from viscofric.friction.measurement.zeros import Zeros
+
+    Array: TypeAlias = NDArray[np.float64]
+
+# (sgn u_disc, sgn(u_disc − u_ball)) in words
+_WORDS = {
+    (sign, slip): f"u_disc {'<' if sign < 0 else '>'} 0 with u_disc − u_ball {'<' if slip < 0 else '>'} 0"
+    for sign in (-1, 1)
+    for slip in (-1, 1)
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Grouping:
+    """The conditions that are separated, and notes on how they were made."""
+
+    groups: list[Condition]
+    notes: list[str]
+
+    @classmethod
+    def of(
+        cls, runs: TractionRuns, zeros: Zeros, assumed: Assumed, speed_tolerance: float, temperature_tolerance: float
+    ) -> Grouping:
+        """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together.
+
+        Raises
+        ------
+        InputError
+            If no condition can be separated.
+        """
+
+        def grouped(course: Course) -> tuple[list[Condition], tuple[str, ...], list[Condition]]:
+            groups, notes = conditions(runs, course, speed_tolerance, temperature_tolerance)
+            return groups, notes, [group for group in groups if not assumed.suffices(group, zeros)]
+
+        problem = None
+        try:
+            groups, notes, poor = grouped(of_the_disc(runs))
+        except InputError as error:
+            problem, groups, notes, poor = error, [], (), []
+        if problem or (groups and len(poor) == len(groups)):
+            try:
+                others, other_notes, still_poor = grouped(of_both(runs))
+            except InputError:
+                others, other_notes, still_poor = [], (), []
+            if len(still_poor) < len(others):
+                groups, notes, poor, problem = others, other_notes, still_poor, None
+        if problem:
+            raise problem
+        if not groups:
+            raise InputError("traction runs hold no reading with the disc in motion: nothing to separate.")
+        if len(poor) == len(groups):
+            raise InputError(_refused(poor, len(groups), zeros, assumed))
+        told = [*notes, *_uneven(runs, groups, speed_tolerance)]
+        if poor:
+            told.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
+            out = set(map(id, poor))
+            groups = [group for group in groups if id(group) not in out]
+        return cls(groups, told)
+
+
+def _uneven(runs: TractionRuns, groups: list[Condition], tolerance: float) -> list[str]:
+    """Say where the disc's speed differs between the directions of slip."""
+    found, largest = [], 0.0
+    for group in groups:
+        if not np.any(group.slip_sign):
+            continue
+        speed = np.abs(runs.disc_speed[group.rows])
+        faster = group.slip_sign == group.disc_sign
+        if np.all(faster) or not np.any(faster):
+            continue
+        apart = abs(float(speed[faster].mean() - speed[~faster].mean())) / group.speed
+        if apart > tolerance:
+            found.append(group)
+            largest = max(largest, apart)
+    if not found:
+        return []
+    told = (
+        f"{where(found, len(groups))} the disc's speed differs by up to {100 * largest:.2g} % between the directions "
+        "of slip: viscoelastic friction is the mean over both, and half its change between them is in Coulomb friction."
+    )
+    return [told]
+
+
+def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> str:
+    """Say what the signs do not tell, and what to measure or give."""
+    first = poor[0]
+    missing = [words for signs, words in _WORDS.items() if signs not in first.signs]
+    rolls = not np.any(first.slip_sign)
+    known = zeros.covers(first)
+    advice = f"measure also {' or '.join(missing)}"
+    if rolls:
+        advice = "measure also with the velocities of disc and ball reversed"
+    unknowns = ["the force cell's zero"] * (not known) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
+    told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
+    if not known:
+        advice += ", or read the force cell with ball and disc apart and give that zero (zero= in Python)"
+    elif not rolls and assumed.nothing:
+        advice += ", or say what Coulomb friction to assume (coulomb= in Python)"
+    because = "slip is zero (pure rolling) and " if rolls else ""
+    leaving = "; these readings are left out" if left_out else ""
+    unclear = f"the signs of the velocities do not tell {told} friction apart"
+    return f"{where(poor, total)} {because}{unclear}{leaving}; {advice}."

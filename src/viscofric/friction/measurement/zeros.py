@@ -1,0 +1,165 @@
+"""The zero of the force cell where it is known: given by the user, or recorded with the readings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.friction.measurement.separation import told_apart
+from viscofric.units import Quantity, to_si
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import TractionRuns
+    from viscofric.friction.measurement.conditions import Condition
+
+    Array: TypeAlias = NDArray[np.float64]
+    Labels: TypeAlias = NDArray[np.int64]
+
+# Fewer recordings do not tell a drift from scatter.
+_FEWEST_FOR_DRIFT = 8
+# Standard deviations that the ratio of von Neumann is below its mean where values drift.
+_DRIFTS = 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class Zeros:
+    """Zero of the force cell behind each reading, and how well it is known.
+
+    Attributes
+    ----------
+    value : (n,) array
+        N; NaN where it is not known.
+    recording : (n,) array of int
+        Number of the recording that each reading's zero comes from.
+    error : float
+        Standard error of one recording, N; zero where nothing tells it.
+    freedom : float
+        Degrees of freedom behind the error.
+    given : bool
+        Given by the user, and so used at all conditions.
+    recordings : (k,) array
+        The recordings in the order of the test.
+    """
+
+    value: Array
+    recording: Labels
+    error: float
+    freedom: float
+    given: bool
+    recordings: Array
+
+    @classmethod
+    def known(cls, runs: TractionRuns, zero: Quantity | tuple[Quantity, Quantity] | None) -> Zeros:
+        """Take the zero that the user gives, else those recorded, else none."""
+        if zero is not None:
+            value, error = zero if isinstance(zero, tuple) and len(zero) == 2 else (zero, 0.0)
+            newton, deviation = to_si(value, "N", "zero"), to_si(error, "N", "standard error of zero")
+            if deviation < 0.0:
+                raise InputError(f"standard error of zero = {deviation:g} N: must be zero or above.")
+            each, once = np.full(len(runs), newton), np.zeros(len(runs), dtype=np.int64)
+            return cls(each, once, deviation, np.inf, True, np.array([newton]))
+        if runs.zero_force is None:
+            none = np.full(len(runs), np.nan)
+            return cls(none, np.zeros(len(runs), dtype=np.int64), 0.0, np.inf, False, np.empty(0))
+        return cls._recorded(runs, runs.zero_force)
+
+    @classmethod
+    def _recorded(cls, runs: TractionRuns, zero: Array) -> Zeros:
+        """Put a number to the recordings in the order of the test; equal ones in succession are one.
+
+        A single recording's error is √(½ mean (z_{k+1} − z_k)²), which holds its scatter and what the zero drifts
+        until it is recorded again, but no slow drift.  For k recordings that only scatter it has 2(k−1)²/(3k−4)
+        degrees of freedom (J. von Neumann et al., Annals of Mathematical Statistics 12, 153–162, 1941).
+        """
+        key = runs.step if runs.step is not None else runs.time
+        order = np.arange(len(runs)) if key is None else np.argsort(key, kind="stable")
+        order = order[np.isfinite(zero[order])]
+        ordered = zero[order]
+        starts = np.concatenate([[True], np.diff(ordered) != 0.0])[: order.size]
+        recording = np.zeros(len(runs), dtype=np.int64)
+        recording[order] = np.cumsum(starts) - 1
+        recordings = ordered[starts]
+        count = recordings.size
+        if count < 2:
+            return cls(zero, recording, 0.0, np.inf, False, recordings)
+        error = float(np.sqrt(0.5 * np.mean(np.diff(recordings) ** 2)))
+        return cls(zero, recording, error, 2.0 * (count - 1) ** 2 / (3 * count - 4), False, recordings)
+
+    def of(self, group: Condition) -> Array:
+        """Zero behind each reading of a condition, N, NaN where not known."""
+        return self.value[group.rows]
+
+    def mean(self, group: Condition) -> float:
+        """Mean over a condition's readings, N."""
+        return float(self.of(group).mean())
+
+    def covers(self, group: Condition) -> bool:
+        """Whether the zero is known behind every reading of a condition."""
+        return bool(np.all(np.isfinite(self.of(group))))
+
+    def variance(self, group: Condition, operator: Array, replicate: NDArray[np.intp], by_replicate: bool) -> Array:
+        """Return what the errors of the recordings leave in coefficients (4,) that `operator` makes of readings.
+
+        Zero where replicates are fitted by themselves and share no recording: their scatter shows it then.
+        """
+        _, which = np.unique(self.recording[group.rows], return_inverse=True)
+        pairs = np.unique(which * (replicate.max() + 1) + replicate)
+        if by_replicate and pairs.size == which.max() + 1:
+            return np.zeros(4)
+        return self.error**2 * np.array([np.sum(np.bincount(which, row) ** 2) for row in operator])
+
+    def fitted(self, group: Condition, *, coulomb: bool) -> bool:
+        """Whether a condition's zero is fitted: where nobody gives it and the signs tell it."""
+        return not self.given and told_apart(group, offset=True, coulomb=coulomb)
+
+    def suffices(self, group: Condition, *, coulomb: bool) -> bool:
+        """Whether viscoelastic (and Coulomb) friction can be told, with the zero as it is known."""
+        return self.fitted(group, coulomb=coulomb) or (
+            self.covers(group) and told_apart(group, offset=False, coulomb=coulomb)
+        )
+
+    def notes(self, groups: list[Condition], used: list[Condition]) -> list[str]:
+        """Say on what zero viscoelastic friction rests where it is a recorded one."""
+        if self.given or not used:
+            return []
+        load = float(np.mean([group.load for group in used]))
+        where = f"At {len(used)} of {len(groups)} conditions the zero of the force cell is the recorded one"
+        if self.recordings.size < 2:
+            return [f"{where}, of one recording, whose error is not in the standard errors of viscoelastic friction."]
+        told = (
+            f"{where}, whose {self.recordings.size} recordings scatter by {self.error:.2g} N "
+            f"({self.error / load:.2g} of the load); this is in the standard errors of viscoelastic friction."
+        )
+        return [told]
+
+    def drift(self, load: float) -> list[str]:
+        """Say that the recordings drift, if they do."""
+        if not wanders(self.recordings):
+            return []
+        first, last = self.recordings[0], self.recordings[-1]
+        span = float(np.ptp(self.recordings))
+        told = (
+            f"The recorded zero of the force cell drifts, from {first:.3g} N at first to {last:.3g} N at last, within "
+            f"{span:.2g} N ({span / load:.2g} of the load)."
+        )
+        return [told]
+
+
+def wanders(values: Array) -> bool:
+    """Whether values in succession are closer than chance makes them, so that they drift.
+
+    The mean square of their successive differences over their variance is about 2 for independent ones, with variance
+    4(n−2)/(n²−1) (von Neumann, Annals of Mathematical Statistics 12, 367–395, 1941).
+    """
+    count = values.size
+    centred = values - values.mean() if count else values
+    if count < _FEWEST_FOR_DRIFT or not np.any(centred):
+        return False
+    ratio = float(np.sum(np.diff(values) ** 2) / (count - 1) / np.mean(centred**2))
+    return ratio < 2.0 - _DRIFTS * 2.0 * math.sqrt((count - 2.0) / (count**2 - 1.0))
