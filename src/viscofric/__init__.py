@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     from viscofric.errors import ViscofricError as ViscofricError
     from viscofric.friction.agreement import Agreement as Agreement
     from viscofric.friction.agreement import compare as compare
+    from viscofric.friction.curve_files import read_friction_curves as read_friction_curves
+    from viscofric.friction.curve_files import write_friction_curves as write_friction_curves
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
     from viscofric.friction.measurement.tribometry import separate as separate
     from viscofric.friction.prediction import predict_friction as predict_friction
@@ -133,6 +135,8 @@ _HOME = {
     "ViscofricError": "viscofric.errors",
     "Agreement": "viscofric.friction.agreement",
     "compare": "viscofric.friction.agreement",
+    "read_friction_curves": "viscofric.friction.curve_files",
+    "write_friction_curves": "viscofric.friction.curve_files",
     "FrictionCurves": "viscofric.friction.curves",
     "predict_friction": "viscofric.friction.prediction",
     "FrictionMasterCurve": "viscofric.friction.shifting.master_curve",

@@ -1,0 +1,243 @@
+"""Friction curves in files: those that viscofric saves, and tables of coefficients from any other tribometer."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_text, write_atomically
+from viscofric.friction.curves import FrictionCurves
+from viscofric.readers.table import Table, read_table
+from viscofric.units import CELSIUS_ZERO
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+_TITLE = "viscofric friction curves"
+_REMARKS = ("source", "assumption", "note")
+
+#: field -> (SI unit, empty for a pure number; the heading that is written; others that are understood)
+_COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
+    "speed": ("m/s", "speed", ("v", "sliding speed", "disc speed", "disk speed")),
+    "temperature": ("K", "temperature", ("T", "temp", "temp.")),
+    "load": ("N", "load", ("normal load", "normal force")),
+    "viscoelastic": (
+        "",
+        "viscoelastic friction",
+        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic"),
+    ),
+    "viscoelastic_error": ("", "viscoelastic friction standard error", ("viscoelastic error",)),
+    "viscoelastic_scatter": ("", "viscoelastic friction scatter", ("viscoelastic scatter",)),
+    "viscoelastic_freedom": ("", "viscoelastic friction degrees of freedom", ("viscoelastic freedom",)),
+    "replicates": ("", "replicates", ("repetitions", "repeats")),
+    "coulomb": ("", "Coulomb friction", ("coulomb", "coulomb friction", "coulomb friction coefficient", "mu coulomb")),
+    "coulomb_error": ("", "Coulomb friction standard error", ("coulomb friction standard error", "coulomb error")),
+    "coulomb_scatter": ("", "Coulomb friction scatter", ("coulomb friction scatter", "coulomb scatter")),
+    "coulomb_freedom": (
+        "",
+        "Coulomb friction degrees of freedom",
+        ("coulomb friction degrees of freedom", "coulomb freedom"),
+    ),
+    "consistency": ("", "consistency", ()),
+    "consistency_error": ("", "consistency standard error", ("consistency error",)),
+    "slip": ("m/s", "slip", ("sliding velocity",)),
+    "offset": ("N", "offset", ("zero",)),
+    "material_error": ("", "material standard error", ("material error",)),
+    "viscoelastic_lower": ("", "viscoelastic friction lower limit", ("viscoelastic lower",)),
+    "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper",)),
+}
+_NEEDED = ("speed", "temperature", "load", "viscoelastic")
+#: What is infinite where it is not known, an empty cell in the file.
+_OPEN = ("_error", "_scatter", "_freedom")
+_MOST_REPLICATES = 1e9
+
+
+def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> None:
+    """Write friction curves so that `read_friction_curves` returns the same ones, to the last digit.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+        What to write; cells of infinite standard errors, scatter and degrees of freedom stay empty.
+    path : str or path
+        Text table with commas, UTF-8, units in its headings; a file that is there is overwritten.
+
+    Raises
+    ------
+    InputError
+        If there is nothing to write.
+    DataFileError
+        If the file cannot be written.
+    """
+    if not len(curves):
+        raise InputError("friction curves without an entry make no file.")
+    text = io.StringIO()
+    remarks = [("source", curves.source), ("assumption", curves.assumption)]
+    remarks += [("note", note) for note in curves.notes]
+    text.write(f"# {_TITLE}\n")
+    text.writelines(f"# {name}: {' '.join(words.split())}\n" for name, words in remarks if words.strip())
+    columns = {}
+    for name, (unit, heading, _) in _COLUMNS.items():
+        values = getattr(curves, name)
+        if values is None:
+            continue
+        shown = curves.load_unit if name == "load" else unit
+        if name == "temperature" and _exact_in_celsius(values):
+            values, shown = values - CELSIUS_ZERO, "degC"
+        columns[f"{heading} ({shown})" if shown else heading] = [_cell(value) for value in values.tolist()]
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(columns)
+    table.writerows(zip(*columns.values(), strict=True))
+    write_atomically(Path(path), text.getvalue().encode("utf-8"))
+
+
+def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
+    """Read a table of friction coefficients, one row per speed and temperature.
+
+    Parameters
+    ----------
+    path : str or path
+        What `write_friction_curves` wrote; or a text table with the columns ``speed``, ``temperature``, ``load`` and
+        ``viscoelastic friction``, and optionally ``viscoelastic friction standard error``, ``… scatter``,
+        ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard error, scatter and degrees of
+        freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``; coefficients have none, or are
+        in ``%``.  The load of a line contact is in N/m.
+
+    Returns
+    -------
+    FrictionCurves
+        Without a standard error it is the scatter over the square root of the number of replicates, and without both
+        it is zero, with a note; without a number of replicates it is one.
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be read, a column or its unit is missing or wrong, or a cell is not a number, or not one
+        that such a quantity may have.
+    """
+    table = read_table(path)
+    places = _places(table)
+    columns: dict[str, Array] = {}
+    unit = _load_unit(table, places["load"])
+    for name, place in places.items():
+        columns[name] = _read_column(table, name, place, unit)
+    remarks = _remarks(str(path))
+    notes = list(remarks["note"])
+    replicates = columns.pop("replicates", np.ones(len(table.rows)))
+    for kind in ("viscoelastic", "coulomb"):
+        _complete(columns, kind, replicates, notes)
+    try:
+        return FrictionCurves(
+            replicates=replicates.astype(np.int64),
+            source=(remarks["source"] or [str(path)])[0],
+            assumption=(remarks["assumption"] or [""])[0],
+            notes=tuple(notes),
+            load_unit=unit,
+            **columns,  # type: ignore[arg-type]
+        )
+    except InputError as error:
+        raise DataFileError(path, f"holds no friction curves: {error}") from None
+
+
+def _cell(value: float) -> str:
+    return repr(value) if math.isfinite(value) else ""
+
+
+def _exact_in_celsius(kelvin: Array) -> bool:
+    return bool(np.all((kelvin - CELSIUS_ZERO) + CELSIUS_ZERO == kelvin))
+
+
+def _places(table: Table) -> dict[str, int]:
+    """Find each column, and insist on those that are needed."""
+    places = {}
+    for name, (_, heading, others) in _COLUMNS.items():
+        place = table.find(frozenset({heading, heading.lower(), *others}), heading)
+        if place is not None:
+            places[name] = place
+    missing = [_COLUMNS[name] for name in _NEEDED if name not in places]
+    if missing:
+        unit, heading, _ = missing[0]
+        example = {"m/s": "mm/s", "K": "degC"}.get(unit, unit)
+        right = f"{heading} ({example})" if unit else heading
+        problem = f"there is no column {right!r}; there are {table.headings()}."
+        raise DataFileError(table.path, problem)
+    return places
+
+
+def _load_unit(table: Table, place: int) -> str:
+    """Tell a load from one per length."""
+    try:
+        table.conversion(table.columns[place], "N/m")
+    except DataFileError:
+        return "N"
+    return "N/m"
+
+
+def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
+    unit = load_unit if name == "load" else _COLUMNS[name][0]
+    column = table.columns[place]
+    values = table.numbers_or_missing(place) if name.endswith(_OPEN) else table.numbers(place)
+    if unit:
+        factor, shift = table.conversion(column, unit)
+    elif column.unit in ("", "1", "-", "–"):
+        factor, shift = 1.0, 0.0
+    elif column.unit == "%":
+        factor, shift = 0.01, 0.0
+    else:
+        problem = f"column {column.heading!r} has the unit {column.unit!r}; it is a number without a unit, or in '%'."
+        raise DataFileError(table.path, problem)
+    values = factor * values + shift
+    if name in ("speed", "temperature", "load"):
+        bad, right = values <= 0.0, "must be above absolute zero" if name == "temperature" else "must be above zero"
+    elif name == "replicates":
+        bad = (values < 1.0) | (values != np.round(values)) | (values > _MOST_REPLICATES)
+        right = "must be a whole number above zero"
+    elif name.endswith(_OPEN):
+        bad, right = values < 0.0, "must be zero or above, or the cell empty where it is not known"
+        values = np.where(np.isnan(values), np.inf, values)
+    else:
+        bad, right = np.full(values.size, False), ""
+    if np.any(bad):
+        row = int(np.argmax(bad))
+        problem = f"{table.rows[row][place].strip()!r} in column {column.heading!r} {right}."
+        raise DataFileError(table.path, problem, int(table.lines[row]))
+    return np.asarray(values)
+
+
+def _complete(columns: dict[str, Array], kind: str, replicates: Array, notes: list[str]) -> None:
+    """Find standard error and scatter from each other."""
+    if kind not in columns:
+        return
+    error, scatter = columns.get(f"{kind}_error"), columns.get(f"{kind}_scatter")
+    if error is None and scatter is None and kind == "viscoelastic":
+        error = scatter = np.zeros(replicates.size)
+        notes.append("The file of friction curves gives neither standard errors nor scatter; both are taken as zero.")
+    if error is None and scatter is not None:
+        error = scatter / np.sqrt(replicates)
+    if scatter is None and error is not None:
+        scatter = error * np.sqrt(replicates)
+    if error is not None and scatter is not None:
+        columns[f"{kind}_error"], columns[f"{kind}_scatter"] = error, scatter
+
+
+def _remarks(path: str) -> dict[str, list[str]]:
+    """Return the remarks of a file that viscofric saved."""
+    found: dict[str, list[str]] = {name: [] for name in _REMARKS}
+    lines = [line[1:].strip() for line in read_text(path).splitlines() if line.startswith("#")]
+    if not lines or lines[0] != _TITLE:
+        return found
+    for line in lines[1:]:
+        name, colon, words = line.partition(": ")
+        if colon and name in found:
+            found[name].append(words)
+    return found

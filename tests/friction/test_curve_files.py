@@ -1,0 +1,171 @@
+"""Friction curves are saved and read to the last digit; tables of other tribometers are read, and errors placed."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+import viscofric as vf
+from friction.made_runs import FOUR, traction_runs
+from viscofric.errors import DataFileError, InputError
+from viscofric.friction.curves import FrictionCurves
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+FOREIGN = "speed (mm/s);temperature (degC);load (N);viscoelastic friction (%)\n20;30;25;3,1\n200;60;25;2,5\n"
+WRITTEN = {"source", "notes", "load_unit", "assumption"}
+
+
+def same(one: FrictionCurves, other: FrictionCurves) -> None:
+    for field in fields(FrictionCurves):
+        here, there = getattr(one, field.name), getattr(other, field.name)
+        if isinstance(here, np.ndarray):
+            np.testing.assert_array_equal(here, there, err_msg=field.name)
+        else:
+            assert here == there, field.name
+
+
+def test_separated_curves_come_back_to_the_last_digit(tmp_path: Path) -> None:
+    """Notes, source and assumption too, and infinite errors of what could not be found."""
+    runs = traction_runs(viscoelastic=lambda v, T: -0.03, replicates=3, noise=0.01, seed=3)
+    one_way = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=1, configurations=FOUR[3:])
+    for curves in (
+        replace(vf.separate(runs), source="a tribometer, of a kind"),
+        replace(vf.separate(one_way, zero=0.3, coulomb=(0.05, 0.01)), source="one"),
+    ):
+        vf.write_friction_curves(curves, tmp_path / "curves.csv")
+        same(vf.read_friction_curves(tmp_path / "curves.csv"), curves)
+
+
+def test_every_column_is_saved(tmp_path: Path) -> None:
+    """Whatever columns friction curves have: none may be lost without a word."""
+    random = np.random.default_rng(4)
+    names = [field.name for field in fields(FrictionCurves) if field.name not in WRITTEN | {"replicates"}]
+    curves = FrictionCurves(
+        replicates=np.array([3, 1]),
+        source="x",
+        load_unit="N/m",
+        **{name: random.uniform(1.0, 2.0, 2) for name in names},  # type: ignore[arg-type]
+    )
+    curves = replace(curves, temperature=np.array([3.0, 900.1]))
+    vf.write_friction_curves(curves, tmp_path / "all.csv")
+    same(vf.read_friction_curves(tmp_path / "all.csv"), curves)
+
+
+@given(
+    arrays(float, (4, 3), elements=st.floats(1e-300, 1e300)),
+    arrays(float, 3, elements=st.floats(1.0, 2000.0)),
+    st.booleans(),
+)
+@settings(
+    deadline=None,
+    max_examples=30,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+def test_any_finite_numbers_come_back(
+    tmp_path: Path, values: np.ndarray, temperature: np.ndarray, negative: bool
+) -> None:
+    speed, load, friction, error = values
+    curves = FrictionCurves(
+        speed=speed,
+        temperature=temperature,
+        load=load,
+        viscoelastic=-friction if negative else friction,
+        viscoelastic_error=error,
+        viscoelastic_scatter=error,
+        replicates=np.ones(3),
+        source="made up",
+    )
+    vf.write_friction_curves(curves, tmp_path / "any.csv")
+    same(vf.read_friction_curves(tmp_path / "any.csv"), curves)
+
+
+def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "other.csv"
+    path.write_text(FOREIGN, encoding="utf-8")
+    curves = vf.read_friction_curves(path)
+    np.testing.assert_allclose(curves.speed, [0.02, 0.2], rtol=1e-15)
+    np.testing.assert_allclose(curves.temperature, [303.15, 333.15], rtol=1e-15)
+    np.testing.assert_allclose(curves.viscoelastic, [0.031, 0.025], rtol=1e-15)
+    np.testing.assert_array_equal(curves.viscoelastic_error, 0.0)
+    np.testing.assert_array_equal(curves.replicates, 1)
+    assert curves.coulomb is None
+    assert curves.load_unit == "N"
+    assert curves.source == str(path)
+    assert any("neither standard errors nor scatter" in note for note in curves.notes)
+
+
+@pytest.mark.parametrize(
+    ("given_column", "missing", "expected"),
+    [("scatter", "error", 0.002 / 2.0), ("standard error", "scatter", 0.002 * 2.0)],
+)
+def test_standard_error_and_scatter_follow_from_each_other(
+    tmp_path: Path, given_column: str, missing: str, expected: float
+) -> None:
+    path = tmp_path / "curves.csv"
+    path.write_text(
+        f"speed (m/s),T (K),load (N/mm),mu viscoelastic,viscoelastic friction {given_column},replicates\n"
+        "0.1,300,1,0.03,0.002,4\n",
+        encoding="utf-8",
+    )
+    curves = vf.read_friction_curves(path)
+    assert getattr(curves, f"viscoelastic_{missing}") == pytest.approx([expected], rel=1e-15)
+    assert curves.load == pytest.approx([1000.0])
+    assert curves.load_unit == "N/m"
+    assert curves.notes == ()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("load (N);", "", r"line 2: the row has 4 cells"),
+        ("viscoelastic friction (%)", "mu", r"no column 'viscoelastic friction'; there are 'speed \(mm/s\)'"),
+        ("speed (mm/s)", "pace (mm/s)", r"no column 'speed \(mm/s\)'"),
+        ("temperature (degC)", "temperature", r"'temperature' has no unit; write it as 'temperature \(degC\)'"),
+        ("load (N)", "load (Pa)", r"'load \(Pa\)' has the unit 'Pa'; it must be one like 'N'"),
+        ("friction (%)", "friction (N)", r"has the unit 'N'; it is a number without a unit"),
+        ("20;30", "-20;30", r"line 2: '-20' in column 'speed \(mm/s\)' must be above zero"),
+        ("200;60", "200;-300", r"line 3: '-300' in column 'temperature \(degC\)' must be above absolute zero"),
+        ("60;25", "60;0", r"line 3: '0' in column 'load \(N\)' must be above zero"),
+        ("2,5", "two", r"line 3: 'two' in column 'viscoelastic friction \(%\)' is not a finite number"),
+        ("2,5", "", r"line 3: the cell in column 'viscoelastic friction \(%\)' is empty"),
+    ],
+)
+def test_wrong_tables_are_refused_with_the_place(tmp_path: Path, old: str, new: str, message: str) -> None:
+    path = tmp_path / "wrong.csv"
+    path.write_text(FOREIGN.replace(old, new), encoding="utf-8")
+    with pytest.raises(DataFileError, match=f"wrong.csv.*{message}"):
+        vf.read_friction_curves(path)
+
+
+@pytest.mark.parametrize(
+    ("column", "cell", "message"),
+    [
+        ("replicates", "2.5", "'2.5' in column 'replicates' must be a whole number above zero"),
+        ("replicates", "0", "must be a whole number above zero"),
+        ("viscoelastic error", "-1", "'-1' in column 'viscoelastic error' must be zero or above"),
+        ("viscoelastic error", "inf", "'inf' in column 'viscoelastic error' is not a finite number"),
+    ],
+)
+def test_wrong_optional_columns_are_refused(tmp_path: Path, column: str, cell: str, message: str) -> None:
+    path = tmp_path / "wrong.csv"
+    path.write_text(f"speed (m/s),T (K),load (N),viscoelastic,{column}\n1,300,1,0.1,{cell}\n", encoding="utf-8")
+    with pytest.raises(DataFileError, match=f"wrong.csv.*line 2.*{message}"):
+        vf.read_friction_curves(path)
+
+
+def test_no_curves_and_no_folder_are_refused(tmp_path: Path) -> None:
+    curves = vf.separate(traction_runs(viscoelastic=lambda v, T: 0.03))
+    with pytest.raises(InputError, match="without an entry"):
+        vf.write_friction_curves(curves.select(np.zeros(len(curves), dtype=bool)), tmp_path / "none.csv")
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    with pytest.raises(DataFileError, match="cannot be written"):
+        vf.write_friction_curves(curves, tmp_path / "file" / "curves.csv")
