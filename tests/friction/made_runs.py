@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -96,4 +97,42 @@ def friction_curves(
         viscoelastic_error=np.broadcast_to(error, (count,)),
         viscoelastic_scatter=np.zeros(count),
         replicates=np.ones(count, dtype=int),
+    )
+
+
+def exported_runs(
+    *,
+    viscoelastic: Callable[[float], float] = lambda v: 0.03,
+    coulomb: float = 0.05,
+    offset: Callable[[float], float] = lambda t: 0.3,
+    zero_noise: float = 0.0,
+    noise: float = 0.0,
+    rolling_speeds: Sequence[float] = (0.02, 0.1),
+    slip_ratio: float = 0.2,
+    steps: int = 8,
+    points: int = 3,
+    load: float = 25.0,
+    seed: int = 1,
+) -> TractionRuns:
+    """Make a test as machines export it: slip reversed at a constant mean speed of disc and ball, one direction.
+
+    Each step (one per speed and replicate, replicate after replicate) begins with a recording of the zero, and each
+    point of it is two readings of one time, 6 s after those before.  The offset depends on time (s).
+    """
+    random = np.random.default_rng(seed)
+    rows, recorded, times, numbers = [], [], [], []
+    for number, (replicate, rolling) in enumerate(product(range(1, steps + 1), rolling_speeds), start=1):
+        start = 6.0 * points * (number - 1)
+        zero = offset(start) + zero_noise * random.standard_normal()
+        for point, sense in product(range(points), (1, -1)):
+            time = start + 6.0 * point
+            disc, ball = rolling * (1 + 0.5 * sense * slip_ratio), rolling * (1 - 0.5 * sense * slip_ratio)
+            normal = load * (1.0 + 0.01 * random.standard_normal())
+            force = offset(time) + normal * (viscoelastic(disc) + coulomb * sense) + noise * random.standard_normal()
+            rows.append((disc, ball, force, normal, 313.15, replicate))
+            recorded.append(zero)
+            times.append(time)
+            numbers.append(number)
+    return replace(
+        runs_from(np.array(rows)), zero_force=np.array(recorded), time=np.array(times), step=np.array(numbers)
     )

@@ -1,0 +1,240 @@
+"""Two configurations and a recorded zero tell viscoelastic friction; zeros that are wrong or drift are found."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.stats import binom
+
+from friction.made_runs import FOUR, exported_runs, rows_of, runs_from, traction_runs
+from viscofric.errors import InputError
+from viscofric.friction.measurement.tribometry import separate
+
+if TYPE_CHECKING:
+    from viscofric.data import TractionRuns
+
+# The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
+ROUNDING = 1e-12
+
+
+@given(
+    viscoelastic=st.floats(0.0, 0.5),
+    coulomb=st.floats(0.0, 0.5),
+    offset=st.floats(-3.0, 3.0),
+    slip_ratio=st.floats(0.03, 0.5),
+    seed=st.integers(0, 1000),
+)
+@settings(deadline=None, max_examples=25, derandomize=True)
+def test_half_difference_and_half_sum_above_the_recorded_zero(
+    viscoelastic: float, coulomb: float, offset: float, slip_ratio: float, seed: int
+) -> None:
+    runs = exported_runs(
+        viscoelastic=lambda v: viscoelastic,
+        coulomb=coulomb,
+        offset=lambda t: offset,
+        slip_ratio=slip_ratio,
+        steps=2,
+        seed=seed,
+    )
+    curves = separate(runs)
+    scale = viscoelastic + coulomb + abs(offset) / 25.0 + 1e-3
+    assert len(curves) == 2
+    # Equal steps of both directions about the mean speed.
+    np.testing.assert_allclose(curves.speed, [0.02, 0.1], rtol=1e-12)
+    np.testing.assert_allclose(curves.slip, slip_ratio * curves.speed, rtol=1e-12)
+    np.testing.assert_allclose(curves.viscoelastic, viscoelastic, rtol=0, atol=ROUNDING * scale)
+    np.testing.assert_allclose(curves.coulomb, coulomb, rtol=0, atol=ROUNDING * scale)  # type: ignore[arg-type]
+    np.testing.assert_allclose(curves.offset, offset, rtol=0, atol=25.0 * ROUNDING * scale)  # type: ignore[arg-type]
+    assert curves.consistency is None
+
+
+def test_each_reading_counts_above_the_zero_of_its_own_step() -> None:
+    """The zero jumps from step to step and every jump is recorded: nothing of it is left."""
+    jumps = np.random.default_rng(1).normal(0.0, 0.3, 100)
+    runs = exported_runs(offset=lambda t: float(jumps[int(t // 18)]))
+    curves = separate(runs)
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    np.testing.assert_allclose(curves.viscoelastic_scatter, 0.0, atol=ROUNDING)
+
+
+def test_a_given_zero_overrides_what_was_recorded_with_its_own_error() -> None:
+    runs = replace(exported_runs(), zero_force=np.full(96, 7.0))
+    exact = separate(runs, zero="300 mN")
+    np.testing.assert_allclose(exact.viscoelastic, 0.03, rtol=ROUNDING)
+    assert not any("recorded" in note for note in exact.notes)
+    loose = separate(runs, zero=("300 mN", "50 mN"))
+    # The half-sum less the zero: 0.05 N over 25 N; the half-difference does without it, but for jitter of the loads,
+    # 1 % of single readings.
+    np.testing.assert_allclose(loose.viscoelastic_error, 0.05 / 25.0, rtol=0.01)
+    assert np.all(loose.coulomb_error < 0.01 * loose.viscoelastic_error)  # type: ignore[operator]
+    np.testing.assert_allclose(np.subtract(*loose.interval()[::-1]), 2 * 1.95996 * 0.05 / 25.0, rtol=0.01)
+    with pytest.raises(InputError, match="standard error of zero"):
+        separate(runs, zero=(0.3, -0.1))
+
+
+@pytest.mark.parametrize("own", [True, False], ids=["one for each replicate", "shared by the replicates"])
+def test_errors_of_the_recorded_zeros_are_in_the_standard_errors(own: bool) -> None:
+    """Intervals of 95 % hold the truth in 95 % of tests, whether scatter shows the error of the zero or not."""
+    held = {"viscoelastic": 0, "coulomb": 0}
+    for seed in range(60):
+        steps, speeds = 8 if own else 4, (0.02, 0.05, 0.1)
+        runs = exported_runs(zero_noise=0.1, noise=0.02, seed=seed, steps=steps, rolling_speeds=speeds, points=6)
+        if not own:
+            # Half of each step is one replicate, half the next: every recording serves two.
+            assert runs.time is not None
+            runs = replace(runs, replicate=2 * runs.replicate - (runs.time % 36.0 < 18.0))
+        curves = separate(runs)
+        for name, truth in (("viscoelastic", 0.03), ("coulomb", 0.05)):
+            low, high = curves.interval(of=name)  # type: ignore[arg-type]
+            held[name] += int(np.count_nonzero((low <= truth) & (truth <= high)))
+    # Limits that chance leaves once in a million times.
+    low_count, high_count = binom.interval(1 - 1e-6, 180, 0.95)
+    for name, count in held.items():
+        assert low_count <= count <= high_count, (name, count)
+
+
+def test_one_recording_is_used_and_said() -> None:
+    curves = separate(exported_runs(noise=0.01))
+    (note,) = [note for note in curves.notes if "recorded" in note]
+    assert "of one recording, whose error is not in the standard errors" in note
+    np.testing.assert_allclose(curves.viscoelastic_freedom, 7.0)  # type: ignore[arg-type]
+
+
+def test_the_disc_speeds_that_slip_parts_are_put_together_and_said() -> None:
+    """By step and time, or by the mean speed of disc and ball where these are missing."""
+    runs = exported_runs(noise=0.01, zero_noise=0.01)
+    plain = replace(runs, step=None, time=None)
+    for one in (runs, plain):
+        curves = separate(one)
+        assert len(curves) == 2
+        assert any("disc's speed differs by up to 20 %" in note for note in curves.notes)
+        np.testing.assert_allclose(curves.speed, [0.02, 0.1], rtol=1e-12)
+
+
+def test_swept_slip_is_cut_into_intervals() -> None:
+    parts = [rows_of(exported_runs(slip_ratio=ratio, steps=2, points=1)) for ratio in np.linspace(0.001, 0.5, 200)]
+    curves = separate(runs_from(np.concatenate(parts)), zero=0.3)
+    assert any("slip was swept without gaps" in note for note in curves.notes)
+    assert curves.coulomb_error is not None
+    slides = np.isfinite(curves.coulomb_error)
+    assert np.count_nonzero(slides) >= 6
+    np.testing.assert_allclose(curves.viscoelastic[slides], 0.03, rtol=1e-9)
+    np.testing.assert_allclose(curves.coulomb[slides], 0.05, rtol=1e-9)  # type: ignore[index]
+    # Taken for rolling, both directions cancel but for the jitter of the loads, 1 %, of at least 4 readings.
+    np.testing.assert_allclose(curves.viscoelastic[~slides], 0.03, atol=5 * 0.01 * 0.05 / 2.0)
+
+
+def test_pure_rolling_above_a_recorded_zero_needs_no_assumption() -> None:
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03, slip_ratio=0.0, coulomb=0.0, configurations=[(1, 1)], replicates=4
+    )
+    curves = separate(replace(runs, zero_force=np.full(len(runs), 0.3)))
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    assert curves.coulomb is None
+    assert curves.assumption == ""
+
+
+def test_conditions_that_cannot_be_separated_are_left_out_and_said() -> None:
+    whole = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03))
+    half = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03, temperatures=[363.15], configurations=FOUR[3:]))
+    curves = separate(runs_from(np.concatenate([whole, half])))
+    assert len(curves) == 6
+    (note,) = curves.notes
+    assert "At 3 of 9 conditions" in note
+    assert "these readings are left out" in note
+
+
+def test_a_wrong_recorded_zero_does_no_harm_to_four_configurations_and_is_found() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=8, noise=0.02)
+    recorded = [np.full(len(runs), 0.3), np.full(len(runs), 0.1)]
+    right, wrong = (separate(replace(runs, zero_force=zero)) for zero in recorded)
+    np.testing.assert_array_equal(wrong.viscoelastic, right.viscoelastic)
+    assert right.notes == ()
+    (note,) = wrong.notes
+    assert "At 6 of 6 conditions" in note
+    assert "is not the recorded one, 0.1 N" in note
+
+
+def test_recorded_zeros_that_drift_are_noted() -> None:
+    steady = separate(exported_runs(zero_noise=0.02, noise=0.02, seed=2))
+    moving = separate(exported_runs(zero_noise=0.02, noise=0.02, seed=2, offset=lambda t: 0.3 + 0.002 * t))
+    assert not any("drifts" in note for note in steady.notes)
+    # From 0.3 N to 0.3 N + 15 steps of 18 s at 0.002 N/s, 0.54 N: 0.022 of 25 N.
+    (note,) = [note for note in moving.notes if "drifts" in note]
+    assert "recorded zero" in note
+    assert "0.022 of the load" in note or "0.023 of the load" in note or "0.021 of the load" in note
+
+
+def test_four_configurations_follow_recorded_zeros_that_the_forces_follow() -> None:
+    """Each configuration in a step of its own whose zero was recorded: the jumps do not reach friction."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=4, noise=0.001)
+    jumps = np.random.default_rng(3).normal(0.0, 0.2, len(runs))
+    moved = replace(runs, traction_force=runs.traction_force + jumps)
+    recorded = separate(replace(moved, zero_force=0.3 + jumps))
+    # 16 readings of 1 mN: 1e-5 of 25 N; five of them.  Unrecorded, 0.2 N / 4 / 25 N = 2e-3.
+    np.testing.assert_allclose(recorded.viscoelastic, 0.03, atol=5e-5)
+    assert any("its own recorded zero" in note for note in recorded.notes)
+    assert np.sqrt(np.mean((separate(moved).viscoelastic - 0.03) ** 2)) > 5e-4
+    # Recordings that scatter by themselves are not followed.
+    noisy = separate(replace(runs, zero_force=0.3 + jumps))
+    np.testing.assert_array_equal(noisy.viscoelastic, separate(runs).viscoelastic)
+
+
+def _one_after_the_other(runs: TractionRuns, seconds: float) -> TractionRuns:
+    """Order the readings as series: replicate by replicate, in each all conditions of one configuration first."""
+    rows = rows_of(runs)
+    order = np.lexsort((np.sign(rows[:, 0]), np.sign(rows[:, 0] - rows[:, 1]), rows[:, 5]))
+    return replace(runs_from(rows[order]), time=seconds * np.arange(len(rows)))
+
+
+@given(rate=st.floats(-1e-2, 1e-2), replicates=st.integers(3, 5), seed=st.integers(0, 1000))
+@settings(deadline=None, max_examples=20, derandomize=True)
+def test_an_even_drift_of_the_zero_is_taken_out(rate: float, replicates: int, seed: int) -> None:
+    """N/s, with configurations measured one after the other: exactly, whatever the rate."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=replicates, seed=seed)
+    runs = _one_after_the_other(runs, 10.0)
+    assert runs.time is not None
+    curves = separate(replace(runs, traction_force=runs.traction_force + rate * runs.time))
+    # The largest offset is 1e-2 N/s over 1200 s, and roundings are of it.
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=1e-9)
+    np.testing.assert_allclose(curves.coulomb, 0.05, atol=1e-9)  # type: ignore[arg-type]
+
+
+def test_drift_is_told_with_its_size_in_friction() -> None:
+    runs = _one_after_the_other(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=6, noise=0.01), 10.0)
+    assert runs.time is not None
+    drifting = replace(runs, traction_force=runs.traction_force + 0.5 * runs.time / 3600.0)
+    curves = separate(drifting)
+    (note,) = curves.notes
+    assert "drifts by 0.5" in note
+    assert "taken out" in note
+    # Each configuration of a replicate takes 60 s: the disc reverses after one, slip after two; half of each.
+    assert "up to 0.00017 (viscoelastic) and 0.00033 (Coulomb)" in note or "and 0.00034 (Coulomb)" in note
+    left = separate(replace(drifting, time=None))
+    assert left.notes == ()
+    assert np.mean(left.coulomb) - 0.05 == pytest.approx(0.5 / 3600 * 120 / 2 / 25, rel=0.3)  # type: ignore[arg-type]
+    # 144 readings of 0.01 N: 3e-5 of the load over all; five of them.
+    assert np.mean(curves.coulomb) == pytest.approx(0.05, abs=2e-4)  # type: ignore[arg-type]
+
+
+def test_steady_zeros_are_seldom_said_to_drift() -> None:
+    told = 0
+    for seed in range(60):
+        runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=4, noise=0.05, speeds=[0.1], seed=seed)
+        told += any("force cell" in note for note in separate(_one_after_the_other(runs, 10.0)).notes)
+    # A rate is told once in 370 tests by chance, uneven motion about as often: 0.3 expected.
+    assert told <= 3
+
+
+def test_a_zero_that_jumps_between_series_is_told_but_no_drift_is_made_of_it() -> None:
+    runs = _one_after_the_other(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=6, noise=0.01), 10.0)
+    jumps = 0.3 * np.array([0, 1, -1, 2, 0, -2, 1])[runs.replicate]
+    curves = separate(replace(runs, traction_force=runs.traction_force + jumps))
+    np.testing.assert_allclose(curves.viscoelastic, separate(runs).viscoelastic, rtol=1e-9)
+    (note,) = curves.notes
+    assert "moves unevenly" in note
