@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.steps import TractionStep, summarised
 from viscofric.units import positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -201,6 +202,9 @@ class TractionRuns:
         Number of the step of the test that a row belongs to, counted through all files.
     track_radius : (n,) array, optional
         Of the ball's track on the disc, m; NaN where it was not recorded.
+    steps : tuple of TractionStep
+        What the files say of the steps, which `step` numbers; counts and means are taken from the rows, and steps
+        without rows are left out.
     """
 
     disc_speed: Array
@@ -215,6 +219,7 @@ class TractionRuns:
     time: Array | None = None
     step: NDArray[np.int64] | None = None
     track_radius: Array | None = None
+    steps: tuple[TractionStep, ...] = ()
 
     def __post_init__(self) -> None:
         rows = np.size(self.disc_speed)
@@ -242,6 +247,42 @@ class TractionRuns:
             object.__setattr__(self, name, numbers)
         if rows and not np.all(self.load > 0):
             raise InputError("load of traction runs must be above zero in every reading.")
+        object.__setattr__(self, "steps", summarised(self, self.steps))
 
     def __len__(self) -> int:
         return len(self.disc_speed)
+
+    def select(self, rows: ArrayLike) -> TractionRuns:
+        """Return some of the readings, such as ``runs.select(runs.temperature > 330)``.
+
+        Parameters
+        ----------
+        rows : (n,) array of bool, or array of int
+            Which readings to keep, or their places.
+
+        Returns
+        -------
+        TractionRuns
+            With a note on how many readings it holds; times and replicate numbers stay as they are.
+
+        Raises
+        ------
+        InputError
+            If nothing is selected, or `rows` does not fit the readings.
+        """
+        chosen = np.asarray(rows)
+        if chosen.dtype == bool and chosen.shape == (len(self),):
+            chosen = np.flatnonzero(chosen)
+        elif chosen.ndim != 1 or not np.issubdtype(chosen.dtype, np.integer):
+            raise InputError(f"select needs true or false for each of the {len(self)} readings, or their places.")
+        if not chosen.size:
+            raise InputError("select would leave no reading; see steps for what there is.")
+        if chosen.min() < -len(self) or chosen.max() >= len(self):
+            raise InputError(f"select names a reading beyond the {len(self)} that there are.")
+        columns = {
+            column.name: value[chosen]
+            for column in fields(self)
+            if isinstance(value := getattr(self, column.name), np.ndarray)
+        }
+        note = f"{chosen.size} of {len(self)} readings are selected."
+        return replace(self, **columns, notes=(*self.notes, note))

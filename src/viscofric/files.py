@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
 import tempfile
 from pathlib import Path
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
 #: A file of measurements is far smaller; what is larger was chosen by mistake.
 LARGEST_FILE = 200_000_000  # bytes
+# Below the space, but for tabs and ends of lines.
+_CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
@@ -73,7 +76,7 @@ def decoded(data: bytes, path: str | PathLike[str]) -> str:
         # Instrument software under Windows; the five bytes that its code page leaves open stand for no letter.
         text = data.decode("cp1252", errors="replace")
     # Text has no control characters but tabs and ends of lines; a workbook or an image is full of them.
-    if any(ord(character) < 32 and character not in "\t\r\n\f\v" for character in text):
+    if _CONTROL.search(text):
         raise DataFileError(path, "is a binary file; a text table is wanted (export it as CSV).")
     return text
 

@@ -2,6 +2,6 @@
 
 from viscofric.readers.dma.isotherms import deformation_is_told
 from viscofric.readers.dma.read import read_dma
-from viscofric.readers.mtm_csv import read_mtm
+from viscofric.readers.mtm.read import read_mtm
 
 __all__ = ["deformation_is_told", "read_dma", "read_mtm"]

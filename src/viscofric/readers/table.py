@@ -208,8 +208,12 @@ def read_table(path: str | PathLike[str]) -> Table:
         If there is no such file, it is no regular file, empty, binary or too large, or its rows are not as long
         as its header.
     """
-    shown = str(path)
-    lines = text_lines(read_text(shown))
+    return table_of_text(str(path), read_text(path))
+
+
+def table_of_text(shown: str, text: str) -> Table:
+    """Read a table as `read_table` does, from text that is at hand; `shown` names the file in errors."""
+    lines = text_lines(text)
     if not lines:
         raise DataFileError(shown, "the file is empty; it must hold a header and rows of numbers.")
     first, header = lines[0]

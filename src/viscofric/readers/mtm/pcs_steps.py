@@ -1,0 +1,246 @@
+"""Text exports of PCS Instruments' MTM and ETM taken apart: steps, what is said of each, and their tables of cells."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers.printed import decimal_comma, unit_conversion
+from viscofric.readers.table import MISSING, heading
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_START = re.compile(r"\s*Step\s+(\d{1,6})\s+started\s+at\b\s*(.*?)\s*", re.IGNORECASE)
+NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*", re.ASCII)
+#: No force, speed, temperature or time of a tribometer is larger, in the units that it prints.
+LARGEST = 1e9
+_NUMBERED = tuple(f"{what} {place}" for what in ("ball speed", "disc speed") for place in (1, 2, 3, 4))
+#: Column that is looked for -> the SI unit.
+UNITS = {
+    "step time": "s",
+    "pot rtd temp": "K",
+    "lube rtd temp": "K",
+    "ball load": "N",
+    "pin load": "N",
+    **dict.fromkeys(_NUMBERED, "m/s"),
+    "sliding speed": "m/s",
+    **dict.fromkeys(("tf1", "tf2", "tf3", "tf4"), "N"),
+    "traction force": "N",
+    "traction coeff": "",
+}
+_SPEED_UNITS = ("rolling speed", "sliding speed")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a table holds a column: its place, heading, and what turns its numbers into SI units."""
+
+    place: int
+    heading: str
+    factor: float
+    offset: float
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The columns of a table: how many there are, and where those are that are looked for."""
+
+    width: int
+    places: dict[str, Place]
+
+
+@dataclass(eq=False)
+class Block:
+    """One table of a step, still as text; `first` is the number of its first row within the step."""
+
+    layout: Layout
+    first: int
+    rows: list[list[str]] = field(default_factory=list)
+    lines: list[int] = field(default_factory=list)
+
+
+@dataclass(eq=False)
+class Step:
+    """One step: number and start as printed, what the lines before its table say (with their lines), its tables."""
+
+    number: int
+    started: str
+    line: int
+    told: dict[str, tuple[str, str, int]] = field(default_factory=dict)
+    blocks: list[Block] = field(default_factory=list)
+
+    def word(self, key: str) -> str:
+        """Return what a line says, empty if there is none."""
+        return self.told[key][1] if key in self.told else ""
+
+    @property
+    def rows(self) -> int:
+        """Number of rows of its tables."""
+        return sum(len(block.rows) for block in self.blocks)
+
+
+@dataclass(eq=False)
+class Export:
+    """One export: what stands before the first step, the steps, remarks between them and the row that is cut off."""
+
+    path: str
+    told: dict[str, str] = field(default_factory=dict)
+    steps: list[Step] = field(default_factory=list)
+    remarks: list[str] = field(default_factory=list)
+    cut: str = ""
+    decimal_comma: bool = False
+
+
+def parse(path: str, text: str) -> Export:
+    """Take an export apart, or raise `DataFileError`."""
+    export = Export(path)
+    layouts: dict[str, Layout | None] = {}
+    lines = text.splitlines()
+    for number, line in enumerate(lines, start=1):
+        if not line.strip():
+            continue
+        start = _START.fullmatch(line) if "\t" not in line else None
+        if start:
+            export.steps.append(Step(int(start[1]), start[2], number))
+            continue
+        cells = line.split("\t")
+        if not export.steps:
+            export.told[_key(cells[0])] = next((cell.strip() for cell in cells[1:] if cell.strip()), "")
+            if line.lower().startswith("test started at"):
+                export.told["test started"] = line[len("test started at") :].strip()
+            continue
+        step = export.steps[-1]
+        if len(cells) > 2 and cells[0][:1].isalpha():
+            if line not in layouts:
+                layouts[line] = _layout(path, step, number, cells)
+            layout = layouts[line]
+            if layout is not None:
+                _begin(step, layout)
+                continue
+        if not _is_told(path, step, number, cells):
+            _take_row(export, step, number, cells, last=number == len(lines))
+    _insist_on_width(export)
+    comma = any("," in cell for _, row, _ in _all_rows(export) for cell in row)
+    export.decimal_comma = comma and decimal_comma(path, ((c, line) for _, row, line in _all_rows(export) for c in row))
+    return export
+
+
+def at(step: Step, row: int) -> str:
+    """Say where a row stands, as the beginning of a sentence; it is counted from 1 within its step."""
+    return f"step {step.number}, row {row}: "
+
+
+def number_of(export: Export, cell: str, where: str, line: int) -> float | None:
+    """Return a cell as a number, None if it is empty or says that there is none, or raise `DataFileError`."""
+    if not NUMBER.fullmatch(cell):
+        if cell.strip().lower() in MISSING:
+            return None
+        plain = cell.replace(",", ".", 1) if export.decimal_comma and "." not in cell else cell
+        if not NUMBER.fullmatch(plain):
+            raise DataFileError(
+                export.path, f"{where} holds {cell.strip()[:40]!r}, which is not a finite number.", line
+            )
+        cell = plain
+    elif export.decimal_comma and "." in cell:
+        problem = f"{where} holds {cell.strip()!r} with a point, but other numbers of the file have a comma; "
+        raise DataFileError(export.path, problem + "write all decimals in one way and no thousands marks.", line)
+    value = float(cell)
+    if abs(value) > LARGEST:
+        raise DataFileError(export.path, f"{where} holds {cell.strip()!r}, which is too large for a measurement.", line)
+    return value
+
+
+def _key(cell: str) -> str:
+    return " ".join(cell.strip().rstrip(":").lower().split())
+
+
+def _is_told(path: str, step: Step, line: int, cells: list[str]) -> bool:
+    """Take a line that says something of the step: ``Step type``, zero force, track radius."""
+    key = heading(cells[0]).name.lower() if len(cells) > 1 else ""
+    if key != "step type" and not key.startswith(("zero traction force", "disc track radius", "disk track radius")):
+        return False
+    if key == "step type" and (step.blocks or key in step.told):
+        problem = f"step {step.number}: a second step type; is the line 'Step … started at' before it missing?"
+        raise DataFileError(path, problem, line)
+    step.told[key.replace("disk", "disc").split(" used for")[0]] = (cells[0], cells[1].strip(), line)
+    if key == "step type":
+        for name, value in zip(cells[2::2], cells[3::2], strict=False):
+            step.told[_key(name)] = (name, value.strip(), line)
+    return True
+
+
+def _layout(path: str, step: Step, line: int, cells: list[str]) -> Layout | None:
+    """Find the columns in a row of headings; None if it is none."""
+    found: dict[str, tuple[int, str, str]] = {}
+    for place, cell in enumerate(cells):
+        column = heading(cell)
+        name = column.name.lower().replace("disk", "disc").replace("temperature", "temp")
+        # The first column repeats one of the others: the last of a name is the one in its own place.
+        found[name] = (place, cell.strip(), column.unit)
+    if len(found.keys() & UNITS.keys()) < 2:
+        return None
+    speed = next((found[name][2] for name in _SPEED_UNITS if name in found and found[name][2]), "mm/s")
+    places = {}
+    for name in found.keys() & UNITS.keys():
+        place, shown, unit = found[name]
+        wanted = UNITS[name]
+        unit = unit or (speed if wanted == "m/s" else "")
+        try:
+            factor, offset = unit_conversion(unit, wanted, shown) if wanted else (1.0, 0.0)
+        except InputError:
+            example = {"K": "degC", "m/s": "mm/s"}.get(wanted, wanted)
+            problem = f"step {step.number}: column {shown!r} must have a unit like {example!r}."
+            raise DataFileError(path, problem, line) from None
+        places[name] = Place(place, shown, factor, offset)
+    return Layout(len(cells), places)
+
+
+def _begin(step: Step, layout: Layout) -> None:
+    """Begin a table, or go on with the last one if its headings are repeated."""
+    if not step.blocks or step.blocks[-1].layout is not layout:
+        step.blocks.append(Block(layout, step.rows + 1))
+
+
+def _take_row(export: Export, step: Step, number: int, cells: list[str], *, last: bool) -> None:
+    """Take a row of cells, or a remark."""
+    if not step.blocks or (len(cells) == 1 and not NUMBER.fullmatch(cells[0])):
+        export.remarks.append("\t".join(cells).strip())
+        return
+    block = step.blocks[-1]
+    while len(cells) > block.layout.width and not cells[-1].strip():
+        cells.pop()
+    if len(cells) > block.layout.width:
+        problem = f"{at(step, step.rows + 1)}{len(cells)} cells where the header names {block.layout.width} columns."
+        raise DataFileError(export.path, problem, number)
+    width = len(block.rows[-1]) if block.rows else block.layout.width
+    if last and len(cells) < width:
+        export.cut = f"step {step.number}, row {step.rows + 1}"
+        return
+    block.rows.append(cells)
+    block.lines.append(number)
+
+
+def _insist_on_width(export: Export) -> None:
+    """Fill rows whose empty last cells were left out all alike, and refuse those that are cut short."""
+    for step in export.steps:
+        for block in step.blocks:
+            widths = [len(row) for row in block.rows]
+            common = max(set(widths), key=widths.count, default=0)
+            needed = max(place.place for place in block.layout.places.values())
+            short = next((i for i, width in enumerate(widths) if width != common or width <= needed), None)
+            if short is not None:
+                problem = (
+                    f"{at(step, block.first + short)}{widths[short]} cells where the header names "
+                    f"{block.layout.width} columns."
+                )
+                raise DataFileError(export.path, problem, block.lines[short])
+
+
+def _all_rows(export: Export) -> Iterator[tuple[Step, list[str], int]]:
+    for step in export.steps:
+        for block in step.blocks:
+            for row, line in zip(block.rows, block.lines, strict=True):
+                yield step, row, line

@@ -1,0 +1,228 @@
+"""Traction readings from text exports of PCS Instruments' MTM and ETM."""
+
+from __future__ import annotations
+
+import re
+from datetime import timedelta
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers.mtm.pcs_doubts import notes
+from viscofric.readers.mtm.pcs_rows import SIGNALS, rows_of
+from viscofric.readers.mtm.pcs_steps import number_of, parse
+from viscofric.readers.mtm.pcs_times import start_times
+from viscofric.readers.mtm.readings import TractionReadings
+from viscofric.readers.printed import unit_conversion
+from viscofric.readers.table import heading
+from viscofric.steps import TractionStep
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from datetime import datetime
+
+    from viscofric.readers.mtm.formats import Thermometer
+    from viscofric.readers.mtm.pcs_rows import Rows
+    from viscofric.readers.mtm.pcs_steps import Export
+    from viscofric.readers.mtm.readings import Array, Whole
+    from viscofric.readers.source import Source
+
+NAME = "a text export of PCS Instruments' MTM or ETM"
+
+_SIGNATURE = re.compile(r"^[ \t]*Step[ \t]+\d+[ \t]+started[ \t]+at\b", re.IGNORECASE | re.MULTILINE)
+#: Two thermometers of one pot that are further apart do not both sit where they should.
+_THERMOMETERS_AGREE = 10.0  # K
+#: Slip over speed above which its sense is beyond doubt.
+_CLEAR_SLIP = 0.01
+
+
+def recognises(source: Source) -> bool:
+    """Return whether the file is such an export."""
+    return source.text is not None and _SIGNATURE.search(source.text) is not None
+
+
+def read(source: Source, thermometer: Thermometer) -> TractionReadings:
+    """Return the readings of an export, two (or four) for each row with the slip reversed.
+
+    Raises
+    ------
+    DataFileError
+        If a number is damaged, a row is cut short, or a row with a force lacks its speeds, load or temperature.
+    """
+    export = parse(source.path, source.text or "")
+    rows = rows_of(export)
+    load, where = _load(rows)
+    row, signal, left_out = _readings(rows, load)
+    if not row.size:
+        raise DataFileError(
+            source.path, f"none of its {len(export.steps)} steps holds a row with a traction force and a load."
+        )
+    disc, ball = _speeds(rows, row, signal)
+    temperature, thermal = _temperature(rows, row, thermometer)
+    force = np.concatenate([rows.stacked(*SIGNALS), [rows.columns["traction force"]]])[signal, row]
+    sense, sensed = _sense_of_force(force, disc, ball, row, signal)
+    starts = start_times([step.started for step in export.steps])
+    time, began = _times(rows, row, starts)
+    zero, radius = (_told(export, *what) for what in (("zero traction force", "N"), ("disc track radius", "m")))
+    number, numbering = _step_numbers(export)
+    own = rows.step[row]
+    return TractionReadings(
+        source=source.path,
+        disc_speed=disc,
+        ball_speed=ball,
+        traction_force=sense * force,
+        load=load[row],
+        temperature=temperature,
+        row=row,
+        zero_force=sense * zero[own],
+        time=time,
+        track_radius=radius[own],
+        step=number[own],
+        steps=tuple(
+            TractionStep(int(count), source.path, step.word("step type"), step.word("step description"), step.started)
+            for count, step in zip(number, export.steps, strict=True)
+        ),
+        began=began,
+        notes=(*notes(rows, row, signal, load), *left_out, *where, *thermal, *sensed, *numbering),
+    )
+
+
+def _load(rows: Rows) -> tuple[Array, tuple[str, ...]]:
+    """Return the load of each row: the ball's, else the pin's, NaN if neither is there."""
+    ball, pin = rows.columns["ball load"], rows.columns["pin load"]
+    pinned = int(np.sum(np.isnan(ball) & ~np.isnan(pin)))
+    note = f"{pinned} rows are of a pin, which is at rest: their load is the pin's and the ball's speed is zero."
+    return np.where(np.isnan(ball), pin, ball), (note,) if pinned else ()
+
+
+def _readings(rows: Rows, load: Array) -> tuple[Whole, Whole, tuple[str, ...]]:
+    """Find the readings: row, and place of the signal (4 is that of rows which have the traction force only)."""
+    signals = rows.stacked(*SIGNALS)
+    there = ~np.isnan(signals)
+    single = ~there.any(axis=0) & ~np.isnan(rows.columns["traction force"])
+    there = np.concatenate([there, [single]])
+    forced = there.any(axis=0)
+    rows.insist(~forced | ~np.isnan(load), "there is a traction force, but neither a ball load nor a pin load.")
+    loaded = load > 0.0
+    out = []
+    for some, what in ((~forced, "hold no traction force"), (forced & ~loaded, "were taken without load")):
+        if some.any():
+            first = rows.at(int(np.argmax(some))).removesuffix(": ")
+            out.append(f"{int(some.sum())} rows {what} and are left out; the first is {first}.")
+    row, signal = np.nonzero((there & loaded).T)
+    return row, signal, tuple(out)
+
+
+def _speeds(rows: Rows, row: Whole, signal: Whole) -> tuple[Array, Array]:
+    """Return the signed speeds of disc and ball that go with each reading."""
+    speeds = []
+    for body in ("disc", "ball"):
+        names = [f"{body} speed {place}" for place in (1, 2, 3, 4, 1)]
+        speed = rows.stacked(*names)[signal, row]
+        if body == "ball":
+            at_rest = np.isnan(rows.columns["ball load"]) & ~np.isnan(rows.columns["pin load"])
+            speed = np.where(np.isnan(speed) & at_rest[row], 0.0, speed)
+        lacking = np.flatnonzero(np.isnan(speed))
+        if lacking.size:
+            first = lacking[0]
+            rows.refuse(int(row[first]), f"there is a traction force, but no {names[signal[first]].title()}.")
+        speeds.append(speed)
+    disc, ball = speeds
+    # TF3 and TF4 are taken with the rolling direction reversed, also where speeds are printed without sign.
+    reverse = np.where((signal >= 2) & (signal < 4) & (disc > 0.0), -1.0, 1.0)
+    return reverse * disc, reverse * ball
+
+
+def _temperature(rows: Rows, row: Whole, thermometer: Thermometer) -> tuple[Array, tuple[str, ...]]:
+    """Return the temperature of each reading, K."""
+    own, other = (rows.columns[f"{name} rtd temp"][row] for name in (thermometer, _OTHER[thermometer]))
+    told = []
+    if np.isnan(own).all() and not np.isnan(other).all():
+        told.append(f"The {thermometer} RTD was not recorded; temperatures are those of the {_OTHER[thermometer]} RTD.")
+        own, other = other, own
+    else:
+        gap = np.abs(own - other)
+        far = gap[~np.isnan(gap)]
+        if far.size and far.mean() > _THERMOMETERS_AGREE:
+            told.append(
+                f"Temperatures are those of the {thermometer} RTD, {celsius(float(np.nanmean(own))):z.1f} °C on "
+                f"average, but the {_OTHER[thermometer]} RTD reads {celsius(float(np.nanmean(other))):z.1f} °C; "
+                f"thermometer={_OTHER[thermometer]!r} takes that one."
+            )
+        else:
+            told.append(f"Temperatures are those of the {thermometer} RTD.")
+    lacking = np.flatnonzero(np.isnan(own))
+    if lacking.size:
+        rows.refuse(int(row[lacking[0]]), "there is a traction force, but no temperature.")
+    cold = np.flatnonzero(own <= 0.0)
+    if cold.size:
+        rows.refuse(int(row[cold[0]]), "the temperature must be above absolute zero.")
+    return own, tuple(told)
+
+
+_OTHER: dict[Thermometer, Thermometer] = {"lube": "pot", "pot": "lube"}
+
+
+def _sense_of_force(force: Array, disc: Array, ball: Array, row: Whole, signal: Whole) -> tuple[float, tuple[str, ...]]:
+    """Return -1 if forces are positive where the ball is faster, so that Coulomb friction follows the disc's slip."""
+    first = np.flatnonzero((signal[:-1] % 2 == 0) & (signal[1:] == signal[:-1] + 1) & (row[1:] == row[:-1]))
+    first = first[signal[first] < 3]
+    slip = disc - ball
+    clear = _CLEAR_SLIP * (np.abs(disc) + np.abs(ball))
+    first = first[np.abs(slip[first] - slip[first + 1]) > clear[first]]
+    if first.size:
+        agrees = float(np.median((force[first] - force[first + 1]) * np.sign(slip[first] - slip[first + 1]))) >= 0.0
+        if agrees:
+            return 1.0, ()
+        note = "Forces are positive where the ball is faster; their signs are turned round."
+        return -1.0, (note,)
+    alone = (signal == 4) & (np.abs(slip) > clear)
+    if alone.any() and float(np.median(force[alone] * np.sign(slip[alone]))) < 0.0:
+        note = "Most forces point against the slip of the disc on the ball; their signs are kept as they are printed."
+        return 1.0, (note,)
+    return 1.0, ()
+
+
+def _times(rows: Rows, row: Whole, starts: list[datetime | None]) -> tuple[Array, datetime | None]:
+    """Return the time of each reading since the first, s, and when that was."""
+    known = [start for start in starts if start is not None]
+    if not known:
+        return np.full(row.shape, np.nan), None
+    seconds = np.array([np.nan if start is None else (start - known[0]).total_seconds() for start in starts])
+    time = seconds[rows.step[row]] + rows.columns["step time"][row]
+    if np.isnan(time).all():
+        return time, None
+    first = float(np.nanmin(time))
+    return time - first, known[0] + timedelta(seconds=first)
+
+
+def _told(export: Export, key: str, unit: str) -> Array:
+    """Return what is said before the table of each step, NaN where it is not."""
+    values = np.full(len(export.steps), np.nan)
+    for place, step in enumerate(export.steps):
+        if key not in step.told:
+            continue
+        printed, cell, line = step.told[key]
+        value = number_of(export, cell, f"step {step.number}: {key!r}", line)
+        if value is None:
+            continue
+        try:
+            factor, _ = unit_conversion(heading(printed).unit, unit, printed)
+        except InputError:
+            example = {"m": "mm"}.get(unit, unit)
+            problem = f"step {step.number}: {printed.strip()[:60]!r} must have a unit like ({example})."
+            raise DataFileError(export.path, problem, line) from None
+        values[place] = factor * value
+        if unit == "m" and value <= 0.0:
+            raise DataFileError(export.path, f"step {step.number}: the track radius {cell} must be above zero.", line)
+    return values
+
+
+def _step_numbers(export: Export) -> tuple[Whole, tuple[str, ...]]:
+    """Return the numbers of the steps as printed, or counted where these do not ascend."""
+    printed = np.array([step.number for step in export.steps], dtype=np.int64)
+    if np.all(np.diff(printed) > 0):
+        return printed, ()
+    note = "The numbers of the steps do not ascend in the file, so that steps are counted from 1."
+    return np.arange(1, printed.size + 1), (note,)

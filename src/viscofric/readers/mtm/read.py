@@ -1,0 +1,180 @@
+"""Traction runs from any files that are known, recognised by their content and put together."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.data import TractionRuns
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_bytes
+from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
+from viscofric.readers.mtm import formats
+from viscofric.readers.source import Source
+from viscofric.steps import TractionStep
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from os import PathLike
+
+    from viscofric.readers.mtm.readings import Array, TractionReadings, Whole
+
+_MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature")
+
+
+def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lube") -> TractionRuns:
+    """Read signed traction readings from one or several files of a tribometer (MTM, ETM or your own tables).
+
+    The format is told by the content, never by the name: text exports of PCS Instruments' MTM and ETM, and text
+    tables with a header that names disc speed, ball speed, temperature, load and traction force, each with its
+    unit, and optionally replicate and step (whole numbers), zero force, time and track radius, in any order.
+
+    Parameters
+    ----------
+    *paths : str or path
+        The files; those of several temperatures or repetitions become one set of runs.
+    thermometer : {"lube", "pot"}
+        Which of an export's thermometers tells the temperature: that in the lubricant, nearer to the contact, or
+        that of the pot.  Where a file has only one of them, that one is taken, with a note.
+
+    Returns
+    -------
+    TractionRuns
+        All readings, file after file, in SI units.  Without a replicate column the rows of equal nominal
+        temperature, load, disc and ball speed are numbered 1, 2, … in their order, with a note.
+
+    Raises
+    ------
+    DataFileError
+        If a file cannot be read or is given twice, a column or unit is missing or wrong, a cell is not a
+        finite number, or a load of a table is not above zero.
+    InputError
+        If no file is given, or `thermometer` is neither of the two.
+
+    Notes
+    -----
+    A row of a PCS export that holds ``TF1`` and ``TF2``, the force with the slip one way and the other, becomes two
+    readings, with ``Ball Speed 1``, ``Disc Speed 1`` and ``Ball Speed 2``, ``Disc Speed 2`` as their speeds; with
+    ``TF3`` and ``TF4``, where the rolling direction is reversed too, four.  Any other row is one reading of its
+    ``Traction Force``.
+
+    What was found in 20 560 rows of an ETM and 14 700 of two MTM: the printed sliding speed is that of the disc less
+    that of the ball, and forces are positive where the disc is faster, so that Coulomb friction follows
+    ``sgn(u_disc - u_ball)`` as `TractionRuns` wants it (a file in which it does not is turned round, with a note);
+    ``Traction Force`` is half of ``TF1 - TF2``; and the zero reading of the force cell has not been taken off
+    ``TF1`` and ``TF2``, since their half-sum follows it from step to step.  What is assumed: that the zero reading is
+    still in ``Traction Force`` where there is no ``TF1``, and that disc and ball run backwards in ``TF3`` and ``TF4``
+    although speeds may be printed without sign; no sample shows the contrary.
+    """
+    if not paths:
+        raise InputError("read_mtm needs at least one file.")
+    if thermometer not in ("lube", "pot"):
+        raise InputError(f"thermometer = {thermometer!r}: must be 'lube' or 'pot'.")
+    files = [str(path) for path in paths]
+    for place, path in enumerate(files):
+        if any(Path(path).resolve() == Path(other).resolve() for other in files[:place] if "\0" not in path + other):
+            raise DataFileError(path, "is given twice; name each file once.")
+    parts = [formats.read(Source(path, read_bytes(path)), thermometer) for path in files]
+    for place, part in enumerate(parts):
+        for other in parts[:place]:
+            if part.same_as(other):
+                raise DataFileError(part.source, f"holds the same readings as {other.source}; give one of them only.")
+    return _together(parts)
+
+
+def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
+    columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in _MEASURED}
+    replicate, numbering = _replicates(parts, columns)
+    time, timing = _times(parts)
+    step, steps = _steps(parts)
+    several = len(parts) > 1
+    told = [f"{Path(part.source).name}: {note}" if several else note for part in parts for note in part.notes]
+    return TractionRuns(
+        **columns,
+        replicate=replicate,
+        source=", ".join(part.source for part in parts),
+        notes=(*told, *numbering, *timing),
+        zero_force=_optional(parts, "zero_force"),
+        time=time,
+        step=step,
+        track_radius=_optional(parts, "track_radius"),
+        steps=steps,
+    )
+
+
+def _optional(parts: Sequence[TractionReadings], name: str) -> Array | None:
+    """Join a column that not every file has; NaN where it is not there."""
+    columns = [getattr(part, name) for part in parts]
+    if all(column is None for column in columns):
+        return None
+    pairs = zip(parts, columns, strict=True)
+    return np.concatenate([np.full(len(part), np.nan) if column is None else column for part, column in pairs])
+
+
+def _times(parts: Sequence[TractionReadings]) -> tuple[Array | None, tuple[str, ...]]:
+    """Join the times: since the first of all readings where the clock is known, else since each file's own."""
+    time = _optional(parts, "time")
+    if time is None or len(parts) == 1:
+        return time, ()
+    starts = [part.began for part in parts]
+    known = [start for start in starts if start is not None]
+    if len(known) < len(starts):
+        return time, ("The date of some files is not known, so that time begins anew with each file.",)
+    later = [(start - min(known)).total_seconds() for start in known]
+    return time + np.repeat(later, [len(part) for part in parts]), ()
+
+
+def _steps(parts: Sequence[TractionReadings]) -> tuple[Whole | None, tuple[TractionStep, ...]]:
+    """Count the steps on through all files; a file without steps among others is one step."""
+    if all(part.step is None for part in parts):
+        return None, ()
+    numbers: list[Whole] = []
+    steps: list[TractionStep] = []
+    last = 0
+    for part in parts:
+        own = np.ones(len(part), dtype=np.int64) if part.step is None else part.step
+        # The first file keeps its own numbers.
+        shift = last + max(0, 1 - int(own.min())) if numbers else 0
+        own = own + shift
+        known = {shift + step.number: step for step in part.steps}
+        for number in np.unique(own):
+            step = known.get(int(number), TractionStep(int(number), part.source))
+            steps.append(replace(step, number=int(number)))
+        last = int(own.max())
+        numbers.append(own)
+    return np.concatenate(numbers), tuple(steps)
+
+
+def _replicates(parts: Sequence[TractionReadings], columns: dict[str, Array]) -> tuple[Whole, tuple[str, ...]]:
+    """Take the files' replicate numbers, or number rows of equal conditions in their order."""
+    known = [part.replicate for part in parts if part.replicate is not None]
+    if len(known) == len(parts):
+        return np.concatenate(known), ()
+    if known:
+        without = next(part.source for part in parts if part.replicate is None)
+        raise DataFileError(without, "has no replicate column, but another file of the same call has one.")
+    # Readings of one row were taken together and share its number.
+    lengths = np.cumsum([0, *(int(part.row.max()) + 1 for part in parts)])
+    row = np.concatenate([part.row + first for part, first in zip(parts, lengths[:-1], strict=True)])
+    _, first, place = np.unique(row, return_index=True, return_inverse=True)
+    disc, ball, load, temperature = (
+        columns[name][first] for name in ("disc_speed", "ball_speed", "load", "temperature")
+    )
+    nominal = [
+        numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE)),
+        numbered(load, SAME_LOAD * load),
+        numbered(disc, SAME_SPEED * np.abs(disc)),
+        numbered(ball, SAME_SPEED * np.abs(ball)),
+    ]
+    seen: Counter[tuple[int, ...]] = Counter()
+    numbers = []
+    for condition in np.stack(nominal, axis=1).tolist():
+        key = tuple(condition)
+        seen[key] += 1
+        numbers.append(seen[key])
+    note = "There is no replicate column; readings of equal speeds, load and temperature are numbered in their order."
+    return np.array(numbers, dtype=np.int64)[place], (note,)
