@@ -210,8 +210,6 @@ def _take_row(export: Export, step: Step, number: int, cells: list[str], *, last
         export.remarks.append("\t".join(cells).strip())
         return
     block = step.blocks[-1]
-    while len(cells) > block.layout.width and not cells[-1].strip():
-        cells.pop()
     if len(cells) > block.layout.width:
         problem = f"{at(step, step.rows + 1)}{len(cells)} cells where the header names {block.layout.width} columns."
         raise DataFileError(export.path, problem, number)

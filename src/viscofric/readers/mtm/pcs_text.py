@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 NAME = "a text export of PCS Instruments' MTM or ETM"
 
-_SIGNATURE = re.compile(r"^[ \t]*Step[ \t]+\d+[ \t]+started[ \t]+at\b", re.IGNORECASE | re.MULTILINE)
+_SIGNATURE = re.compile(r"(?:\A|[\r\n])[ \t]*Step[ \t]+\d+[ \t]+started[ \t]+at\b", re.IGNORECASE)
 #: Two thermometers of one pot that are further apart do not both sit where they should.
 _THERMOMETERS_AGREE = 10.0  # K
 #: Slip over speed above which its sense is beyond doubt.
@@ -62,8 +62,7 @@ def read(source: Source, thermometer: Thermometer) -> TractionReadings:
     temperature, thermal = _temperature(rows, row, thermometer)
     force = np.concatenate([rows.stacked(*SIGNALS), [rows.columns["traction force"]]])[signal, row]
     sense, sensed = _sense_of_force(force, disc, ball, row, signal)
-    starts = start_times([step.started for step in export.steps])
-    time, began = _times(rows, row, starts)
+    time, began, timed = _times(rows, row)
     zero, radius = (_told(export, *what) for what in (("zero traction force", "N"), ("disc track radius", "m")))
     number, numbering = _step_numbers(export)
     own = rows.step[row]
@@ -84,7 +83,7 @@ def read(source: Source, thermometer: Thermometer) -> TractionReadings:
             for count, step in zip(number, export.steps, strict=True)
         ),
         began=began,
-        notes=(*notes(rows, row, signal, load), *left_out, *where, *thermal, *sensed, *numbering),
+        notes=(*notes(rows, row, signal, load), *left_out, *where, *thermal, *sensed, *timed, *numbering),
     )
 
 
@@ -184,17 +183,29 @@ def _sense_of_force(force: Array, disc: Array, ball: Array, row: Whole, signal: 
     return 1.0, ()
 
 
-def _times(rows: Rows, row: Whole, starts: list[datetime | None]) -> tuple[Array, datetime | None]:
-    """Return the time of each reading since the first, s, and when that was."""
-    known = [start for start in starts if start is not None]
-    if not known:
-        return np.full(row.shape, np.nan), None
-    seconds = np.array([np.nan if start is None else (start - known[0]).total_seconds() for start in starts])
-    time = seconds[rows.step[row]] + rows.columns["step time"][row]
+def _times(rows: Rows, row: Whole) -> tuple[Array, datetime | None, tuple[str, ...]]:
+    """Return the time of each reading since the first, s, and when that was by the clock."""
+    starts = start_times([step.started for step in rows.export.steps])
+    clock = next((start for start in starts if start is not None), None)
+    own = rows.columns["step time"][row]
+    time = np.full(row.shape, np.nan)
+    undated, latest = 0, 0.0
+    for place in np.unique(rows.step[row]):
+        here = rows.step[row] == place
+        start, clocked = latest, starts[place]
+        if clocked is None or clock is None:
+            undated += 1
+        else:
+            start = (clocked - clock).total_seconds()
+        time[here] = start + own[here]
+        if not np.isnan(time[here]).all():
+            latest = float(np.nanmax(time[here]))
     if np.isnan(time).all():
-        return time, None
+        return time, None, ("There is no step time, so that it is not known when readings were taken.",)
     first = float(np.nanmin(time))
-    return time - first, known[0] + timedelta(seconds=first)
+    note = f"The date of {undated} steps cannot be read; they are assumed to follow the one before at once."
+    began = clock + timedelta(seconds=first) if clock is not None and not undated else None
+    return time - first, began, (note,) if undated else ()
 
 
 def _told(export: Export, key: str, unit: str) -> Array:

@@ -62,13 +62,14 @@ def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lu
     ``TF3`` and ``TF4``, where the rolling direction is reversed too, four.  Any other row is one reading of its
     ``Traction Force``.
 
-    What was found in 20 560 rows of an ETM and 14 700 of two MTM: the printed sliding speed is that of the disc less
-    that of the ball, and forces are positive where the disc is faster, so that Coulomb friction follows
-    ``sgn(u_disc - u_ball)`` as `TractionRuns` wants it (a file in which it does not is turned round, with a note);
-    ``Traction Force`` is half of ``TF1 - TF2``; and the zero reading of the force cell has not been taken off
-    ``TF1`` and ``TF2``, since their half-sum follows it from step to step.  What is assumed: that the zero reading is
-    still in ``Traction Force`` where there is no ``TF1``, and that disc and ball run backwards in ``TF3`` and ``TF4``
-    although speeds may be printed without sign; no sample shows the contrary.
+    Found in the exports of one ETM (20 500 rows with ``TF1`` and ``TF2`` in 500 steps) and one MTM: the printed
+    sliding speed is that of the disc less that of the ball; forces are positive where the disc is faster, so that
+    Coulomb friction follows ``sgn(u_disc - u_ball)`` as `TractionRuns` wants it (a file in which it does not is turned
+    round, with a note); and the zero reading of the force cell has not been taken off ``TF1`` and ``TF2``: from step to
+    step their half-sum changes by 0.0 ± 0.2 times the scatter of the zero reading, where it would be -0.9 if it had.
+
+    Assumed, since no sample shows it: that the zero reading is still in ``Traction Force`` where there is no ``TF1``,
+    and that in ``TF3`` and ``TF4`` disc and ball run backwards although their speeds may be printed without sign.
     """
     if not paths:
         raise InputError("read_mtm needs at least one file.")

@@ -110,3 +110,47 @@ def test_readings_given_twice_are_refused(tmp_path):
 def test_different_loads_are_different_conditions(tmp_path):
     rows = ["30,100,90,25,0.4", "30,100,90,50,0.8", "30,100,90,25.2,0.4", "30,100,90,49.8,0.8"]
     assert list(read_mtm(write(tmp_path, WITHOUT, *rows)).replicate) == [1, 1, 2, 2]
+
+
+def test_optional_columns_are_read_and_may_have_gaps(tmp_path):
+    header = HEADER + ",zero force (mN),time (min),step,track radius (mm)"
+    lines = [f"{ROW},250,7,3,21.2", f"{ROW.replace('-0.4', '-0.5')},,6,4,21.2", f"{ROW.replace('-0.4', '-0.6')},-,,4,"]
+    runs = read_mtm(write(tmp_path, header, *lines))
+    assert runs.zero_force == pytest.approx([0.25, np.nan, np.nan], nan_ok=True)
+    assert runs.time == pytest.approx([60.0, 0.0, np.nan], nan_ok=True)
+    assert runs.track_radius == pytest.approx([0.0212, 0.0212, np.nan], nan_ok=True)
+    assert list(runs.step) == [3, 4, 4]
+    assert [step.readings for step in runs.steps] == [1, 2]
+    assert runs.steps[1].load == pytest.approx(25.0)
+    with pytest.raises(DataFileError, match=r"line 2: 2\.5 in column 'step' must be a whole number"):
+        read_mtm(write(tmp_path, HEADER + ",step", ROW + ",2.5"))
+    with pytest.raises(DataFileError, match=r"line 2: 0 in column 'track radius \(mm\)' must be above zero"):
+        read_mtm(write(tmp_path, HEADER + ",track radius (mm)", ROW + ",0"))
+
+
+def test_columns_that_one_file_lacks_are_not_known_there(tmp_path):
+    first = write(tmp_path, HEADER + ",zero force (N),step", ROW + ",0.1,7", name="one.csv")
+    second = write(tmp_path, HEADER, ROW.replace("30,1", "60,2"), name="two.csv")
+    runs = read_mtm(first, second)
+    assert runs.zero_force == pytest.approx([0.1, np.nan], nan_ok=True)
+    assert list(runs.step) == [7, 8]
+    assert [step.source for step in runs.steps] == [str(first), str(second)]
+    assert runs.time is None
+
+
+def test_times_of_tables_begin_anew_with_each_file(tmp_path):
+    first = write(tmp_path, HEADER + ",time (s)", ROW + ",100", ROW + ",105", name="one.csv")
+    second = write(tmp_path, HEADER + ",time (s)", ROW.replace("30,1", "60,2") + ",9", name="two.csv")
+    runs = read_mtm(first, second)
+    assert list(runs.time) == [0.0, 5.0, 0.0]
+    assert "time begins anew with each file" in runs.notes[-1]
+
+
+def test_a_file_of_no_known_kind_and_an_empty_one_are_told(tmp_path):
+    path = tmp_path / "some.bin"
+    path.write_bytes(bytes(range(256)))
+    with pytest.raises(DataFileError, match=r"some\.bin: is a binary file of no known kind; what can be read: a text"):
+        read_mtm(path)
+    path.write_bytes(b"\r\n")
+    with pytest.raises(DataFileError, match="the file is empty"):
+        read_mtm(path)
