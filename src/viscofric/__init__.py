@@ -89,6 +89,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
+    from viscofric.steps import TractionStep as TractionStep
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
     from viscofric.study import load_study as load_study
@@ -179,6 +180,7 @@ _HOME = {
     "Superposition": "viscofric.rheology.superposition.superpose",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
+    "TractionStep": "viscofric.steps",
     "load_study": "viscofric.study",
     "open_results": "viscofric.study",
     "run_study": "viscofric.study",

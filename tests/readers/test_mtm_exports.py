@@ -198,6 +198,16 @@ def test_what_the_file_says_twice_is_compared(tmp_path):
     )
 
 
+def test_speeds_that_do_not_fit_the_printed_slip_are_told(tmp_path):
+    runs = read_mtm(changed(tmp_path, "\t18.00", "\t28.00"))
+    assert "not the difference of disc and ball speed, the first being step 2, row 1" in note(runs, "Sliding Speed")
+
+
+def test_headings_may_begin_with_a_blank(tmp_path, mtm):
+    lines = ["\t" + line if line.count("\t") > 20 else line for line in pcs.mtm()]
+    assert np.array_equal(read_mtm(pcs.write(tmp_path, lines)).traction_force, mtm.traction_force)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [

@@ -18,9 +18,11 @@ if TYPE_CHECKING:
     from viscofric.readers.mtm.readings import Array, Whole
 
 _ABORTED = re.compile(r"abort|stopped|terminat|interrupt|suspend|fail|error|incomplete", re.IGNORECASE)
-#: Rounding of printed forces (N) and coefficients of friction.
+#: More than the rounding of printed forces (N) and coefficients of friction.
 _FORCE_AGREES = 2e-3
 _COEFFICIENT_AGREES = 1e-4
+#: More than that of printed speeds, m/s and relative.
+_SPEED_AGREES, _SPEEDS_AGREE = 5e-5, 1e-3
 
 
 def notes(rows: Rows, row: Whole, signal: Whole, load: Array) -> Iterator[str]:
@@ -91,6 +93,16 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
         yield (
             f"In {int(off.sum())} rows the printed Traction Coeff is not the Traction Force over the load, the first "
             f"being {rows.at(int(np.argmax(off))).removesuffix(': ')}."
+        )
+    disc = rows.stacked("disc speed 1", "disc speed 2")
+    ball = rows.stacked("ball speed 1", "ball speed 2")
+    slip = np.abs(disc - ball)
+    slip = np.where(np.isnan(slip[1]), slip[0], np.abs(0.5 * (disc[0] - ball[0] - disc[1] + ball[1])))
+    off = two & (np.abs(slip - np.abs(rows.columns["sliding speed"])) > _SPEED_AGREES + _SPEEDS_AGREE * np.abs(disc[0]))
+    if off.any():
+        yield (
+            f"In {int(off.sum())} rows the printed Sliding Speed is not the difference of disc and ball speed, the "
+            f"first being {rows.at(int(np.argmax(off))).removesuffix(': ')}; readings are those of disc and ball."
         )
 
 

@@ -113,7 +113,7 @@ def parse(path: str, text: str) -> Export:
                 export.told["test started"] = line[len("test started at") :].strip()
             continue
         step = export.steps[-1]
-        if len(cells) > 2 and cells[0][:1].isalpha():
+        if len(cells) > 2 and line.lstrip()[:1].isalpha():
             if line not in layouts:
                 layouts[line] = _layout(path, step, number, cells)
             layout = layouts[line]
@@ -159,7 +159,8 @@ def _key(cell: str) -> str:
 
 def _is_told(path: str, step: Step, line: int, cells: list[str]) -> bool:
     """Take a line that says something of the step: ``Step type``, zero force, track radius."""
-    key = heading(cells[0]).name.lower() if len(cells) > 1 else ""
+    named = len(cells) > 1 and cells[0].lstrip()[:1].isalpha()
+    key = heading(cells[0]).name.lower() if named else ""
     if key != "step type" and not key.startswith(("zero traction force", "disc track radius", "disk track radius")):
         return False
     if key == "step type" and (step.blocks or key in step.told):
