@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+import viscofric as vf
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
 from viscofric.friction.agreement import compare
@@ -72,3 +75,109 @@ def test_relative_differences_need_friction_above_zero() -> None:
     measured = friction_curves(np.array([0.05]), np.array([303.15]), np.array([-0.001]))
     with pytest.raises(InputError, match="must be above zero everywhere"):
         compare(measured, measured)
+
+
+def test_the_materials_own_error_counts_as_one_error_of_all_points() -> None:
+    """Nine independent errors of 1 % leave 1/3 % on the mean; one of 2 % that all share leaves 2 %."""
+    speed, temperature = np.geomspace(0.01, 1.0, 9), np.full(9, 303.15)
+    measured = friction_curves(speed, temperature, np.full(9, 0.02), error=2e-4)
+    predicted = friction_curves(speed, temperature, np.full(9, 0.0208))
+    alone = compare(measured, predicted)
+    assert (alone.share_within_error, alone.material_counted) == (0.0, False)
+    assert alone.bias_error == pytest.approx(0.01 / 3.0)
+    assert "4.0 % above the measured one on average (standard error ±0.3 %)" in str(alone)
+    counted = compare(measured, replace(predicted, material_error=np.full(9, 4e-4)))
+    # 2 √(2² + 4²) 1e-4 = 8.9e-4, above the difference of 8e-4
+    assert (counted.share_within_error, counted.material_counted) == (1.0, True)
+    assert counted.bias_error == pytest.approx(np.hypot(0.01 / 3.0, 0.02))
+    np.testing.assert_allclose(counted.bias_error_at, counted.bias_error)
+    assert "the material's own counted" in str(counted)
+
+
+def test_the_bias_scatters_as_its_standard_error_says() -> None:
+    """Measured means with 3 % noise and a prediction that is 2 % off as a whole, 400 times: both standard errors."""
+    random, count = np.random.default_rng(8), 12
+    speed, temperature, truth = np.geomspace(0.01, 1.0, count), np.full(count, 303.15), np.full(count, 0.03)
+    found = []
+    for _ in range(400):
+        measured = friction_curves(speed, temperature, truth * (1 + 0.03 * random.standard_normal(count)), error=9e-4)
+        predicted = friction_curves(speed, temperature, truth * (1 + 0.02 * random.standard_normal()))
+        found.append(compare(measured, replace(predicted, material_error=0.02 * truth)))
+    told = np.mean([one.bias_error for one in found])
+    # A standard deviation from 400 values is good to 1/√800 = 3.5 %; three times that.
+    assert np.std([one.bias for one in found]) == pytest.approx(told, rel=0.11)
+
+
+def test_an_unknown_error_is_said_to_be_unknown() -> None:
+    measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02), error=np.array([np.inf, 1e-4, 1e-4, 1e-4]))
+    agreement = compare(measured, friction_curves(SPEED, TEMPERATURE, np.full(4, 0.021)))
+    assert agreement.share_within_error == 0.25
+    assert "standard error of unknown error" not in str(agreement)
+    assert "of unknown standard error" in str(agreement)
+
+
+def test_the_scatter_of_replicates_is_told_where_there_are_any() -> None:
+    measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02))
+    assert compare(measured, measured).share_within_scatter is None
+    repeated = replace(
+        measured, viscoelastic_scatter=np.array([2e-3, 2e-3, 0.0, 2e-3]), replicates=np.array([8, 8, 1, 8])
+    )
+    predicted = friction_curves(SPEED, TEMPERATURE, np.array([0.0215, 0.0225, 0.02, 0.019]))
+    agreement = compare(repeated, predicted)
+    assert (agreement.share_within_scatter, agreement.repeated) == (pytest.approx(2 / 3), 3)
+    np.testing.assert_array_equal(agreement.share_within_scatter_at, [0.5, 1.0])
+    assert "at 67 % of the 3 that were repeated it is within the scatter of the replicates" in str(agreement)
+    half = compare(replace(repeated, replicates=np.array([8, 8, 1, 1])), predicted)
+    np.testing.assert_array_equal(half.share_within_scatter_at, [0.5, np.nan])
+
+
+WLF = vf.WLF(C1=8.0, C2=110.0, reference="30 degC")
+WRONG = vf.WLF(C1=7.0, C2=110.0, reference="30 degC")
+
+
+def friction_of(law: vf.WLF, factor: float = 1.0):
+    """Curves at five temperatures on one bell of width 2 decades, shifted by a law."""
+    kelvin, speeds = np.array([293.15, 303.15, 313.15, 323.15, 333.15]), np.geomspace(0.02, 0.5, 12)
+    speed, temperature = np.tile(speeds, 5), np.repeat(kelvin, 12)
+    decades = np.log10(speed) + law.log10(temperature)
+    return friction_curves(speed, temperature, factor * 0.03 * np.exp(-0.5 * ((decades + 1.0) / 2.0) ** 2), error=1e-5)
+
+
+def test_a_wrong_alpha_shows_between_the_curves_but_not_between_the_master_curves() -> None:
+    """The bell falls by up to 35 % in a decade, so that smoothing is good to 1e-3; α is 0.2 to 0.4 decades off."""
+    measured, predicted = friction_of(WLF), friction_of(WRONG, 1.02)
+    at_points = compare(measured, predicted)
+    shifted = vf.shift_friction(measured, shift=WLF), vf.shift_friction(predicted, shift=WRONG)
+    along = compare(*shifted)
+    assert at_points.rms > 0.05
+    assert along.along_reduced_speed
+    np.testing.assert_allclose(along.relative_difference, 0.02, atol=2e-3)
+    assert along.bias == pytest.approx(0.02, abs=1e-3)
+    assert along.not_covered == len(measured) - along.points > 0  # the wrong α reaches less far
+    assert str(along).startswith(f"On the master curve, over {along.points} points the predicted friction is 2.0 %")
+    assert f"{along.not_covered} more lie where the predicted master curve does not reach" in str(along)
+
+
+def test_the_materials_error_is_read_along_the_master_curve() -> None:
+    """3 % of friction at every point is 3 % of friction between them."""
+    measured, predicted = friction_of(WLF), friction_of(WLF)
+    predicted = replace(predicted, material_error=0.03 * predicted.viscoelastic)
+    along = compare(vf.shift_friction(measured, shift=WLF), vf.shift_friction(predicted, shift=WLF))
+    assert along.material_counted
+    assert along.bias_error == pytest.approx(0.03, rel=1e-2)  # smoothing and the points' own 1e-5 beside it
+    assert (along.not_covered, along.share_within_error) == (0, 1.0)
+
+
+def test_master_curves_that_cannot_be_compared_are_refused() -> None:
+    curves = friction_of(WLF)
+    master = vf.shift_friction(curves, shift=WLF)
+    with pytest.raises(InputError, match="one is a master curve and the other is not"):
+        compare(master, curves)  # type: ignore[call-overload]
+    with pytest.raises(InputError, match=r"different references, 30\.00 and 40\.00 °C"):
+        compare(master, vf.shift_friction(curves, shift=WLF, reference="40 degC"))
+    heavier = replace(curves, load=np.full(len(curves), 30.0))
+    with pytest.raises(InputError, match="different loads, 25 and 30 N"):
+        compare(master, vf.shift_friction(heavier, shift=WLF))
+    faster = replace(curves, speed=1e4 * curves.speed)
+    with pytest.raises(InputError, match="do not overlap"):
+        compare(master, vf.shift_friction(faster, shift=WLF))

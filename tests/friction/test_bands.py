@@ -10,7 +10,8 @@ import pytest
 import viscofric as vf
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import InputError
-from viscofric.friction.bands import DrawnMaterials, solve_with_sensitivity
+from viscofric.friction.bands import DrawnMaterials
+from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit
 

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, overload
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.nominal import SAME_LOAD
-from viscofric.units import celsius
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.pairing import Pairs, along_reduced_speed, point_by_point
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.friction.curves import FrictionCurves
-
     Array: TypeAlias = NDArray[np.float64]
-
-# Points are the same within rounding of units, not within scatter: predictions are made at the measured
-# points.
-_SAME_SPEED = 1e-6  # relative
-_SAME_TEMPERATURE = 1e-3  # K
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +33,8 @@ class Agreement:
         Root mean square of d.
     share_within_error : float
         Share of the points where predicted and measured differ by at most twice the combined standard error
-        √(s² + e²), with s the standard error of the measured mean and e the numerical error of the
-        prediction.
+        √(s² + e² + m²), with s the standard error of the measured mean, e the numerical error of the prediction and m
+        the standard error that the material's own leaves on it, where the prediction carries one.
     points : int
     temperature : (k,) array
         Different temperatures, K, ascending.
@@ -48,6 +43,23 @@ class Agreement:
     points_at : (k,) array of int
     relative_difference : (n,) array
         d in the order of the measured points.
+    bias_error : float
+        Standard error of `bias`; s and e are taken to be independent from point to point, m to be one error of all,
+        which makes most of it.
+    bias_error_at : (k,) array
+    share_within_scatter : float or None
+        Share of the points where predicted and measured differ by at most the standard deviation over the measured
+        replicates, of those that were repeated; None if there are none.
+    share_within_scatter_at : (k,) array
+        NaN where no point of that temperature was repeated.
+    repeated : int
+        Points that were measured more than once.
+    material_counted : bool
+        Whether the prediction carries the material's errors, m.
+    along_reduced_speed : bool
+        Whether master curves were compared, at equal reduced speeds.
+    not_covered : int
+        Measured points of a master curve that the predicted one does not reach; they are left out.
     """
 
     bias: float
@@ -60,26 +72,59 @@ class Agreement:
     share_within_error_at: Array
     points_at: NDArray[np.int64]
     relative_difference: Array
+    bias_error: float
+    bias_error_at: Array
+    share_within_scatter: float | None
+    share_within_scatter_at: Array
+    repeated: int
+    material_counted: bool
+    along_reduced_speed: bool = False
+    not_covered: int = 0
 
     def __str__(self) -> str:
-        return (
-            f"Over {self.points} points the predicted friction is {abs(100 * self.bias):.1f} % "
-            f"{'above' if self.bias >= 0 else 'below'} the measured one on average, {100 * self.rms:.1f} % "
-            "away from it in root mean square, and within twice the standard error at "
-            f"{100 * self.share_within_error:.0f} % of them."
+        where = "On the master curve, over" if self.along_reduced_speed else "Over"
+        known = math.isfinite(self.bias_error)
+        error = f"standard error ±{100 * self.bias_error:.1f} %" if known else "of unknown standard error"
+        counted = " (the material's own counted)" if self.material_counted else ""
+        said = (
+            f"{where} {self.points} points the predicted friction is {abs(100 * self.bias):.1f} % "
+            f"{'above' if self.bias >= 0 else 'below'} the measured one on average ({error}), "
+            f"{100 * self.rms:.1f} % away from it in root mean square, and within twice the standard error{counted} at "
+            f"{100 * self.share_within_error:.0f} % of them"
         )
+        if self.share_within_scatter is not None:
+            share = f"{100 * self.share_within_scatter:.0f} %"
+            of = "of them" if self.repeated == self.points else f"of the {self.repeated} that were repeated"
+            said += f"; at {share} {of} it is within the scatter of the replicates"
+        if self.not_covered:
+            said += f"; {self.not_covered} more lie where the predicted master curve does not reach"
+        return said + "."
 
 
-def compare(measured: FrictionCurves, predicted: FrictionCurves) -> Agreement:
-    """Compare the viscoelastic friction measured with that predicted at the same speeds and temperatures.
+@overload
+def compare(measured: FrictionCurves, predicted: FrictionCurves) -> Agreement: ...
+@overload
+def compare(measured: FrictionMasterCurve, predicted: FrictionMasterCurve) -> Agreement: ...
+def compare(
+    measured: FrictionCurves | FrictionMasterCurve, predicted: FrictionCurves | FrictionMasterCurve
+) -> Agreement:
+    """Compare the viscoelastic friction measured with that predicted, at equal speeds and temperatures.
+
+    Or that of two master curves, at equal reduced speeds.
+
+    Curves are compared at each point with the prediction for its speed and temperature: what is wrong with α(T) and
+    what is wrong with the spectrum count alike.  Master curves are compared at equal reduced speeds, each shifted as it
+    was: measured friction that was shifted by factors found from itself tests the spectrum alone, and what deviates
+    between the curves but not between the master curves is due to α(T).
 
     Parameters
     ----------
-    measured : FrictionCurves
+    measured : FrictionCurves or FrictionMasterCurve
         With viscoelastic friction above zero.
-    predicted : FrictionCurves
-        Solved at the measured points, as with ``speeds=measured.speeds, temperatures=measured.temperatures``;
-        it may hold more of them.
+    predicted : FrictionCurves or FrictionMasterCurve
+        Curves solved at the measured points, as with ``speeds=measured.speeds, temperatures=measured.temperatures``
+        (they may hold more of them), or the master curve of predicted ones at the same reference; it is read between
+        its points by its own smoothing.
 
     Returns
     -------
@@ -89,8 +134,26 @@ def compare(measured: FrictionCurves, predicted: FrictionCurves) -> Agreement:
     ------
     InputError
         If a measured point has no prediction at its speed, temperature and load (within 5 %), or its
-        friction is not above zero.
+        friction is not above zero; if master curves have different references or loads, or do not overlap; or if one is
+        a master curve and the other is not.
     """
+    shifted = isinstance(measured, FrictionMasterCurve)
+    if shifted != isinstance(predicted, FrictionMasterCurve):
+        raise InputError(
+            "measured and predicted: one is a master curve and the other is not; compare curves with curves, or shift "
+            "both with shift_friction."
+        )
+    points = measured.curves if isinstance(measured, FrictionMasterCurve) else measured
+    _insist_on_friction(points)
+    if isinstance(measured, FrictionMasterCurve) and isinstance(predicted, FrictionMasterCurve):
+        pairs = along_reduced_speed(measured, predicted)
+    else:
+        assert isinstance(predicted, FrictionCurves)
+        pairs = point_by_point(points, predicted)
+    return _agreement(pairs, shifted, len(points) - len(pairs.measured))
+
+
+def _insist_on_friction(measured: FrictionCurves) -> None:
     if not len(measured):
         raise InputError("measured friction curves hold no points; there is nothing to compare.")
     if not np.all(measured.viscoelastic > 0.0):
@@ -98,11 +161,18 @@ def compare(measured: FrictionCurves, predicted: FrictionCurves) -> Agreement:
             "viscoelastic of measured friction curves must be above zero everywhere to tell a relative "
             f"difference, but one is {measured.viscoelastic.min():.3g}; leave such points out with select()."
         )
-    rows = np.array([_partner(measured, row, predicted) for row in range(len(measured))])
-    difference = predicted.viscoelastic[rows] - measured.viscoelastic
+
+
+def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
+    measured = pairs.measured
+    difference = pairs.predicted - measured.viscoelastic
     relative = difference / measured.viscoelastic
-    error = np.hypot(measured.viscoelastic_error, predicted.viscoelastic_error[rows])
-    within = np.abs(difference) <= 2.0 * error
+    own = np.hypot(measured.viscoelastic_error, pairs.numerical_error)
+    material = np.zeros(len(measured)) if pairs.material_error is None else pairs.material_error
+    within = np.abs(difference) <= 2.0 * np.hypot(own, material)
+    repeated = measured.replicates > 1
+    in_scatter = np.abs(difference) <= measured.viscoelastic_scatter
+    own, material = own / measured.viscoelastic, material / measured.viscoelastic
     there = measured.temperatures
     groups = [measured.temperature == temperature for temperature in there]
     return Agreement(
@@ -116,24 +186,25 @@ def compare(measured: FrictionCurves, predicted: FrictionCurves) -> Agreement:
         share_within_error_at=np.array([within[group].mean() for group in groups]),
         points_at=np.array([np.count_nonzero(group) for group in groups]),
         relative_difference=relative,
+        bias_error=_error_of_mean(own, material),
+        bias_error_at=np.array([_error_of_mean(own[group], material[group]) for group in groups]),
+        share_within_scatter=float(in_scatter[repeated].mean()) if np.any(repeated) else None,
+        share_within_scatter_at=np.array([_share(in_scatter[group & repeated]) for group in groups]),
+        repeated=int(np.count_nonzero(repeated)),
+        material_counted=pairs.material_error is not None,
+        along_reduced_speed=shifted,
+        not_covered=not_covered,
     )
+
+
+def _error_of_mean(independent: Array, common: Array) -> float:
+    """Return the standard error of a mean whose terms have errors of their own and one that all share."""
+    return float(np.hypot(np.sqrt(np.sum(independent**2)) / independent.size, common.mean()))
+
+
+def _share(within: NDArray[np.bool_]) -> float:
+    return float(within.mean()) if within.size else math.nan
 
 
 def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
-
-
-def _partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> int:
-    """Row of the prediction that belongs to a measured point."""
-    speed, temperature, load = measured.speed[row], measured.temperature[row], measured.load[row]
-    same = np.abs(predicted.speed - speed) <= _SAME_SPEED * speed
-    same &= np.abs(predicted.temperature - temperature) <= _SAME_TEMPERATURE
-    same &= np.abs(predicted.load - load) <= SAME_LOAD * load
-    if not np.any(same):
-        raise InputError(
-            f"the point measured at {celsius(float(temperature)):.2f} °C, {1e3 * speed:.5g} mm/s and "
-            f"{load:.3g} N has no prediction; predict friction at measured.speeds, measured.temperatures "
-            "and the measured load."
-        )
-    candidates = np.flatnonzero(same)
-    return int(candidates[np.argmin(np.abs(predicted.load[candidates] - load))])

@@ -9,8 +9,9 @@ import numpy as np
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
-from viscofric.friction.bands import DrawnMaterials, solve_with_sensitivity, with_material_band
+from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.processes import call_all
 from viscofric.units import Quantities, Quantity, positive, to_si_array
 

@@ -1,0 +1,137 @@
+"""How the friction of one contact answers to the rubber's compliance at every retardation time, from one adjoint solve.
+
+With the derivatives ∂μ/∂C of modes that have no compliance, put where the material has none, g(τ) = ∂μ/∂C is known for
+all τ.  It is smooth, goes to its value in the glass for vτ far below the contact's length and to zero far above it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.counterface import indenter_compliance
+from viscofric.contact.free.scale import Scale
+from viscofric.contact.steady import solve_steady
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.solution import ContactSolution
+    from viscofric.rheology.material import Material
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Modes without compliance stand so far apart in ln τ: g is that smooth.
+SPACING = 0.5
+#: Nodes nearer to each other than this in ln τ would make an interpolation between them ripple.
+LEAST_SPACING = 0.1
+#: From and to where they stand, vτ over the length of the contact: beyond, g is at its limits to 1e-5.
+REACH = 1e-6, 1e6
+
+
+@dataclass(frozen=True, eq=False)
+class ComplianceSensitivity:
+    """How the friction coefficient of one contact answers to the rubber's compliance.
+
+    Attributes
+    ----------
+    friction : float
+        μ of the material that was solved.
+    compliance_part : float
+        Σ g(τ_k) C_k + g(0)/E_inf of that material.
+    log_tau : (m,) array
+        ln τ, ascending, τ in s at the temperature of the contact.
+    slope : (m,) array
+        g(τ) = ∂μ/∂C of a mode there, Pa.
+    glass : float
+        g(0) = ∂μ/∂(1/E_inf), Pa.
+    load : float
+        F ∂μ/∂F.
+    frequency : float
+        Speed over half the contact's length, rad/s.
+    """
+
+    friction: float
+    compliance_part: float
+    log_tau: Array
+    slope: Array
+    glass: float
+    load: float
+    frequency: float
+
+    def at(self, log_tau: Array) -> Array:
+        """Return g at ln τ, in its shape, Pa."""
+        from scipy.interpolate import CubicSpline
+
+        first, last = self.log_tau[0], self.log_tau[-1]
+        between = CubicSpline(self.log_tau, self.slope)(np.clip(log_tau, first, last))
+        return np.where(log_tau < first, self.glass, np.where(log_tau > last, 0.0, between))
+
+
+def solve_with_sensitivity(
+    material: Material, indenter: Indenter, *, speed: float, load: float, temperature: float, **settings: Any
+) -> tuple[ContactSolution, ComplianceSensitivity]:
+    """Solve a contact, and find how its friction answers to compliance at any retardation time.
+
+    Parameters
+    ----------
+    material : Material
+        With a spectrum and a shift.
+    indenter : Indenter
+    speed, load, temperature : float
+        m/s, N or N/m, K.
+    **settings
+        Of `solve_steady`.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As of `solve_steady`.
+    """
+    here = material.modes_at(temperature)
+    counterface = indenter_compliance(settings.get("indenter_modulus"), settings.get("indenter_poisson_ratio", 0.3))
+    relaxed = (1.0 - material.poisson_ratio**2) / here.E0 + counterface
+    length = Scale.for_load(indenter, 1.0 / relaxed, load).length
+    alpha = 1.0 if material.shift is None else float(material.shift(temperature))
+    everywhere = replace(material, spectrum=_with_empty_modes(material.modes_at(), length / (speed * alpha)))
+    solution = solve_steady(
+        everywhere, indenter, speed=speed, load=load, temperature=temperature, derivatives=True, **settings
+    )
+    modes, found = everywhere.modes_at(temperature), solution.derivatives
+    assert found is not None
+    glass = -found.E_inf * modes.E_inf**2
+    log_tau = np.log(modes.tau)
+    nodes = _apart(log_tau)
+    return solution, ComplianceSensitivity(
+        friction=solution.friction_coefficient,
+        compliance_part=float(found.C @ modes.C) + glass / modes.E_inf,
+        log_tau=log_tau[nodes],
+        slope=found.C[nodes],
+        glass=glass,
+        load=found.logarithmic.load or 0.0,
+        frequency=speed / (0.5 * (solution.front + solution.rear)),
+    )
+
+
+def _with_empty_modes(spectrum: RetardationSpectrum, time: float) -> RetardationSpectrum:
+    """Add modes without compliance about a time (s), where the spectrum has none; in ascending order of τ."""
+    lattice = np.arange(np.log(REACH[0]), np.log(REACH[1]), SPACING) + np.log(time)
+    own = np.log(spectrum.tau)
+    free = lattice[np.all(np.abs(lattice[:, None] - own) > 0.5 * SPACING, axis=1)] if own.size else lattice
+    tau = np.concatenate([spectrum.tau, np.exp(free)])
+    C = np.concatenate([spectrum.C, np.zeros(free.size)])
+    order = np.argsort(tau, kind="stable")
+    return RetardationSpectrum(spectrum.E0, spectrum.E_inf, C[order], tau[order], spectrum.fit)
+
+
+def _apart(log_tau: Array) -> list[int]:
+    """Rows of ascending values that keep their distance from those taken before."""
+    rows = [0]
+    for row, value in enumerate(log_tau):
+        if value - log_tau[rows[-1]] >= LEAST_SPACING:
+            rows.append(row)
+    return rows
