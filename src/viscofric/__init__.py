@@ -45,9 +45,12 @@ if TYPE_CHECKING:
     from viscofric.errors import ViscofricError as ViscofricError
     from viscofric.friction.agreement import Agreement as Agreement
     from viscofric.friction.agreement import compare as compare
+    from viscofric.friction.assumptions import AssumptionCheck as AssumptionCheck
+    from viscofric.friction.assumptions import check_assumptions as check_assumptions
     from viscofric.friction.curve_files import read_friction_curves as read_friction_curves
     from viscofric.friction.curve_files import write_friction_curves as write_friction_curves
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
+    from viscofric.friction.flash_temperature import ThermalProperties as ThermalProperties
     from viscofric.friction.measurement.tribometry import separate as separate
     from viscofric.friction.prediction import predict_friction as predict_friction
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve as FrictionMasterCurve
@@ -138,7 +141,10 @@ _HOME = {
     "compare": "viscofric.friction.agreement",
     "read_friction_curves": "viscofric.friction.curve_files",
     "write_friction_curves": "viscofric.friction.curve_files",
+    "AssumptionCheck": "viscofric.friction.assumptions",
+    "check_assumptions": "viscofric.friction.assumptions",
     "FrictionCurves": "viscofric.friction.curves",
+    "ThermalProperties": "viscofric.friction.flash_temperature",
     "predict_friction": "viscofric.friction.prediction",
     "FrictionMasterCurve": "viscofric.friction.shifting.master_curve",
     "shift_friction": "viscofric.friction.shifting.master_curve",

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.nominal import SAME_LOAD
 from viscofric.friction.measurement.conditions import Condition, where
+from viscofric.nominal import SAME_LOAD
 from viscofric.units import to_si
 
 if TYPE_CHECKING:

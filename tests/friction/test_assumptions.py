@@ -1,0 +1,141 @@
+"""What friction takes for granted: judged by the right numbers, said in plain words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from friction.made_runs import friction_curves
+from viscofric.errors import InputError
+from viscofric.friction.flash_temperature import (
+    FILLED_RUBBER,
+    STEEL,
+    bulk_temperature,
+    flash_temperature,
+    shared_flash_temperature,
+)
+
+RUBBER = vf.synthetic_fluoroelastomer()
+BALL = vf.Ball(radius="9.525 mm")
+SPEED, KELVIN = np.tile([0.02, 0.2], 2), np.repeat([303.15, 333.15], 2)
+
+
+def curves(load: float = 25.0) -> vf.FrictionCurves:
+    """Friction that falls by half over a decade of speed."""
+    return friction_curves(SPEED, KELVIN, 0.02 * (SPEED / 0.02) ** -0.301, load=load)
+
+
+def checks(*arguments, **settings) -> dict[str, vf.AssumptionCheck]:
+    return {check.name: check for check in vf.check_assumptions(*arguments, **settings)}
+
+
+def test_the_widest_contact_is_judged_by_hertz_at_the_rubber_modulus() -> None:
+    """a³ = 3 F R (1 − ν²)/(4 E0) with E0 = 3 MPa: 3.9 mm under 25 N, more than |E(v/a)| gives."""
+    widest = (0.75 * 25.0 * 9.525e-3 * 0.75 / 3e6) ** (1 / 3)
+    found = checks(RUBBER, BALL, curves(), thickness="20 mm")
+    assert found["half-space"].value == pytest.approx(widest / 20e-3)
+    assert found["small contact"].value == pytest.approx(widest / 9.525e-3)
+    assert found["linearity"].value == pytest.approx(0.2 * widest / 9.525e-3)
+    assert found["half-space"].holds
+    assert "60 °C, 20 mm/s and 25 N" in str(found["half-space"])  # slow and warm: widest by either bound
+
+
+def test_the_contact_that_is_solved_lies_between_its_bounds() -> None:
+    solution = vf.solve_steady(RUBBER, BALL, speed=0.02, load=25.0, temperature=333.15)
+    said = checks(RUBBER, BALL, curves())["half-space"].sentence
+    low, high = (float(said.split(word)[1].split()[0]) for word in ("is about ", "at most "))
+    # the estimate at |E(v/a)| to a tenth, as printed
+    assert 0.9 * low < 1e3 * max(solution.half_width, 0.5 * (solution.front + solution.rear)) < high
+
+
+@pytest.mark.parametrize(("thickness", "holds"), [("8 mm", False), ("12 mm", None), ("16 mm", True)])
+def test_what_depends_on_the_contacts_size_is_left_open(thickness: str, holds: bool | None) -> None:
+    """Four times 2.4 mm, an estimate, and four times 3.5 mm, the bound, are 9.7 and 14.2 mm."""
+    check = checks(RUBBER, BALL, curves(), thickness=thickness)["half-space"]
+    assert check.holds is holds
+    assert {True: "pass for a half-space", None: "give contact_radius", False: "layer=Layer"}[holds] in str(check)
+
+
+def test_without_a_thickness_the_one_that_serves_is_told() -> None:
+    check = checks(RUBBER, BALL, curves(), contact_radius="2 mm")["half-space"]
+    assert (check.value, check.holds) == (None, None)
+    assert "4 contact radii, 8 mm, and more" in check.sentence
+    assert "not told" in check.sentence
+
+
+def test_a_solved_contact_settles_it() -> None:
+    radii = [2e-3, 2.1e-3, 2.5e-3, 3e-3]
+    found = checks(RUBBER, BALL, curves(), thickness="10 mm", contact_radius=radii)
+    assert found["half-space"].value == pytest.approx(0.3)
+    assert found["half-space"].holds is False
+    assert found["small contact"].value == pytest.approx(3.0 / 9.525)
+    assert found["small contact"].holds is False
+    assert "The contact's radius is 3 mm (at 60 °C, 200 mm/s and 25 N)" in str(found["half-space"])
+    small = checks(RUBBER, BALL, curves(), contact_radius="1 mm")
+    assert small["small contact"].holds
+    assert small["linearity"].value == pytest.approx(0.2 / 9.525)
+    assert "2.1 %" in str(small["linearity"])
+
+
+def test_warming_is_counted_as_a_shift_of_speed_and_a_change_of_friction() -> None:
+    """Coulomb friction 0.5 at 20 % slip under a steel ball, every step by itself."""
+    measured = replace(curves(), coulomb=np.full(4, 0.5), slip=0.2 * SPEED)
+    check = checks(RUBBER, BALL, measured, contact_radius="2 mm", counterbody=STEEL)["one temperature"]
+    heat, radius = 0.5 * 25.0 * 0.04, 2e-3
+    surface = shared_flash_temperature(
+        flash_temperature(heat, radius, 0.2, FILLED_RUBBER), flash_temperature(heat, radius, 0.16, STEEL)
+    )
+    rise = surface + bulk_temperature(measured.viscoelastic[1] * 25.0, radius, FILLED_RUBBER)
+    decades = rise * (RUBBER.shift.log10(302.65) - RUBBER.shift.log10(303.65))
+    assert check.value == pytest.approx(10.0 ** (0.301 * decades) - 1.0, rel=1e-6)
+    assert check.holds
+    assert "at 30 °C, 200 mm/s and 25 N" in check.sentence
+    assert "handbook values of filled rubber and bearing steel" in check.sentence
+    assert f"shifts the speed by {decades:.2g} decades" in check.sentence
+
+
+def test_a_hot_contact_is_told() -> None:
+    """The same under PTFE, which is no better a conductor than the rubber."""
+    measured = replace(curves(), coulomb=np.full(4, 0.5), slip=0.2 * SPEED)
+    check = checks(RUBBER, BALL, measured, contact_radius="2 mm")["one temperature"]
+    assert check.holds is False
+    assert "above the 5 % that pass" in check.sentence
+
+
+def test_without_coulomb_friction_its_heat_is_said_not_to_count() -> None:
+    check = checks(RUBBER, BALL, curves())["one temperature"]
+    assert check.holds
+    assert "Coulomb heat is not counted" in check.sentence
+    assert check.value < 0.01
+
+
+def test_a_slow_contact_is_no_warmer_than_its_surface_would_be() -> None:
+    slow = replace(curves(), speed=1e-6 * SPEED)
+    value = checks(RUBBER, BALL, slow, contact_radius="2 mm")["one temperature"].value
+    assert value < 1e-3 * checks(RUBBER, BALL, curves(), contact_radius="2 mm")["one temperature"].value
+
+
+def test_line_contacts_and_shift_tables_are_judged_too() -> None:
+    """At the ends of a table α is known on one side only."""
+    table = vf.ShiftFactors(np.array([303.15, 333.15]), RUBBER.shift.log10(np.array([303.15, 333.15])), 303.15)
+    line = replace(curves(load=500.0), load_unit="N/m", coulomb=np.full(4, 0.1), slip=0.1 * SPEED)
+    found = checks(replace(RUBBER, shift=table), vf.Cylinder(radius="10 mm"), line)
+    assert 0.0 < found["one temperature"].value < 0.05
+    # a² = 4 F R (1 − ν²)/(π E0)
+    assert found["small contact"].value == pytest.approx(np.sqrt(4 * 500.0 * 0.01 * 0.75 / (np.pi * 3e6)) / 0.01)
+
+
+def test_what_cannot_be_checked_is_refused() -> None:
+    with pytest.raises(InputError, match="no contacts to check"):
+        vf.check_assumptions(RUBBER, BALL, curves().select(np.zeros(4, dtype=bool)))
+    with pytest.raises(InputError, match="must be an indenter"):
+        vf.check_assumptions(RUBBER, 9.5e-3, curves())
+    with pytest.raises(InputError, match="has no shift"):
+        vf.check_assumptions(replace(RUBBER, shift=None), BALL, curves())
+    with pytest.raises(InputError, match="one for each of the 4 points"):
+        vf.check_assumptions(RUBBER, BALL, curves(), contact_radius=[1e-3, 2e-3])
+    with pytest.raises(InputError, match="thickness"):
+        vf.check_assumptions(RUBBER, BALL, curves(), thickness="-1 mm")
