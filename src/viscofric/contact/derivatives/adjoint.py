@@ -35,10 +35,11 @@ from viscofric.contact.operators.convolution import SHORT_MEMORY, bent_share
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from viscofric.contact.free.problem import Stage
-    from viscofric.contact.influence.potentials import CellPotential
     from viscofric.contact.operators.convolution import ConvolutionOperator
 
     Array: TypeAlias = NDArray[np.float64]
@@ -142,33 +143,53 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
         gap = free_gap(pressure, stage.gap)
         by_pressure += scale * neighbours(gap)
         held = -scale * np.where(gap > 0.0, neighbours(pressure), 0.0)
-    found = _adjoint(stage, by_pressure, value, held)
+    field, by_load, by_held = _adjoint_field(stage, by_pressure, value, held)
+    box = _box((pressure > 0.0) | (field != 0.0))
+    moved = correlation(field[box], pressure[box])
     if way == "pressure":
-        return found
-    energy = correlation(pressure, pressure) / total
-    lost, change = _lost(energy, material.memory_lengths / window.spacing, operator.cell, bent=bent)
+        (sums,) = _sums(operator, moved[None], operator.shift)
+        return Adjoint(_change(operator, sums, by_held), field, by_load)
+    # Second differences of K, summed over a correlation, are second differences of the correlation.
+    moved, energy = (np.pad(one, ((1, 1), (0, 0))) for one in (moved, correlation(pressure[box], pressure[box])))
+    bends = neighbours(energy) - 2.0 * energy
+    if operator.shift == 0.0:
+        work, slope, bend = _sums(operator, np.stack([moved, energy, bends]), 0.0)
+    else:
+        (work,) = _sums(operator, moved[None], operator.shift)
+        slope, bend = _sums(operator, np.stack([energy, bends]), 0.0)
+    gradient = _change(operator, work, by_held)
+    curvature = float(np.vdot(energy, _around(operator.cell.xx, energy, operator.cell.aspect))) if not bent else None
+    lost, change = _lost(slope, bend, material.memory_lengths / window.spacing, curvature)
     by_length = material.compliances * change / material.memory_lengths
-    gradient = found.gradient.plus(Gradient(0.0, lost, by_length, 0.0), -operator.unit)
+    gradient = gradient.plus(Gradient(0.0, lost, by_length, 0.0), -operator.unit / total)
     if bent:
         gradient = gradient.plus(Gradient(*lag_changes(material, window.spacing, CUTS[1]), 0.0), stage.opening)
-    return found._replace(gradient=gradient)
+    return Adjoint(gradient, field, by_load)
 
 
-def mean_gradient(stage: Stage, values: Array) -> tuple[float, Gradient]:
-    """Return the mean of a field (nx, ny) over the load, and differentiate it.
+def mean_gradients(stage: Stage, fields: list[Array]) -> list[Gradient]:
+    """Differentiate the means of fields (nx, ny) over the load.
 
     Raises
     ------
     ConvergenceError
-        If the adjoint problem is not solved.
+        If an adjoint problem is not solved.
     """
-    weights = values / stage.result.pressure.sum()
-    mean = float(np.vdot(weights, stage.result.pressure))
-    return mean, _adjoint(stage, weights, mean, np.zeros_like(weights)).gradient
+    pressure, none = stage.result.pressure, np.zeros(stage.window.shape)
+    total, box, shift = float(pressure.sum()), _box(pressure > 0.0), stage.operator.shift
+    solved = [_adjoint_field(stage, one / total, float(np.vdot(one, pressure)) / total, none) for one in fields]
+    sums = _sums(stage.operator, np.stack([correlation(one[box], pressure[box]) for one, _, _ in solved]), shift)
+    return [_change(stage.operator, one, by_held) for one, (_, _, by_held) in zip(sums, solved, strict=True)]
 
 
-def _adjoint(stage: Stage, by_pressure: Array, value: float, held: Array) -> Adjoint:
-    """Differentiate a number that is homogeneous in the pressures, but for what it changes at fixed ones.
+def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """Smallest rectangle of cells that holds a set of them."""
+    rows, columns = (np.flatnonzero(mask.any(axis=1 - axis)) for axis in (0, 1))
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+
+
+def _adjoint_field(stage: Stage, by_pressure: Array, value: float, held: Array) -> tuple[Array, float, float]:
+    """Solve for λ of a number that is homogeneous in the pressures, but for what it changes at fixed ones.
 
     Parameters
     ----------
@@ -178,23 +199,26 @@ def _adjoint(stage: Stage, by_pressure: Array, value: float, held: Array) -> Adj
     value : float
     held : (nx, ny) array
         λ outside the contact.
+
+    Returns
+    -------
+    field : (nx, ny) array
+        λ.
+    by_load : float
+        Change of the number with the logarithm of the load; zero where the indentation is given.
+    by_held : float
+        Change with the load or with the indentation, whichever is given.
     """
-    pressure, fixed_load = stage.result.pressure, isinstance(stage.problem.control, GivenLoad)
-    each = value / float(pressure.sum())
-    field, level = _adjoint_field(stage, by_pressure if fixed_load else by_pressure - each, held, fixed_load=fixed_load)
-    by_load = (level - each) * float(pressure.sum()) if fixed_load else 0.0
-    by_held = (level - each) / stage.window.cell_area if fixed_load else float(field.sum())
-    box = _box((pressure > 0.0) | (field != 0.0))
-    return Adjoint(Gradient(*_changes(stage.operator, correlation(field[box], pressure[box])), by_held), field, by_load)
+    total = float(stage.result.pressure.sum())
+    each = value / total
+    if not isinstance(stage.problem.control, GivenLoad):
+        field, _ = _field_and_level(stage, by_pressure - each, held, fixed_load=False)
+        return field, 0.0, float(field.sum())
+    field, level = _field_and_level(stage, by_pressure, held, fixed_load=True)
+    return field, (level - each) * total, (level - each) / stage.window.cell_area
 
 
-def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
-    """Smallest rectangle of cells that holds a set of them."""
-    rows, columns = (np.flatnonzero(mask.any(axis=1 - axis)) for axis in (0, 1))
-    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
-
-
-def _adjoint_field(stage: Stage, by_pressure: Array, held: Array, *, fixed_load: bool) -> tuple[Array, float]:
+def _field_and_level(stage: Stage, by_pressure: Array, held: Array, *, fixed_load: bool) -> tuple[Array, float]:
     """Return λ, as held outside the contact, and η."""
     mirrored, loaded = stage.operator.transposed(), stage.result.pressure > 0.0
     backend = mirrored.backend
@@ -222,39 +246,51 @@ def _adjoint_field(stage: Stage, by_pressure: Array, held: Array, *, fixed_load:
     )
 
 
-def _changes(operator: ConvolutionOperator, adjoint: Array) -> tuple[float, Array, Array]:
-    """Return −λᵀ dK p by glassy compliance, compliances and memory lengths, from the correlation of λ and p."""
-    material, cell, spacing, shift = operator.material, operator.cell, operator.window.spacing, operator.shift
-    lengths, compliances = material.memory_lengths / spacing, material.compliances
-    (nx, ny) = adjoint.shape[0] // 2 + 1, adjoint.shape[1]
-    x, y = np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny))
-    moments, sensitivities = memory_moments(adjoint[None], lengths, shift, cell)
-    glassy = -operator.unit * spacing * float(np.vdot(adjoint, cell(x - shift, y)))
-    by_compliance = -operator.unit * spacing * moments[0]
-    by_logarithm = -operator.unit * spacing * compliances * sensitivities[0]
-    return glassy, by_compliance, by_logarithm / material.memory_lengths
+class _Sums(NamedTuple):
+    """A correlation summed up with the potential of a cell, and with each mode's delayed one and its change by ln λ."""
+
+    instant: float
+    delayed: Array
+    change: Array
 
 
-def _lost(energy: Array, lengths: Array, cell: CellPotential, *, bent: bool) -> tuple[Array, Array]:
+def _sums(operator: ConvolutionOperator, correlations: Array, shift: float) -> list[_Sums]:
+    """Return those of correlations (k, 2 n − 1, ny), looked at so many cells behind the centres."""
+    cell, lengths = operator.cell, operator.material.memory_lengths / operator.window.spacing
+    potential = _around(lambda x, y: cell(x - shift, y), correlations[0], cell.aspect)
+    delayed, changes = memory_moments(correlations, lengths, shift, cell)
+    return [
+        _Sums(float(np.vdot(one, potential)), sums, change)
+        for one, sums, change in zip(correlations, delayed, changes, strict=True)
+    ]
+
+
+def _around(function: Callable[[Array, Array], Array], correlation: Array, aspect: float) -> Array:
+    """Values at the distances of a correlation (2 n − 1, ny), in cells."""
+    (n, ny) = correlation.shape[0] // 2 + 1, correlation.shape[1]
+    return function(np.arange(-(n - 1.0), n)[:, None], aspect * np.arange(float(ny)))
+
+
+def _change(operator: ConvolutionOperator, sums: _Sums, by_held: float) -> Gradient:
+    """Return −λᵀ dK p by glassy compliance, compliances and memory lengths, from the sums of λ and p."""
+    material, scale = operator.material, -operator.unit * operator.window.spacing
+    by_logarithm = scale * material.compliances * sums.change
+    return Gradient(scale * sums.instant, scale * sums.delayed, by_logarithm / material.memory_lengths, by_held)
+
+
+def _lost(energy: _Sums, bends: _Sums, lengths: Array, curvature: float | None) -> tuple[Array, Array]:
     """Return what each mode dissipates per compliance, negative, and its change with ln λ.
 
-    By its slope, (K − L)/λ, or λ ∂²L/∂x² of a short memory, or partly by the bends λ ∂²K/∂x²; see
-    `viscofric.contact.operators.convolution.cell_influence`.
+    By its slope, (K − L)/λ, and partly by the bends λ ∂²K/∂x², unless the curvature ∂²L/∂x² of short memories is given;
+    see `viscofric.contact.operators.convolution.cell_influence`.
     """
-    (nx, ny) = energy.shape[0] // 2 + 1, energy.shape[1]
-    # Second differences of K, summed over a correlation, are second differences of the correlation.
-    wide = np.pad(energy, ((1, 1), (0, 0)))
-    curved = neighbours(wide) - 2.0 * wide
-    x, y = np.arange(-float(nx), nx + 1)[:, None], cell.aspect * np.arange(float(ny))
-    (sums, bends), (changes, bend_changes) = memory_moments(np.stack([wide, curved]), lengths, 0.0, cell)
-    lost = (sums - float(np.vdot(wide, cell(x, y)))) / lengths
-    change = changes / lengths - lost
-    if bent:
+    lost = (energy.delayed - energy.instant) / lengths
+    change = energy.change / lengths - lost
+    if curvature is None:
         share = bent_share(lengths)
         shift = -2.0 * share * (1.0 - share)  # ∂ share/∂ ln λ
-        bend, bend_change = lengths * bends, lengths * (bends + bend_changes)
+        bend, bend_change = lengths * bends.delayed, lengths * (bends.delayed + bends.change)
         return lost + share * (bend - lost), change + share * (bend_change - change) + shift * (bend - lost)
     short = lengths <= SHORT_MEMORY
-    if short.any():
-        lost[short] = change[short] = lengths[short] * float(np.vdot(wide, cell.xx(x, y)))
+    lost[short] = change[short] = lengths[short] * curvature
     return lost, change

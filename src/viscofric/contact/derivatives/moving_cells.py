@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.derivatives.adjoint import friction_adjoint, mean_gradient
+from viscofric.contact.derivatives.adjoint import friction_adjoint, mean_gradients
 from viscofric.contact.free.balance import CUTS, lag
 
 if TYPE_CHECKING:
@@ -58,9 +58,12 @@ class Motion:
         ConvergenceError
             If an adjoint problem is not solved.
         """
+        pressure = stage.result.pressure
         x = np.broadcast_to(stage.window.x[:, None], stage.window.shape)
-        centre, by_centre = mean_gradient(stage, x)
-        spread, by_spread = mean_gradient(stage, (x - centre) ** 2)
+        centre = float(np.vdot(x, pressure)) / float(pressure.sum())
+        square = (x - centre) ** 2
+        spread = float(np.vdot(square, pressure)) / float(pressure.sum())
+        by_centre, by_spread = mean_gradients(stage, [x, square])
         growth = by_spread.plus(by_spread, 0.5 / spread - 1.0)
         return cls(growth, by_centre.plus(growth, -centre))
 
@@ -84,30 +87,50 @@ def friction_gradient(stage: Stage, way: Way, motion: Motion | None) -> Gradient
     gradient, field, by_load = friction_adjoint(stage, way)
     if motion is None:
         return gradient
-    start = _friction_on(stage, way, field)
     # The load is held, so that on larger cells the pressures add up to less.
-    stretched = _friction_on(stage, way, field, stretch=1.0 + _STEP) - start
-    by_stretch = stretched / _STEP - stage.problem.geometry.dimension * by_load
-    by_shift = (_friction_on(stage, way, field, shift=_STEP) - start) / (_STEP * stage.window.spacing)
+    by_stretch = _stretched(stage, way, field, gradient) - stage.problem.geometry.dimension * by_load
+    by_shift = _elsewhere(stage, way, field, shift=_STEP) / stage.window.spacing
     if not math.isfinite(by_stretch + by_shift):
         return gradient  # the grid's last step leads beyond a height map's edge
     return gradient.plus(motion.growth, by_stretch).plus(motion.shift, by_shift)
 
 
-def _friction_on(stage: Stage, way: Way, field: Array, *, stretch: float = 1.0, shift: float = 0.0) -> float:
-    """Friction coefficient of the same pressures on cells elsewhere, less what λ makes of the gap there."""
-    window, problem, pressure, operator = stage.window, stage.problem, stage.result.pressure, stage.operator
-    if stretch != 1.0:
-        window = replace(window, spacing=stretch * window.spacing)
-        operator = problem.geometry.operator(window, operator.material, operator.shift, problem.backend)
-    x = window.x + shift * window.spacing
-    height = problem.shape.height((x - operator.shift * window.spacing)[:, None], window.y)
-    gap = operator.backend.to_numpy(operator(pressure)) + height
+def _stretched(stage: Stage, way: Way, field: Array, gradient: Gradient) -> float:
+    """Change with ln h of the friction coefficient of the same pressures, less what λ makes of the gap.
+
+    Displacements go with the cell's length times a function of memory lengths, and of a layer's thickness, over it: to
+    stretch the cells is to shorten the memories.
+    """
+    operator, pressure = stage.operator, stage.result.pressure
+    shortened = float(gradient.memory_lengths @ operator.material.memory_lengths)
     known = field != 0.0
-    value = -float(np.vdot(field[known], gap[known]))
-    total = float(pressure.sum())
+    change = _elsewhere(stage, way, field, stretch=1.0 + _STEP) - shortened
+    change -= float(np.vdot(field[known], stage.result.displacement[known]))
+    layer = stage.problem.layer
+    if way == "balance":
+        # Gaps are in λ already; what is left out goes with Λ, which is a length, and the inverse square of the cell.
+        change -= lag(operator.material, stage.window.spacing, CUTS[1]) * stage.opening
+    if layer is None:
+        return change
+    thicker = replace(operator, layer=replace(layer, thickness=(1.0 + _STEP) * layer.thickness))  # type: ignore[call-arg]
+    displacement = operator.backend.to_numpy(thicker(pressure)) - stage.result.displacement
+    thickened = -float(np.vdot(field[known], displacement[known]))
+    if way == "balance":
+        force = thicker.bent_dissipated_force(pressure) - operator.bent_dissipated_force(pressure)
+        thickened += force / (stage.window.cell_area * float(pressure.sum()))
+    return change - thickened / _STEP
+
+
+def _elsewhere(stage: Stage, way: Way, field: Array, *, stretch: float = 1.0, shift: float = 0.0) -> float:
+    """Change per step of what the indenter's height on cells elsewhere makes of the same number."""
+    window, shape, pressure = stage.window, stage.problem.shape, stage.result.pressure
+    there = replace(window, spacing=stretch * window.spacing)
+    x, y = there.x + shift * window.spacing, there.y
+    known = field != 0.0
+    behind = stage.operator.shift * there.spacing
+    risen = shape.height((x - behind)[:, None], y)[known] - stage.problem.height_on(window, stage.operator.shift)[known]
+    change = -float(np.vdot(field[known], risen))
     if way == "pressure":
-        return value + float(np.vdot(pressure, problem.shape.slope(x[:, None], window.y))) / total
-    force = operator.bent_dissipated_force(pressure) / (window.cell_area * total)
-    # Gaps are in λ already; what is left out goes with the inverse square of the cell.
-    return value + force + lag(operator.material, window.spacing, CUTS[1]) * stage.opening / stretch**2
+        steeper = shape.slope(x[:, None], y) - shape.slope(window.x[:, None], window.y)
+        change += float(np.vdot(pressure, steeper)) / float(pressure.sum())
+    return change / _STEP

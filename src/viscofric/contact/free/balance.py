@@ -28,7 +28,7 @@ cell, Λ is their mean and F_t = Λ ∫ p ∂²h/∂x² dA holds exactly, on any
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 
@@ -97,11 +97,11 @@ def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
 def _left_out(material: SteadyMaterial, spacing: float, cut: float) -> tuple[Array, ComplexArray, Array, Array]:
     """Return, of the waves beyond the cut: wavenumber, S, what of the loss is found from bends, over q, and weight."""
     wavenumber = cut / spacing * np.exp(np.linspace(0.0, _LONGEST, _STEPS))
-    symbol = material.symbol(wavenumber)
-    loss = np.zeros(_STEPS)
-    lengths = material.memory_lengths
-    for share, length in zip(bent_share(lengths / spacing) * material.compliances, lengths, strict=True):
-        loss += share * length / (1.0 + (wavenumber * length) ** 2)
+    lengths, compliances = material.memory_lengths, material.compliances
+    phase = np.outer(lengths, wavenumber)
+    wave = 1.0 / (1.0 + phase**2)
+    loss = (bent_share(lengths / spacing) * compliances * lengths) @ wave
+    symbol = material.glassy + material.counterface + compliances @ wave + 1j * (compliances @ (phase * wave))
     weight = (wavenumber * np.abs(symbol)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
     return wavenumber, symbol, loss, weight
 
@@ -123,16 +123,15 @@ def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[f
     by_loss = wavenumber * weight / whole
     twice = 2.0 * by_loss * (loss - value * symbol.real) / np.abs(symbol) ** 2
 
-    def by_symbol(change: Array) -> float:
-        return float(-twice @ (change * symbol.conj()).real - value * (by_loss @ change.real))
+    def by_symbol(change: NDArray[Any]) -> Array:
+        return np.asarray(-(change * symbol.conj()).real @ twice - value * (change.real @ by_loss))
 
-    by_compliance, by_length = np.zeros_like(lengths), np.zeros_like(lengths)
-    for k, (one, compliance, length) in enumerate(zip(share, compliances, lengths, strict=True)):
-        wave = 1.0 / (1.0 - 1j * wavenumber * length)
-        lost = length * np.abs(wave) ** 2
-        by_compliance[k] = by_symbol(wave) + one * float(by_loss @ lost)
-        # ∂(l/(1 + q²l²))/∂ ln l, and the share's own change, both per length
-        change = one * lost * (2.0 * np.abs(wave) ** 2 - 1.0) - 2.0 * one * (1.0 - one) * lost
-        by_length[k] = compliance / length * float(by_loss @ change)
-        by_length[k] += by_symbol(compliance * 1j * wavenumber * wave**2)
-    return by_symbol(np.ones(_STEPS, complex)), by_compliance, by_length
+    wave = 1.0 / (1.0 - 1j * np.outer(lengths, wavenumber))
+    size = np.abs(wave) ** 2
+    lost = (size @ by_loss) * lengths
+    by_compliance = by_symbol(wave) + share * lost
+    # ∂(l/(1 + q²l²))/∂ ln l, and the share's own change, both per length
+    change = lengths * (size * (2.0 * size - 1.0) @ by_loss) - 2.0 * (1.0 - share) * lost
+    by_length = compliances * share * change / lengths
+    by_length += by_symbol((1j * wavenumber * wave**2) * compliances[:, None])
+    return float(by_symbol(np.ones(_STEPS, complex))), by_compliance, by_length

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.contact.influence.memory_rules import faded
 from viscofric.contact.influence.parts import ROWS_AT_ONCE, Around, Modes, beyond, near_cells, near_memory
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def memory_moments(
     first, last = (distance + around.nx - 1 for distance in near_cells(around.nx))
     before = modes.fading(np.arange(float(first), 0.0, -1.0))
     for piece, memory in near_memory(around, modes, rows, 0.5 * potential.aspect):
-        found += np.einsum("kir,imr->km", weights[:, first : last + 1, piece], memory, optimize=True)
+        found += np.tensordot(weights[:, first : last + 1, piece], memory, ((1, 2), (0, 2)))
         # Farther behind it fades.
         for one, weight in zip(found, weights[:, :first, piece], strict=True):
             one += ((before @ weight) * memory[0]).sum(axis=1)
@@ -103,7 +104,7 @@ def _far(weights: Array, around: Around, modes: Modes, rows: Array) -> Inexact:
     found = np.zeros((sets, len(modes.rate)), modes.rate.dtype)
     # Mode by mode, since a strip may have a hundred thousand cells.
     for m, (rate, interpolated, outside) in enumerate(zip(modes.rate, modes.interpolated, tail, strict=True)):
-        fading = np.exp(-rate * np.arange(shared.shape[1]))
+        fading = faded(rate * np.arange(shared.shape[1]))
         for k in range(sets):
             found[k, m] = (fading @ windows[k]) @ interpolated + (fading[1 : length + 1] @ behind[k]) @ outside
     return found

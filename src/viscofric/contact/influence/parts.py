@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.influence.memory_rules import lattice_interpolation, panel_points, panel_rule, product_weights
+from viscofric.contact.influence.memory_rules import (
+    applied,
+    faded,
+    lattice_interpolation,
+    panel_points,
+    panel_rule,
+    product_weights,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -83,11 +90,11 @@ class Modes:
     @cached_property
     def interpolated(self) -> Inexact:
         """Weights (m, nodes) of the lattice points around a cell in the integral over that cell."""
-        return np.asarray(product_weights(NODES, self.rate) @ lattice_interpolation(NODES)[1])
+        return applied(product_weights(NODES, self.rate), lattice_interpolation(NODES)[1])
 
     def fading(self, cells: Array) -> Inexact:
         """Return what is left of each mode so many cells ahead: (m, cells)."""
-        return np.asarray(np.exp(-self.rate[:, None] * cells))
+        return faded(self.rate[:, None] * cells)
 
 
 def beyond(around: Around, modes: Modes, rows: Array) -> tuple[Inexact, Array]:
@@ -110,15 +117,15 @@ def beyond(around: Around, modes: Modes, rows: Array) -> tuple[Inexact, Array]:
     while edges[-1] < end:
         edges.append(2.0 * edges[-1] + nx)
     points, weights = panel_rule(np.array(edges), 16, modes.rate)
-    tail = weights @ around.at(start + points, nodes)
+    tail = applied(weights, around.at(start + points, nodes))
     # The convolution knows the lattice up to nx − 1 + last node, and interpolates there in a few cells of its own.
     places = np.arange(nx + FIRST, nx + _LAST)
     spurious = np.zeros((len(modes.rate), len(places)), modes.rate.dtype)
     for cell in range(nx, nx + _LAST - FIRST):
         known = (places >= cell + FIRST) & (places <= cell + _LAST)
-        faded = np.exp(-modes.rate * (cell - nx))[:, None]
-        spurious[:, known] += faded * modes.interpolated[:, places[known] - cell - FIRST]
-    return tail - spurious @ around.at(places.astype(float), nodes), interpolation
+        left = faded(modes.rate * (cell - nx))[:, None]
+        spurious[:, known] += left * modes.interpolated[:, places[known] - cell - FIRST]
+    return tail - applied(spurious, around.at(places.astype(float), nodes)), interpolation
 
 
 def _smooth_rows(rows: Array, distance: float) -> tuple[Array, Array]:
@@ -156,7 +163,7 @@ def near_memory(around: Around, modes: Modes, rows: Array, edge: float) -> Itera
     first, last = near_cells(around.nx)
     starts = np.searchsorted(rows - edge, [start for start, _, _ in _ROW_RULES])
     graded = int(np.searchsorted(rows - edge, _GRADED_ROWS))
-    decay = np.exp(-modes.rate)[:, None]
+    decay = faded(modes.rate)[:, None]
     for rule, (start, stop) in enumerate(pairwise(starts)):
         if stop == start:
             continue
@@ -164,13 +171,15 @@ def near_memory(around: Around, modes: Modes, rows: Array, edge: float) -> Itera
         fine = panel_rule(*_ROW_RULES[rule][1:], modes.rate)[1]
         lattice, potential = _near_potentials(around.potential, around.shift, first, last, y, rule)
         singular = _missed_by_edge(around, modes.rate, fine, y[:graded]) if start == 0 else {}
-        memory = np.zeros((last + 1 - first, len(modes.rate), len(y)), modes.rate.dtype)
-        for i in range(last, first - 1, -1):
-            place = i - first
-            added = fine @ potential[place] - modes.interpolated @ lattice[place : place + NODES]
-            memory[place] = added if i == last else added + decay * memory[place + 1]
-            if i in singular:
-                memory[place, :, :graded] += singular[i]
+        around_cells = np.lib.stride_tricks.sliding_window_view(lattice, NODES, axis=0)[: len(potential)]
+        # What each cell adds, then, cell by cell from the front, what fades from the one before.
+        memory = applied(fine, potential)
+        memory -= applied(modes.interpolated, around_cells.swapaxes(1, 2))
+        for cell, missed in singular.items():
+            if first <= cell <= last:
+                memory[cell - first, :, :graded] += missed
+        for place in range(last - first - 1, -1, -1):
+            memory[place] += decay * memory[place + 1]
         yield slice(start, stop), memory
 
 
@@ -181,7 +190,7 @@ def _missed_by_edge(around: Around, rate: Inexact, coarse: Inexact, y: tuple[flo
     """
     fine = panel_rule(_graded_panels(around.shift), 16, rate)[1]
     values = _edge_potentials(around.potential, around.shift, y)
-    return {cell: fine @ there - coarse @ here for cell, (there, here) in values.items()}
+    return {cell: applied(fine, there) - applied(coarse, here) for cell, (there, here) in values.items()}
 
 
 # Potentials near the loaded cell do not depend on the memory: the speeds of a curve share them.
