@@ -94,7 +94,13 @@ class FrictionDerivatives:
 
 
 def differentiate(
-    stages: list[Stage], scale: Scale, spectrum: RetardationSpectrum, plane_strain: float, velocity: float
+    stages: list[Stage],
+    scale: Scale,
+    spectrum: RetardationSpectrum,
+    plane_strain: float,
+    velocity: float,
+    *,
+    with_error: bool = True,
 ) -> FrictionDerivatives:
     """Differentiate the friction coefficient of a converged contact, by an adjoint solve on each of the last grids.
 
@@ -109,6 +115,8 @@ def differentiate(
         1 − ν².
     velocity : float
         m/s, neither zero nor infinite.
+    with_error : bool
+        Whether their error is to be estimated; without, it is infinite, and one adjoint solve on the last grid enough.
 
     Raises
     ------
@@ -120,8 +128,10 @@ def differentiate(
     motion = None if way == "energy" else Motion.of(last_grids[0])
     found = [
         _in_si(friction_gradient(stage, way, motion), stage, way, scale, spectrum, plane_strain, velocity)
-        for stage in last_grids
+        for stage in (last_grids if with_error else last_grids[-1:])
     ]
+    if not with_error:
+        return found[0]
     before, last = (
         float(np.abs(_numbers(after.logarithmic) - _numbers(first.logarithmic)).max())
         for first, after in pairwise(found)

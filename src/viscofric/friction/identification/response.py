@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias, Unpack
 import numpy as np
 
 from viscofric.contact.indenters.indenter import Indenter
-from viscofric.contact.steady import solve_steady
+from viscofric.contact.steady import friction_and_derivatives
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.processes import call_all
 from viscofric.rheology.material import Material
@@ -157,16 +157,14 @@ def respond(
 ) -> Array:
     """Solve one contact: friction coefficient, its error, its derivatives by ln E_inf, ln v, ln F and each C_k."""
     try:
-        solution = solve_steady(
-            material, indenter, speed=speed, load=load, accuracy=accuracy, derivatives=True, **settings
+        friction, error, found = friction_and_derivatives(
+            material, indenter, speed=speed, load=load, accuracy=accuracy, **settings
         )
     except ConvergenceError as failure:
         unit = indenter.geometry.load_unit
         raise ConvergenceError(f"speed {speed:g} m/s under {load:g} {unit}: {failure}") from failure
-    assert solution.derivatives is not None
-    found = solution.derivatives
-    numbers = [solution.friction_coefficient, solution.diagnostics.friction_error, found.logarithmic.E_inf]
-    return np.array([*numbers, found.logarithmic.speed, found.logarithmic.load, *found.C])
+    logarithmic = found.logarithmic
+    return np.array([friction, error, logarithmic.E_inf, logarithmic.speed, logarithmic.load, *found.C])
 
 
 def _contacts(indenter: Indenter, speeds: Quantities, load: Quantities) -> tuple[Array, Array]:
