@@ -15,7 +15,7 @@ from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.control import GivenIndentation, GivenLoad
 from viscofric.contact.free.estimates import friction_estimate
-from viscofric.contact.free.given_grid import LEAST_FINEST, GivenGrid
+from viscofric.contact.free.given_grid import COARSEST, LEAST_FINEST, GivenGrid
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 __all__ = ["SMALL_STRAIN", "solve_steady"]
 
 LONGEST_MEMORY = 1e100  # in contact radii; its square must not overflow
+_LOOSE = 5e-3  # accuracy that grids half as fine as usual mostly reach
 TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
 
 
@@ -171,14 +172,15 @@ def solve_steady(
 
 @one_blas_thread
 def friction_and_derivatives(
-    material: Material, indenter: Indenter, *, speed: float, load: float, **settings: Any
+    material: Material, indenter: Indenter, *, speed: float, load: float, accuracy: float, **settings: Any
 ) -> tuple[float, float, FrictionDerivatives]:
     """Solve a contact for its friction alone: what a fit that solves many of them needs, in half the time.
 
     Parameters
     ----------
-    material, indenter, speed, load
-        As of `solve_steady`; the speed is neither zero nor infinite.
+    material, indenter, speed, load, accuracy
+        As of `solve_steady`; the speed is neither zero nor infinite.  From an accuracy of 0.005 on, 64 cells along the
+        window are enough where they promise it, with which a contact takes half the time that it does with 128.
     **settings
         Likewise, but for `indentation`, `temperature` and `derivatives`.
 
@@ -196,7 +198,8 @@ def friction_and_derivatives(
         As `solve_steady`.
     """
     _check_derivatives(_velocity(speed))
-    solved = _solved(material, indenter, speed=speed, load=load, **settings)
+    coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
+    solved = _solved(material, indenter, speed=speed, load=load, accuracy=accuracy, coarsest=coarsest, **settings)
     estimate, scale = friction_estimate(solved.stages), solved.scale
     derivatives = differentiate(
         solved.stages, scale, solved.spectrum, solved.plane_strain, solved.velocity, with_error=False
@@ -235,6 +238,7 @@ def _solved(
     layer: Layer | None = None,
     backend: Backend | str = "scipy",
     direction: Sequence[float] = (1.0, 0.0),
+    coarsest: int = COARSEST,
 ) -> _Solved:
     """Check, and solve on nested grids; parameters as of `solve_steady`."""
     if not isinstance(indenter, Indenter):
@@ -259,7 +263,7 @@ def _solved(
     )
     ahead = math.copysign(1.0, velocity)
     shape = ScaledIndenter(indenter, scale, (ahead * toward[0], ahead * toward[1]))
-    problem = Problem(geometry, solid, shape, control, tolerance, Backend.of(backend))
+    problem = Problem(geometry, solid, shape, control, tolerance, Backend.of(backend), coarsest=coarsest)
     if layer is not None:
         scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)
         problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)

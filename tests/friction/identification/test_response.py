@@ -34,15 +34,24 @@ def response() -> FrictionResponse:
 
 def test_numbers_are_those_of_the_contacts(response: FrictionResponse) -> None:
     material = vf.Material(rubber(), poisson_ratio=0.5)
-    solution = vf.solve_steady(material, BALL, speed=3.0, load=2.0, accuracy=ACCURACY, derivatives=True)
+    solution = vf.solve_steady(material, BALL, speed=3.0, load=2.0, derivatives=True)
     assert solution.derivatives is not None
-    assert (response.speed[2], response.load[2]) == (3.0, 2.0)
-    assert response.friction[2] == pytest.approx(solution.friction_coefficient, rel=1e-12)
-    assert response.C[2] == pytest.approx(solution.derivatives.C, rel=1e-6)  # the adjoint problem is solved to 1e-8
-    assert response.log_C[2] == pytest.approx(solution.derivatives.logarithmic.C, rel=1e-6)
-    assert response.log_E_inf[2] == pytest.approx(solution.derivatives.logarithmic.E_inf, rel=1e-6)
-    assert response.log_speed[2] == pytest.approx(solution.derivatives.logarithmic.speed, rel=1e-6)
-    assert response.log_load[2] == pytest.approx(solution.derivatives.logarithmic.load, rel=1e-6)
+    found = friction_response(rubber(), 0.5, BALL, 3.0, 2.0)
+    assert (found.speed[0], found.load[0]) == (3.0, 2.0)
+    assert found.friction[0] == pytest.approx(solution.friction_coefficient, rel=1e-12)
+    assert found.error[0] == pytest.approx(solution.diagnostics.friction_error, rel=1e-12)
+    logarithmic = solution.derivatives.logarithmic
+    near = {"rel": 1e-9}  # the same operations
+    assert found.C[0] == pytest.approx(solution.derivatives.C, **near)
+    assert found.log_C[0] == pytest.approx(logarithmic.C, **near)
+    assert [found.log_E_inf[0], found.log_speed[0], found.log_load[0]] == pytest.approx(
+        [logarithmic.E_inf, logarithmic.speed, logarithmic.load], **near
+    )
+    # At a loose accuracy the grids are half as fine; the contact is the last of the curve.
+    apart = abs(response.friction[2] - found.friction[0])
+    assert 0.0 < apart <= response.error[2] + found.error[0]
+    # Of the derivatives twice the largest error that forty random rubbers have: 1e-2 of the largest.
+    assert np.abs(response.log_C[2] - found.log_C[0]).max() <= 0.02 * np.abs(found.log_C[0]).max()
 
 
 def test_stiffness_and_load_have_one_effect(response: FrictionResponse) -> None:

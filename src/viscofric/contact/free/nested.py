@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.contact.free.estimates import FEWEST_GRIDS, friction_estimate
-from viscofric.contact.free.given_grid import COARSEST, GivenGrid
+from viscofric.contact.free.given_grid import GivenGrid
 from viscofric.contact.free.problem import Problem, Stage
 from viscofric.contact.free.proximal import proximal_points
 from viscofric.contact.operators.convolution import collocation_shift
@@ -209,7 +209,7 @@ def _fitted_window(problem: Problem, size: float) -> Stage:
 
 def _coarsest(problem: Problem) -> int:
     """Cells along the longer edge of the coarsest window: so many that they resolve a thin layer, if there is one."""
-    cells = COARSEST
+    cells = problem.coarsest
     while problem.layer is not None and cells < _FINEST_START:
         spacing = 3.0 * problem.first_size / cells
         if problem.layer.thickness >= _LAYER_CELLS * spacing:

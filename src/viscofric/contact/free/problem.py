@@ -14,6 +14,7 @@ from viscofric.contact.free.balance import CUTS, lag, opening
 from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.estimates import Estimate
 from viscofric.contact.free.footprint import Footprint
+from viscofric.contact.free.given_grid import COARSEST
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -63,6 +64,8 @@ class Problem:
         Where it is solved.
     layer : ScaledLayer, optional
         What the geometry's operator is one of; a half-space without.
+    coarsest : int
+        Cells along the longer edge of the window on the coarsest grid.
     """
 
     geometry: Geometry
@@ -72,6 +75,7 @@ class Problem:
     tolerance: float
     backend: Backend = field(default_factory=Backend)
     layer: ScaledLayer | None = None
+    coarsest: int = COARSEST
 
     @cached_property
     def first_size(self) -> float:

@@ -67,9 +67,10 @@ class SteadyMaterial:
         yielding : array, optional
             Θ of a layer at these wavenumbers, by which its part is multiplied.
         """
-        result = np.full(np.shape(qx), complex(self.glassy))
-        for compliance, length in zip(self.compliances, self.memory_lengths, strict=True):
-            result += compliance / (1.0 - 1j * qx * length)
+        with np.errstate(over="ignore"):  # where the square of a phase overflows, its mode is as good as rigid
+            phase = np.multiply.outer(qx, self.memory_lengths)
+            wave = 1.0 / (1.0 + phase**2)
+        result = self.glassy + wave @ self.compliances + 1j * ((phase * wave) @ self.compliances)
         return np.asarray(result * yielding + self.counterface)
 
 
