@@ -143,7 +143,7 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
             assumption=(remarks["assumption"] or [""])[0],
             notes=tuple(notes),
             load_unit=unit,
-            **columns,  # type: ignore[arg-type]
+            **columns,
         )
     except InputError as error:
         raise DataFileError(path, f"holds no friction curves: {error}") from None
