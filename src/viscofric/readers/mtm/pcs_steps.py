@@ -31,6 +31,7 @@ UNITS = {
     "traction force": "N",
     "traction coeff": "",
 }
+_ALSO = {"lube temp": "lube rtd temp", "lubricant temp": "lube rtd temp", "pot temp": "pot rtd temp"}
 _SPEED_UNITS = ("rolling speed", "sliding speed")
 
 
@@ -179,6 +180,7 @@ def _layout(path: str, step: Step, line: int, cells: list[str]) -> Layout | None
     for place, cell in enumerate(cells):
         column = heading(cell)
         name = column.name.lower().replace("disk", "disc").replace("temperature", "temp")
+        name = _ALSO.get(name, name)
         # The first column repeats one of the others: the last of a name is the one in its own place.
         found[name] = (place, cell.strip(), column.unit)
     if len(found.keys() & UNITS.keys()) < 2:

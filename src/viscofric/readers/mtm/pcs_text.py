@@ -55,9 +55,11 @@ def read(source: Source, thermometer: Thermometer) -> TractionReadings:
     load, where = _load(rows)
     row, signal, left_out = _readings(rows, load)
     if not row.size:
-        raise DataFileError(
-            source.path, f"none of its {len(export.steps)} steps holds a row with a traction force and a load."
+        problem = (
+            f"none of its {len(export.steps)} steps holds a row with a traction force (in a column "
+            "'Traction Force (N)' or 'TF1 (N)') under load."
         )
+        raise DataFileError(source.path, problem)
     disc, ball = _speeds(rows, row, signal)
     temperature, thermal = _temperature(rows, row, thermometer)
     force = np.concatenate([rows.stacked(*SIGNALS), [rows.columns["traction force"]]])[signal, row]
