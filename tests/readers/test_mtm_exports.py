@@ -362,11 +362,33 @@ def test_real_exports_are_read_completely(real_data, name):
     assert not any("is not" in one for one in runs.notes)
 
 
-def test_coulomb_friction_of_a_real_machine_follows_the_slip_of_the_disc(real_data):
+@pytest.fixture(scope="module")
+def real_pairs(real_data):
+    """Rows of a real ETM with TF1 and TF2 at clear slip: two readings each."""
     path = real_data / "mtm" / "ETM_slim_mapper.txt"
     if not path.is_file():
         pytest.skip(f"no real export {path}")
     runs = read_mtm(path)
-    sliding = np.abs(runs.disc_speed - runs.ball_speed) > 0.05 * np.abs(runs.disc_speed)
-    along = runs.traction_force * np.sign(runs.disc_speed - runs.ball_speed)
-    assert np.mean(along[sliding] > 0.0) > 0.999
+    # step 2 is timed, all others reverse the slip
+    ratio = (runs.disc_speed - runs.ball_speed)[60:].reshape(-1, 2) / runs.disc_speed[60:].reshape(-1, 2)
+    clear = np.flatnonzero(np.abs(ratio).min(axis=1) > 0.05)
+    return runs.select(np.stack([60 + 2 * clear, 61 + 2 * clear], axis=1).ravel())
+
+
+def test_coulomb_friction_of_a_real_machine_follows_the_slip_of_the_disc(real_pairs):
+    along = real_pairs.traction_force * np.sign(real_pairs.disc_speed - real_pairs.ball_speed)
+    assert np.mean(along > 0.0) > 0.999
+
+
+def test_the_zero_reading_has_not_been_taken_off_TF1_and_TF2(real_pairs):
+    """Most of the zero reading's change from step to step is its own error, which readings then must not hold."""
+    first = real_pairs.select(np.arange(0, len(real_pairs), 2))
+    half_sum = real_pairs.traction_force.reshape(-1, 2).mean(axis=1)
+    steps = np.unique(first.step)
+    zero = np.diff([first.zero_force[first.step == step][0] for step in steps])
+    middle = np.diff([np.median(half_sum[first.step == step]) for step in steps])
+    (slope, _), covariance = np.polyfit(zero, middle, 1, cov=True)
+    own_error = -2.0 * np.corrcoef(zero[1:], zero[:-1])[0, 1]  # 1 for independent errors, 0 for a random walk
+    error = float(np.sqrt(covariance[0, 0]))
+    assert own_error > 0.8
+    assert abs(slope) < 3.0 * error < own_error

@@ -13,7 +13,7 @@ from viscofric.readers.table import MISSING, heading
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-_START = re.compile(r"\s*Step\s+(\d{1,6})\s+started\s+at\b\s*(.*?)\s*", re.IGNORECASE)
+_START = re.compile(r"\s*Step\s+(\d{1,6})\s+started\s+at\b(.*)", re.IGNORECASE)
 NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*", re.ASCII)
 #: No force, speed, temperature or time of a tribometer is larger, in the units that it prints.
 LARGEST = 1e9
@@ -105,7 +105,7 @@ def parse(path: str, text: str) -> Export:
             continue
         start = _START.fullmatch(line) if "\t" not in line else None
         if start:
-            export.steps.append(Step(int(start[1]), start[2], number))
+            export.steps.append(Step(int(start[1]), start[2].strip(), number))
             continue
         cells = line.split("\t")
         if not export.steps:
