@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from time import process_time
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -66,6 +69,37 @@ def test_four_runs_give_back_what_was_planted(
     assert curves.slip is not None
     np.testing.assert_allclose(curves.slip, slip_ratio * curves.speed, rtol=1e-12)
     assert curves.notes == ()
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(1, 4)), max_size=12), st.integers(0, 1000))
+@settings(deadline=None, max_examples=40, derandomize=True)
+def test_unbalanced_and_jittering_data_give_back_what_was_planted(missing: list[tuple[int, int]], seed: int) -> None:
+    """Whatever readings are missing, as long as three configurations are there, and however often others come."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.2 * v,
+        coulomb=0.07,
+        replicates=4,
+        speeds=[0.1],
+        temperatures=[303.15],
+        load_jitter=0.01,
+        temperature_jitter=0.1,
+        seed=seed,
+    )
+    rows = rows_of(runs)
+    random = np.random.default_rng(seed)
+    lacking = [4 * configuration + replicate - 1 for configuration, replicate in missing]
+    rows = np.delete(rows, lacking, axis=0)
+    there = {(np.sign(row[0]), np.sign(row[0] - row[1])) for row in rows}
+    rows = np.concatenate([rows, rows[random.integers(0, len(rows), 5)]])
+    if len(there) < 3:
+        with pytest.raises(InputError, match="apart"):
+            separate(runs_from(rows))
+        return
+    curves = separate(runs_from(rows))
+    np.testing.assert_allclose(curves.viscoelastic, 0.02, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(curves.coulomb, 0.07, rtol=0, atol=ROUNDING)  # type: ignore[arg-type]
+    np.testing.assert_allclose(curves.offset, 0.3, rtol=0, atol=25 * ROUNDING)  # type: ignore[arg-type]
+    assert not any("fit together" in note or "drift" in note or "negative" in note for note in curves.notes)
 
 
 def test_the_papers_formulae_hold_for_four_forces() -> None:
@@ -314,6 +348,38 @@ def test_an_outlier_is_noted_and_kept() -> None:
     assert abs(curves.viscoelastic[0] - 0.03) > 3e-4
 
 
+@pytest.mark.parametrize("places", [(5,), (5, 40, 41, 60)])
+def test_outliers_are_left_out_if_wanted_and_named(places: tuple[int, ...]) -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=8, noise=0.01, speeds=[0.1])
+    rows = rows_of(runs)
+    rows[list(places), 2] += 0.5
+    curves = separate(runs_from(rows), outliers="leave out")
+    without = separate(runs_from(np.delete(rows, places, axis=0)))
+    np.testing.assert_array_equal(curves.viscoelastic, without.viscoelastic)
+    np.testing.assert_array_equal(curves.coulomb_error, without.coulomb_error)  # type: ignore[arg-type]
+    (note,) = (note for note in curves.notes if "left out" in note)
+    assert "row 6 (replicate 6, 30.0 °C and 100 mm/s" in note
+    assert ("and 1 more" in note) == (len(places) > 3)
+    with pytest.raises(InputError, match="must be 'keep' or 'leave out'"):
+        separate(runs, outliers="drop")  # type: ignore[arg-type]
+
+
+def test_outliers_are_left_out_with_all_that_was_recorded_with_them() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=8, noise=0.01, speeds=[0.1])
+    force = runs.traction_force.copy()
+    force[9] -= 0.5
+    recorded = replace(
+        runs,
+        traction_force=force,
+        zero_force=np.full(len(runs), 0.3),
+        time=np.arange(len(runs), dtype=float),
+        step=np.arange(len(runs)),
+    )
+    curves = separate(recorded, outliers="leave out")
+    # 31 readings of 0.01 N over 25 N: 7e-5; five of them.
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=3.6e-4)
+
+
 @pytest.mark.parametrize("slip_ratio", [0.01, 0.03, 1.5])
 def test_small_slips_have_signs_where_speeds_are_steady(slip_ratio: float) -> None:
     """What slip can be told from rolling follows from the measured jitter of the speeds, here 0.1 %."""
@@ -362,3 +428,21 @@ def test_no_readings_are_an_error() -> None:
 def test_tolerance_must_be_a_fraction(tolerance: float) -> None:
     with pytest.raises(InputError, match="between 0 and 1"):
         separate(traction_runs(viscoelastic=lambda v, T: 0.03), speed_tolerance=tolerance)
+
+
+@pytest.mark.slow
+def test_fifty_thousand_readings_take_seconds() -> None:
+    """1500 conditions of eight replicates; the limit allows a machine ten times slower than a laptop."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03,
+        speeds=tuple(np.geomspace(0.02, 0.2, 30)),
+        temperatures=tuple(290.0 + 5.0 * np.arange(52)),
+        replicates=8,
+        noise=0.05,
+    )
+    assert len(runs) == 49920
+    start = process_time()
+    curves = separate(runs)
+    assert process_time() - start < 20.0
+    assert len(curves) == 1560
+    assert curves.notes == ()

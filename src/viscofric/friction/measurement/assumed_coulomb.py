@@ -108,9 +108,10 @@ class Assumed:
                 )
             sense = _sense(first)
             friction = np.array([sense * entries[place].value[1] for place in alike])
-            limit = int(np.argmin(sense * friction))
+            lowest = int(np.argmin(sense * friction))
+            limit = entries[alike[lowest]]
             for place in alike:
-                entries[place] = _parted(entries[place], sense, friction[limit], entries[alike[limit]])
+                entries[place] = _parted(entries[place], sense, friction[lowest], limit)
         return entries, places
 
     def sentence(self, some: list[Condition], total: int) -> str:

@@ -27,14 +27,23 @@ def outliers(runs: TractionRuns, groups: list[Condition], entries: list[Entry]) 
     if not groups:
         return []
     deviations = [_deviations(runs, group, entry.value[0]) for group, entry in zip(groups, entries, strict=True)]
-    whole = _robust_deviation(np.concatenate(deviations))
+    every = np.concatenate(deviations)
+    configuration = np.concatenate([group.configurations for group in groups])
+    # Few readings tell a scale badly; the whole test, and all readings of equal signs, tell what it may be at least.
+    least = {
+        one: max(_robust_deviation(every), _robust_deviation(every[configuration == one]))
+        for one in np.unique(configuration).tolist()
+    }
     found: list[tuple[Condition, int]] = []
     for group, deviation in zip(groups, deviations, strict=True):
-        # Few readings tell a scale badly; the whole test tells what it may be at least.
         rounding = ROUNDING * float(np.abs(runs.traction_force[group.rows]).max())
-        scale = max(_robust_deviation(deviation), whole, rounding)
-        far = np.flatnonzero(np.abs(deviation) > _OUTLIER * scale * _of_few(group))
-        found += [(group, int(group.rows[row])) for row in far]
+        floor = max(_robust_deviation(deviation), rounding)
+        for one in set(group.configurations.tolist()):
+            same = np.flatnonzero(group.configurations == one)
+            if same.size >= _FEWEST_FOR_OUTLIERS:
+                scale = max(floor, least[one], _robust_deviation(deviation[same]))
+                far = np.abs(deviation[same]) > _OUTLIER * scale * _of_few(same.size)
+                found += [(group, int(row)) for row in group.rows[same[far]]]
     return found
 
 
@@ -67,15 +76,13 @@ def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
     return deviation
 
 
-def _of_few(group: Condition) -> Array:
+def _of_few(n: int) -> float:
     """How much further a reading may be off where few stand behind the median.
 
     An outlying one of n is off a median that has itself a variance of π/2n, and the median absolute deviation of n is
     small by about (n − 0.8)/n (C. Croux, P. J. Rousseeuw, Computational Statistics 1, 411–428, 1992).
     """
-    _, which, count = np.unique(group.configurations, return_inverse=True, return_counts=True)
-    n = np.maximum(count, _FEWEST_FOR_OUTLIERS)[which]
-    return np.asarray(np.sqrt(1.0 + 0.5 * np.pi / n) * n / (n - 0.8))
+    return float(np.sqrt(1.0 + 0.5 * np.pi / n)) * n / (n - 0.8)
 
 
 def _robust_deviation(deviation: Array) -> float:

@@ -53,8 +53,8 @@ def separate(
         is what varies with speed and a lower limit.
     outliers : {"keep", "leave out"}
         What to do with readings that differ from the median of their configuration by more than five standard
-        deviations (1.4826 × the median absolute deviation), of their condition and of the whole test.  They are
-        noted in either case.
+        deviations, the largest of those of their configuration, their condition and the whole test, each told by the
+        median absolute deviation.  They are noted in either case.
     speed_tolerance : float
         Relative gap that parts nominal speeds, slips and loads from each other; measured ones scatter by
         less.

@@ -1,0 +1,136 @@
+"""Standard errors, intervals and significance tests of separated friction are calibrated on planted truth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from scipy.special import stdtrit
+from scipy.stats import binom, kstest
+from scipy.stats import t as student
+
+from friction.made_runs import FOUR, friction_curves, traction_runs
+from viscofric.errors import InputError
+from viscofric.friction.measurement.tribometry import separate
+
+if TYPE_CHECKING:
+    from viscofric.data import TractionRuns
+
+SPEEDS = np.geomspace(0.02, 0.2, 10)
+TEMPERATURES = 273.15 + np.array([30.0, 35.0, 40.0, 46.0, 52.0, 60.0, 68.0, 78.0, 90.0])
+
+
+def viscoelastic(speed: float, temperature: float) -> float:
+    """Fall with speed and rise with temperature, within the range of filled rubbers."""
+    return float(0.02 * (speed / 0.1) ** -0.2 * np.exp((temperature - 303.15) / 60.0))
+
+
+def scattered(seed: int) -> TractionRuns:
+    """Make the paper's test, eight replicates, with forces that scatter by 5 % of themselves."""
+    runs = traction_runs(
+        viscoelastic=viscoelastic,
+        speeds=tuple(SPEEDS[seed % 3 :: 3]),
+        temperatures=tuple(TEMPERATURES[seed % 4 :: 4]),
+        replicates=8,
+        seed=seed,
+    )
+    factor = 1.0 + 0.05 * np.random.default_rng([7, seed]).standard_normal(len(runs))
+    return replace(runs, traction_force=runs.traction_force * factor)
+
+
+def test_intervals_hold_the_truth_in_95_of_100_tests() -> None:
+    """Multiplicative scatter of 5 %, eight replicates, 100 seeds: within 95 ± 5 %, and far closer on all entries."""
+    held: dict[str, list[float]] = {"viscoelastic": [], "coulomb": []}
+    false_alarms = 0
+    for seed in range(100):
+        curves = separate(scattered(seed))
+        planted = np.array([viscoelastic(v, T) for v, T in zip(curves.speed, curves.temperature, strict=True)])
+        for name, truth in (("viscoelastic", planted), ("coulomb", 0.05)):
+            low, high = curves.interval(of=name)  # type: ignore[arg-type]
+            held[name] += list((low <= truth) & (truth <= high))
+        false_alarms += bool(curves.notes)
+    for name, inside in held.items():
+        low_count, high_count = binom.interval(1 - 1e-4, len(inside), 0.95)
+        assert low_count <= sum(inside) <= high_count, (name, np.mean(inside))
+        assert abs(np.mean(inside) - 0.95) <= 0.05
+    # Each kind of note comes up by chance once in 370 tests; there are some four kinds.
+    assert false_alarms <= 5
+
+
+def test_the_consistency_is_a_calibrated_test_of_the_measurement() -> None:
+    """Its t has Student's distribution in sound tests, replicates complete or not."""
+    for replicates, complete in ((4, True), (3, False)):
+        runs = traction_runs(
+            viscoelastic=lambda v, T: 0.03,
+            temperatures=tuple(290.0 + 5.0 * np.arange(300)),
+            speeds=[0.1],
+            replicates=replicates,
+            noise=0.05,
+            seed=11,
+        )
+        if not complete:
+            first = np.flatnonzero(
+                (runs.disc_speed < 0.0) & (runs.replicate == 1) & (runs.ball_speed > runs.disc_speed)
+            )
+            runs = _without(runs, first)
+        curves = separate(runs)
+        assert curves.consistency is not None
+        assert curves.consistency_error is not None
+        freedom = replicates - 1 if complete else 4 * replicates - 1 - 4
+        size = curves.consistency / curves.consistency_error
+        # A right distribution is refused once in ten thousand times.
+        assert kstest(size, student(freedom).cdf).pvalue > 1e-4
+        assert not any("do not fit together" in note for note in curves.notes)
+
+
+def _without(runs: TractionRuns, rows: np.ndarray) -> TractionRuns:
+    names = ("disc_speed", "ball_speed", "traction_force", "load", "temperature", "replicate")
+    return replace(runs, **{name: np.delete(getattr(runs, name), rows) for name in names})
+
+
+@pytest.mark.parametrize("size", [1, 30])
+def test_sound_tests_are_seldom_doubted_however_many_conditions_they_have(size: int) -> None:
+    told = 0
+    tests = 120 // size + 20
+    for seed in range(tests):
+        runs = traction_runs(
+            viscoelastic=lambda v, T: 0.03,
+            speeds=[0.1],
+            temperatures=tuple(290.0 + 5.0 * np.arange(size)),
+            replicates=3,
+            noise=0.05,
+            seed=seed,
+        )
+        told += any("fit together" in note or "negative" in note for note in separate(runs).notes)
+    # Once in 370 by chance for each kind.
+    assert told <= 2
+
+
+def test_a_reversed_sliding_direction_is_found_by_the_consistency() -> None:
+    """Slip has the wrong sign where the disc runs backwards, as where ball and disc are exchanged there."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=4, noise=0.01)
+    back = runs.disc_speed < 0.0
+    swapped = replace(runs, ball_speed=np.where(back, 2.0 * runs.disc_speed - runs.ball_speed, runs.ball_speed))
+    curves = separate(swapped)
+    assert any("do not fit together" in note for note in curves.notes)
+    # F_I − F_II + F_III − F_IV over four is then the whole of Coulomb friction, of either sign.
+    np.testing.assert_allclose(np.abs(curves.consistency), 0.05, atol=1e-3)  # type: ignore[arg-type]
+
+
+def test_an_interval_is_students_with_the_freedom_that_there_is() -> None:
+    curves = separate(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=5, noise=0.05))
+    for level in (0.5, 0.9, 0.99):
+        low, high = curves.interval(level)
+        half = stdtrit(4, 0.5 + level / 2) * curves.viscoelastic_error
+        np.testing.assert_allclose(high - curves.viscoelastic, half, rtol=1e-12)
+        np.testing.assert_allclose(curves.viscoelastic - low, half, rtol=1e-12)
+    unknown = separate(traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[:3], replicates=1))
+    assert np.all(np.isinf(np.stack(unknown.interval())))
+    plain = friction_curves(np.array([0.1]), np.array([300.0]), np.array([0.03]), error=0.01)
+    assert plain.interval()[1] == pytest.approx([0.03 + 1.959964 * 0.01], rel=1e-6)
+    with pytest.raises(InputError, match="between 0 and 1"):
+        plain.interval(95.0)
+    with pytest.raises(InputError, match="no such coefficient"):
+        plain.interval(of="coulomb")

@@ -1,0 +1,109 @@
+"""One direction of slip is separated only on an assumption that the user asks for, and that is named."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
+from viscofric.errors import InputError
+from viscofric.friction.measurement.tribometry import separate
+
+if TYPE_CHECKING:
+    from viscofric.data import TractionRuns
+
+ROUNDING = 1e-12
+SPEEDS = (0.02, 0.1, 0.2)
+
+
+def one_way(configuration: tuple[int, int] = (1, 1), **settings_of_runs: object) -> TractionRuns:
+    wanted = {"viscoelastic": lambda v, T: 0.03 + 0.05 * v, "replicates": 4, **settings_of_runs}
+    return traction_runs(configurations=[configuration], speeds=SPEEDS, **wanted)  # type: ignore[arg-type]
+
+
+def test_nothing_is_assumed_unless_the_user_asks() -> None:
+    with pytest.raises(InputError, match=r"not tell viscoelastic and Coulomb friction apart; measure also .*coulomb="):
+        separate(one_way(), zero=0.3)
+    with pytest.raises(InputError, match="the force cell's zero, viscoelastic and Coulomb friction apart"):
+        separate(one_way(), coulomb=0.05)
+
+
+@given(st.sampled_from(FOUR), st.floats(0.0, 0.5), st.floats(1e-6, 0.2))
+@settings(deadline=None, max_examples=20, derandomize=True)
+def test_a_coulomb_coefficient_from_elsewhere_is_taken_off(
+    configuration: tuple[int, int], coulomb: float, error: float
+) -> None:
+    """Whichever way disc and ball run; what is wrong with it is wrong with viscoelastic friction, in full."""
+    runs = one_way(configuration, coulomb=coulomb)
+    curves = separate(runs, zero=0.3, coulomb=(coulomb, error))
+    np.testing.assert_allclose(curves.viscoelastic, 0.03 + 0.05 * curves.speed, atol=ROUNDING)
+    np.testing.assert_array_equal(curves.coulomb, coulomb)  # type: ignore[arg-type]
+    np.testing.assert_allclose(curves.viscoelastic_error, error, atol=ROUNDING)
+    np.testing.assert_allclose(curves.coulomb_error, error, rtol=1e-12)  # type: ignore[arg-type]
+    off = separate(runs, zero=0.3, coulomb=coulomb + 0.01).viscoelastic - curves.viscoelastic
+    np.testing.assert_allclose(off, -0.01 * configuration[0] * configuration[1], atol=ROUNDING)
+    assert curves.assumption in curves.notes
+    assert f"a Coulomb friction coefficient of {coulomb:g}" in curves.assumption
+
+
+@pytest.mark.parametrize("configuration", FOUR)
+def test_constant_coulomb_friction_leaves_what_varies_with_speed(configuration: tuple[int, int]) -> None:
+    """At most the lowest friction where the disc is faster, at least the highest resistance where it is slower."""
+    curves = separate(one_way(configuration), zero=0.3, coulomb="constant")
+    sense = configuration[0] * configuration[1]
+    np.testing.assert_allclose(curves.viscoelastic, 0.05 * (curves.speed - 0.02), atol=ROUNDING)
+    np.testing.assert_allclose(curves.coulomb, 0.05 + sense * 0.031, atol=ROUNDING)  # type: ignore[arg-type]
+    assert "a lower limit" in curves.assumption
+    assert curves.assumption in curves.notes
+
+
+def test_errors_of_constant_coulomb_friction_are_those_of_both_speeds() -> None:
+    noisy = one_way(noise=0.05, replicates=8)
+    curves = separate(noisy, zero=0.3, coulomb="constant")
+    alone = separate(noisy, zero=0.3, coulomb=0.0)
+    for temperature in curves.temperatures:
+        here = curves.temperature == temperature
+        lowest = alone.viscoelastic_error[here][np.argmin(alone.viscoelastic[here])]
+        np.testing.assert_allclose(
+            curves.viscoelastic_error[here], np.hypot(alone.viscoelastic_error[here], lowest), rtol=1e-12
+        )
+        np.testing.assert_allclose(curves.coulomb_error[here], lowest, rtol=1e-12)  # type: ignore[index]
+
+
+def test_what_the_signs_tell_is_not_assumed() -> None:
+    """Only the temperature with one direction of slip is; nothing changes where there are four configurations."""
+    whole = traction_runs(viscoelastic=lambda v, T: 0.03, coulomb=0.08, temperatures=[363.15])
+    runs = runs_from(np.concatenate([rows_of(one_way()), rows_of(whole)]))
+    curves = separate(replace(runs, zero_force=np.full(len(runs), 0.3)), coulomb=0.05)
+    assert curves.coulomb is not None
+    four = curves.temperature > 350.0
+    np.testing.assert_allclose(curves.coulomb[four], 0.08, atol=ROUNDING)
+    np.testing.assert_allclose(curves.coulomb[~four], 0.05, atol=ROUNDING)
+    assert "At 6 of 9 conditions" in curves.assumption
+    assert separate(whole, coulomb=0.05).assumption == ""
+
+
+def test_both_disc_directions_at_one_slip_need_no_zero_with_a_known_coulomb_friction() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=[(1, 1), (-1, 1)])
+    curves = separate(runs, coulomb=0.05)
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=ROUNDING)
+    np.testing.assert_allclose(curves.offset, 0.3, atol=25 * ROUNDING)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="apart"):
+        separate(runs, coulomb="constant")
+
+
+def test_one_speed_tells_nothing_of_constant_coulomb_friction() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=[(1, 1)], speeds=[0.1])
+    with pytest.raises(InputError, match=r"'constant': at 30\.0 °C and 100 mm/s one speed"):
+        separate(runs, zero=0.3, coulomb="constant")
+
+
+@pytest.mark.parametrize("coulomb", ["often", -0.1, (0.1, -0.1), (0.1, 0.1, 0.1), "0.1 N", float("nan"), True])
+def test_senseless_assumptions_are_refused(coulomb: object) -> None:
+    with pytest.raises(InputError, match=r"coulomb = .*: must be a friction coefficient such as 0.05"):
+        separate(one_way(), zero=0.3, coulomb=coulomb)  # type: ignore[arg-type]
