@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -96,6 +96,30 @@ def test_errors_of_the_recorded_zeros_are_in_the_standard_errors(own: bool) -> N
     low_count, high_count = binom.interval(1 - 1e-6, 180, 0.95)
     for name, count in held.items():
         assert low_count <= count <= high_count, (name, count)
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["whole steps", "a direction of slip missing in one"])
+def test_readings_of_one_step_are_no_repetitions(whole: bool) -> None:
+    """What goes wrong with a step, here its zero, goes wrong with all its readings: intervals hold nevertheless."""
+    held = 0
+    for seed in range(60):
+        runs = exported_runs(zero_noise=0.1, noise=0.02, seed=seed, steps=9, points=4, rolling_speeds=(0.02, 0.05, 0.1))
+        assert runs.step is not None
+        # As a reader numbers them that knows no replicates: every point of a step is one.
+        runs = replace(runs, replicate=np.repeat(np.arange(len(runs) // 2), 2))
+        if not whole:
+            lacking = (runs.step > 3) | (runs.disc_speed > runs.ball_speed)
+            columns = {field.name: getattr(runs, field.name) for field in fields(runs)}
+            arrays = {name: value[lacking] for name, value in columns.items() if isinstance(value, np.ndarray)}
+            runs = replace(runs, **arrays)
+        curves = separate(runs)
+        # Of 9 steps two coefficients leave 7 degrees of freedom, a mean of 9 leaves 8.
+        np.testing.assert_allclose(curves.viscoelastic_freedom, 8.0 if whole else 7.0)  # type: ignore[arg-type]
+        low, high = curves.interval()
+        held += int(np.count_nonzero((low <= 0.03) & (high >= 0.03)))
+    # Limits that chance leaves once in a million times; by single readings it is less than 100.
+    low_count, high_count = binom.interval(1 - 1e-6, 180, 0.95)
+    assert low_count <= held <= high_count
 
 
 def test_one_recording_is_used_and_said() -> None:

@@ -38,23 +38,24 @@ def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[str]:
     """Note what does not look like a sound measurement."""
     groups = [fit.group for fit in fits]
     return [
-        *_negative(groups, entries),
+        *_negative(fits, entries),
         *_inconsistent(groups, entries),
         *_another_zero(fits, entries, zeros),
         *_incomplete(groups, entries),
     ]
 
 
-def _negative(groups: list[Condition], entries: list[Entry]) -> list[str]:
-    notes = []
+def _negative(fits: list[Fit], entries: list[Entry]) -> list[str]:
+    notes, groups = [], [fit.group for fit in fits]
     for number, name in ((1, "viscoelastic"), (2, "Coulomb")):
         deviation = np.array([-entry.value[number] for entry in entries])
         negative = _significant(groups, entries, number, deviation)
         if negative:
+            or_zero = "" if number == 2 or fits[negative[0]].fits_offset else ", or the zero of the force cell is wrong"
             notes.append(
                 f"{where([groups[one] for one in negative], len(groups))} the {name} friction coefficient is negative "
                 f"({_shown(entries[negative[0]], number)}): the sign of the force or of a velocity is probably "
-                "reversed."
+                f"reversed{or_zero}."
             )
     return notes
 

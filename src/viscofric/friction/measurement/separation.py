@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 _OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
+# Degrees of freedom that steps leave, for their sums to tell errors.
+_FEWEST_STEPS = 3
 _FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
 #: The force as it is read, and what may be taken from it: drift (per N/s) and changes of the recorded zero.
 FORCE, DRIFT, ZERO_CHANGES = range(3)
@@ -59,8 +61,10 @@ class Fit:
         Mean time of the readings, s; NaN where it was not recorded.
     residual, checked : (n, 3) array
         What the fits without and with the consistency leave over.
-    spread : (4,) array
-        Variance of the coefficients where that of a reading is one.
+    operator : (4, n) array
+        Makes the coefficients of the readings.
+    step : (n,) array of int
+        Number of the step of the test that each reading belongs to, among those of the condition.
     freedom : (2,) tuple
         Degrees of freedom of the residuals without and with the consistency.
     zero_variance, coulomb_variance : (4,) array
@@ -78,7 +82,8 @@ class Fit:
     checks: bool
     residual: Array = field(repr=False)
     checked: Array = field(repr=False)
-    spread: Array
+    operator: Array = field(repr=False)
+    step: NDArray[np.intp] = field(repr=False)
     freedom: tuple[int, int]
     zero_variance: Array
     coulomb_variance: Array
@@ -107,8 +112,8 @@ class Fit:
         target = _parts(runs, group, zeros, offset)
         if coulomb is not None:
             target[:, FORCE] -= coulomb[0] * pattern
-        numbers, replicate = np.unique(runs.replicate[group.rows], return_inverse=True)
-        count = numbers.size
+        replicate, step = _replicates(runs, group)
+        count = int(replicate.max()) + 1
         complete = _complete(group, replicate)
         parts = _parted(replicate) if complete and count > 1 else [np.arange(load.size)]
         scale = np.array([1.0, *[group.load] * 3])
@@ -130,9 +135,12 @@ class Fit:
             checks=checks,
             residual=solved[0].residual,
             checked=solved[0].checked,
-            spread=solved[0].spread / scale**2,
+            operator=operator,
+            step=step,
             freedom=solved[0].freedom,
-            zero_variance=np.zeros(4) if offset else zeros.variance(group, operator, replicate, len(parts) > 1),
+            zero_variance=np.zeros(4)
+            if offset
+            else zeros.variance(group, operator, *((replicate, True) if len(parts) > 1 else (step, step.max() > 3))),
             coulomb_variance=np.zeros(4) if coulomb is None else (coulomb[1] * (operator @ pattern)) ** 2,
         )
 
@@ -149,12 +157,8 @@ class Fit:
             scatter = each.std(axis=0, ddof=1)
             error, freedom = scatter / np.sqrt(count), np.full(4, count - 1.0)
         else:
-            variance = np.full(4, _variance(self.residual @ weights, self.freedom[0]))
-            variance[_CONSISTENCY] = _variance(self.checked @ weights, self.freedom[1])
-            with np.errstate(invalid="ignore"):
-                error = np.where(np.isfinite(variance), np.sqrt(variance * self.spread), np.inf)
+            error, freedom = self._errors_together(weights)
             scatter = error * np.sqrt(count)
-            freedom = np.array([*[self.freedom[0]] * 3, self.freedom[1]], dtype=float)
         unknown = np.array([False, False, not self.slides, not self.checks])
         error, scatter = (np.where(unknown, np.inf, spread) for spread in (error, scatter))
         if not self.fits_offset:
@@ -166,6 +170,29 @@ class Fit:
             found = found.widened(self.coulomb_variance * (np.arange(4) == _VISCOELASTIC), np.inf)
         return found.widened(np.where(np.arange(4) == _OFFSET, 0.0, self.zero_variance), zeros.freedom)
 
+    def _errors_together(self, weights: Array) -> tuple[Array, Array]:
+        """Return standard errors (4,) and their degrees of freedom from the residuals of all readings.
+
+        Readings of one step share what goes wrong with it: with enough steps the errors are those of sums over steps
+        (K.-Y. Liang, S. L. Zeger, Biometrika 73, 13–22, 1986), else readings count each by itself.
+        """
+        error, freedom = np.full(4, np.inf), np.zeros(4)
+        steps = int(self.step.max()) + 1
+        for residual, behind, numbers in (
+            (self.residual, self.freedom[0], slice(0, 3)),
+            (self.checked, self.freedom[1], slice(3, 4)),
+        ):
+            left, operator = residual @ weights, self.operator[numbers]
+            unknowns = left.size - behind
+            if behind > 0 and _FEWEST_STEPS <= steps - unknowns < behind:
+                sums = np.stack([np.bincount(self.step, row * left) for row in operator])
+                freedom[numbers] = steps - unknowns
+                error[numbers] = np.sqrt(np.sum(sums**2, axis=1) * steps / (steps - unknowns))
+            elif behind > 0:
+                freedom[numbers] = behind
+                error[numbers] = np.sqrt(np.sum(left**2) / behind * np.sum(operator**2, axis=1))
+        return error, freedom
+
 
 @dataclass(frozen=True, eq=False)
 class _Solved:
@@ -174,7 +201,6 @@ class _Solved:
     operator: Array
     residual: Array
     checked: Array
-    spread: Array
     freedom: tuple[int, int]
 
 
@@ -200,6 +226,20 @@ def _times(runs: TractionRuns, group: Condition) -> Array:
     return np.full(group.rows.size, np.nan) if runs.time is None else runs.time[group.rows]
 
 
+def _replicates(runs: TractionRuns, group: Condition) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Give numbers to the replicates, and to the steps, of a condition's readings.
+
+    The steps are the replicates where there are several, fewer than replicates, each with all configurations: the
+    readings of one step are no repetitions of the test.
+    """
+    _, replicate = np.unique(runs.replicate[group.rows], return_inverse=True)
+    if runs.step is None:
+        return replicate, np.zeros(replicate.size, dtype=np.intp)
+    _, step = np.unique(runs.step[group.rows], return_inverse=True)
+    steps_repeat = 0 < step.max() < replicate.max() and _complete(group, step)
+    return (step if steps_repeat else replicate), step
+
+
 def _complete(group: Condition, replicate: NDArray[np.intp]) -> bool:
     """Whether every replicate has all the configurations that there are."""
     pairs = np.unique(10 * replicate.astype(np.int64) + group.configurations)
@@ -209,10 +249,6 @@ def _complete(group: Condition, replicate: NDArray[np.intp]) -> bool:
 def _parted(replicate: NDArray[np.intp]) -> list[NDArray[np.intp]]:
     order = np.argsort(replicate, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(replicate[order])) + 1)
-
-
-def _variance(residual: Array, freedom: int) -> float:
-    return float(np.sum(residual**2)) / freedom if freedom > 0 else np.inf
 
 
 def _least_squares(design: Array, target: Array, crossed: Array | None) -> _Solved:
@@ -228,7 +264,7 @@ def _least_squares(design: Array, target: Array, crossed: Array | None) -> _Solv
         operator[_CONSISTENCY] = solved[-1]
         checked = target - more @ (solved @ target)
         freedom = len(target) - used.size - 1
-    return _Solved(operator, residual, checked, np.sum(operator**2, axis=1), (len(target) - used.size, freedom))
+    return _Solved(operator, residual, checked, (len(target) - used.size, freedom))
 
 
 def _operator(design: Array) -> Array:

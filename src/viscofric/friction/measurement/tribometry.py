@@ -86,7 +86,9 @@ def separate(
     scatter their standard deviation s, standard errors s/√n with n − 1 degrees of freedom.  Otherwise all
     readings are fitted together and standard errors come from the scatter of the residuals; the scatter
     given is then the standard error times √n.  Both are infinite where nothing is left over to tell them
-    from.
+    from.  Readings of one step are no repetitions of the test: where a condition was measured in several steps, each
+    with all configurations, these are its replicates, and where all readings are fitted together, the errors follow
+    from the sums of residuals over steps.
 
     With four configurations a fourth coefficient, of −sgn(u_disc) sgn(u_disc − u_ball) F_N, is fitted as
     well: the consistency, (F_I − F_II + F_III − F_IV)/4F_N, zero in the model.
