@@ -112,6 +112,7 @@ def exported_runs(
     steps: int = 8,
     points: int = 3,
     load: float = 25.0,
+    load_jitter: float = 0.01,
     seed: int = 1,
 ) -> TractionRuns:
     """Make a test as machines export it: slip reversed at a constant mean speed of disc and ball, one direction.
@@ -127,7 +128,7 @@ def exported_runs(
         for point, sense in product(range(points), (1, -1)):
             time = start + 6.0 * point
             disc, ball = rolling * (1 + 0.5 * sense * slip_ratio), rolling * (1 - 0.5 * sense * slip_ratio)
-            normal = load * (1.0 + 0.01 * random.standard_normal())
+            normal = load * (1.0 + load_jitter * random.standard_normal())
             force = offset(time) + normal * (viscoelastic(disc) + coulomb * sense) + noise * random.standard_normal()
             rows.append((disc, ball, force, normal, 313.15, replicate))
             recorded.append(zero)

@@ -69,35 +69,12 @@ class Grouping:
             raise InputError("traction runs hold no reading with the disc in motion: nothing to separate.")
         if len(poor) == len(groups):
             raise InputError(_refused(poor, len(groups), zeros, assumed))
-        told = [*notes, *_uneven(runs, groups, speed_tolerance)]
+        told = list(notes)
         if poor:
             told.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
             out = set(map(id, poor))
             groups = [group for group in groups if id(group) not in out]
         return cls(groups, told)
-
-
-def _uneven(runs: TractionRuns, groups: list[Condition], tolerance: float) -> list[str]:
-    """Say where the disc's speed differs between the directions of slip."""
-    found, largest = [], 0.0
-    for group in groups:
-        if not np.any(group.slip_sign):
-            continue
-        speed = np.abs(runs.disc_speed[group.rows])
-        faster = group.slip_sign == group.disc_sign
-        if np.all(faster) or not np.any(faster):
-            continue
-        apart = abs(float(speed[faster].mean() - speed[~faster].mean())) / group.speed
-        if apart > tolerance:
-            found.append(group)
-            largest = max(largest, apart)
-    if not found:
-        return []
-    told = (
-        f"{where(found, len(groups))} the disc's speed differs by up to {100 * largest:.2g} % between the directions "
-        "of slip: viscoelastic friction is the mean over both, and half its change between them is in Coulomb friction."
-    )
-    return [told]
 
 
 def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> str:

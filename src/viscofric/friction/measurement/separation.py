@@ -89,7 +89,14 @@ class Fit:
     coulomb_variance: Array
 
     @classmethod
-    def of(cls, runs: TractionRuns, group: Condition, zeros: Zeros, coulomb: tuple[float, float] | None = None) -> Fit:
+    def of(
+        cls,
+        runs: TractionRuns,
+        group: Condition,
+        zeros: Zeros,
+        coulomb: tuple[float, float] | None = None,
+        slope: float = 0.0,
+    ) -> Fit:
         """Fit a condition's readings, each replicate by itself where all are complete.
 
         Parameters
@@ -100,6 +107,8 @@ class Fit:
             Used where the signs do not tell the zero.
         coulomb : (float, float), optional
             Coulomb coefficient and its standard error where they are assumed.
+        slope : float
+            Power of speed that viscoelastic friction follows within the condition.
         """
         slides = bool(np.any(group.slip_sign))
         checks = coulomb is None and group.signs >= _FOUR
@@ -107,6 +116,7 @@ class Fit:
         load = runs.load[group.rows] / group.load
         design = regressors(group, offset=offset, coulomb=coulomb is None)
         design[:, 1:] *= load[:, None]
+        design[:, _VISCOELASTIC] *= (np.abs(runs.disc_speed[group.rows]) / group.speed) ** slope
         crossed = -(group.disc_sign * group.slip_sign) * load
         pattern = group.load * group.slip_sign * load
         target = _parts(runs, group, zeros, offset)

@@ -16,6 +16,7 @@ from viscofric.friction.measurement.grouping import Grouping
 from viscofric.friction.measurement.outliers import outliers as far_readings
 from viscofric.friction.measurement.outliers import told_of
 from viscofric.friction.measurement.separation import Fit
+from viscofric.friction.measurement.uneven import Uneven
 from viscofric.friction.measurement.zeros import Zeros
 from viscofric.units import Quantity, positive
 
@@ -26,6 +27,10 @@ if TYPE_CHECKING:
     from viscofric.friction.measurement.entry import Entry
 
     Array: TypeAlias = NDArray[np.float64]
+
+
+# Slopes over speed change little by what they correct.
+_ROUNDS = 2
 
 
 def separate(
@@ -104,7 +109,9 @@ def separate(
     more than once are followed if the forces do.
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
-    put no reversed slips together, those of equal mean speed of disc and ball are.
+    put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
+    one at that speed, and what it changes between the disc's speeds, told by its slope over the speeds of the test, is
+    kept out of Coulomb friction.
 
     Examples
     --------
@@ -158,15 +165,36 @@ class _Separation:
         """Separate a test without looking for outliers."""
         zeros = Zeros.known(runs, zero)
         grouping = Grouping.of(runs, zeros, assumed, speed_tolerance, temperature_tolerance)
-        fits = [Fit.of(runs, group, zeros, assumed.at(group, zeros)) for group in grouping.groups]
-        drift = Drift.of(fits)
-        entries = [drift.entry(fit, zeros) for fit in fits]
+        groups = grouping.groups
+        uneven = Uneven.of(runs, groups, speed_tolerance)
+
+        def separated() -> tuple[list[Fit], Drift, list[Entry]]:
+            fits = [
+                Fit.of(runs, group, zeros, assumed.at(group, zeros), slope)
+                for group, slope in zip(groups, uneven.slope.tolist(), strict=True)
+            ]
+            drift = Drift.of(fits)
+            entries = [drift.entry(fit, zeros) for fit in fits]
+            return (
+                fits,
+                drift,
+                [
+                    entry.widened(uneven.coulomb_variance(place, entry), entry.freedom[1])
+                    for place, entry in enumerate(entries)
+                ],
+            )
+
+        fits, drift, entries = separated()
+        for _ in range(_ROUNDS if uneven else 0):
+            uneven = uneven.with_slopes(groups, entries)
+            fits, drift, entries = separated()
         entries, places = assumed.completed(fits, entries)
         resting = [fit.group for fit in fits if not fit.fits_offset]
         load = float(np.mean([fit.group.load for fit in fits]))
         notes = [
             *grouping.notes,
-            *zeros.notes(grouping.groups, resting),
+            *uneven.notes(groups),
+            *zeros.notes(groups, resting),
             *zeros.drift(load),
             *drift.notes(fits),
             *doubts(fits, entries, zeros),
