@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 import time
 from pathlib import Path
 
@@ -42,14 +43,14 @@ def predicted(material: vf.Material, samples: vf.MaterialSamples | None) -> vf.F
     )
 
 
-def main() -> None:
+def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=int, default=20, help="measurements of the rubber (default 20)")
     parser.add_argument("--noise", type=float, default=0.02, help="of E' and E'', relative (default 0.02)")
     parser.add_argument("--samples", type=int, default=200, help="materials drawn for each (default 200)")
     parser.add_argument("--method", default="non-negative", help="of the spectrum's fit (default non-negative)")
     parser.add_argument("--json", type=Path, help="file for the numbers")
-    asked = parser.parse_args()
+    asked = parser.parse_args(arguments)
     truth = predicted(vf.synthetic_fluoroelastomer(), None)
     away, errors, held, began = [], [], [], time.process_time()
     for seed in range(asked.seeds):
@@ -62,6 +63,8 @@ def main() -> None:
         held.append(
             (curves.viscoelastic_lower <= truth.viscoelastic) & (truth.viscoelastic <= curves.viscoelastic_upper)
         )
+        if sys.stderr.isatty():
+            print(f"\r{seed + 1} of {asked.seeds}", end="", file=sys.stderr, flush=True)
     seconds = (time.process_time() - began) / asked.seeds
     differences, told = np.array(away), np.array(errors)
     print(f"{asked.seeds} seeds, {100 * asked.noise:g} % noise, {asked.method}, {seconds:.1f} s CPU each")
