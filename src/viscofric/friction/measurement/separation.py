@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.friction.measurement.entry import Entry
+from viscofric.friction.measurement.least_squares import operators, residuals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -127,12 +128,12 @@ class Fit:
         complete = _complete(group, replicate)
         parts = _parted(replicate) if complete and count > 1 else [np.arange(load.size)]
         scale = np.array([1.0, *[group.load] * 3])
-        operator, each, solved = np.zeros((4, load.size)), np.zeros((len(parts), 4, 3)), []
-        for number, rows in enumerate(parts):
-            one = _least_squares(design[rows], target[rows], crossed[rows] if checks else None)
-            solved.append(one)
-            each[number] = (one.operator @ target[rows]) / scale[:, None]
-            operator[:, rows] = one.operator / scale[:, None] / len(parts)
+        fourth = crossed if checks else None
+        operator = operators(design, fourth, parts) / scale[:, None]
+        each = np.stack([operator[:, rows] @ target[rows] for rows in parts])
+        residual, checked = residuals(design, fourth, operator * scale[:, None], target)
+        unknowns = int(np.count_nonzero(np.any(design != 0.0, axis=0)))
+        operator /= len(parts)
         return cls(
             group=group,
             each=each,
@@ -143,11 +144,11 @@ class Fit:
             coulomb=coulomb,
             slides=slides,
             checks=checks,
-            residual=solved[0].residual,
-            checked=solved[0].checked,
+            residual=residual,
+            checked=checked,
             operator=operator,
             step=step,
-            freedom=solved[0].freedom,
+            freedom=(load.size - unknowns, load.size - unknowns - 1 if checks else 0),
             zero_variance=np.zeros(4)
             if offset
             else zeros.variance(group, operator, *((replicate, True) if len(parts) > 1 else (step, step.max() > 3))),
@@ -204,16 +205,6 @@ class Fit:
         return error, freedom
 
 
-@dataclass(frozen=True, eq=False)
-class _Solved:
-    """What makes coefficients (4,) of readings, and what the readings leave over."""
-
-    operator: Array
-    residual: Array
-    checked: Array
-    freedom: tuple[int, int]
-
-
 def _parts(runs: TractionRuns, group: Condition, zeros: Zeros, offset: bool) -> Array:
     force = runs.traction_force[group.rows]
     target = np.zeros((force.size, 3))
@@ -259,25 +250,3 @@ def _complete(group: Condition, replicate: NDArray[np.intp]) -> bool:
 def _parted(replicate: NDArray[np.intp]) -> list[NDArray[np.intp]]:
     order = np.argsort(replicate, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(replicate[order])) + 1)
-
-
-def _least_squares(design: Array, target: Array, crossed: Array | None) -> _Solved:
-    """Fit by the regressors in use, and once more with the consistency's."""
-    used = np.flatnonzero(np.any(design != 0.0, axis=0))
-    operator = np.zeros((4, len(target)))
-    operator[used] = _operator(design[:, used])
-    residual = target - design @ (operator[:3] @ target)
-    checked, freedom = residual, 0
-    if crossed is not None:
-        more = np.column_stack([design[:, used], crossed])
-        solved = _operator(more)
-        operator[_CONSISTENCY] = solved[-1]
-        checked = target - more @ (solved @ target)
-        freedom = len(target) - used.size - 1
-    return _Solved(operator, residual, checked, (len(target) - used.size, freedom))
-
-
-def _operator(design: Array) -> Array:
-    """Return (XᵀX)⁻¹Xᵀ, by the QR factors of X; the sums of its squares are the diagonal of (XᵀX)⁻¹."""
-    orthogonal, triangle = np.linalg.qr(design)
-    return np.asarray(np.linalg.inv(triangle) @ orthogonal.T, dtype=float)

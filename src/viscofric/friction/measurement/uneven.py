@@ -83,9 +83,10 @@ class Uneven:
                 if taken
                 else "is in Coulomb friction, half of it, for want of other speeds that would tell it"
             )
+            place = where([groups[one] for one in found], len(groups))
             told.append(
-                f"{where([groups[one] for one in found], len(groups))} the disc's speed differs by up to {largest:.2g} % "
-                f"between directions of slip; the change of viscoelastic friction between them {what}."
+                f"{place} the disc's speed differs by up to {largest:.2g} % between directions of slip; the change of "
+                f"viscoelastic friction between them {what}."
             )
         return told
 
