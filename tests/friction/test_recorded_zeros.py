@@ -100,6 +100,27 @@ def test_errors_of_the_recorded_zeros_are_in_the_standard_errors(own: bool) -> N
         assert low_count <= count <= high_count, (name, count)
 
 
+def test_the_error_of_a_zero_that_all_replicates_share_is_told_by_the_other_recordings() -> None:
+    """Each speed in one step: no scatter shows what is wrong with its zero, of which viscoelastic friction is made."""
+    held = {"viscoelastic": 0, "coulomb": 0}
+    for seed in range(40):
+        speeds = tuple(0.02 * 1.2 ** np.arange(12))
+        runs = exported_runs(
+            zero_noise=0.1, noise=0.02, seed=seed, steps=1, points=8, rolling_speeds=speeds, slip_ratio=0.04
+        )
+        assert runs.time is not None
+        runs = replace(runs, replicate=1 + (runs.time // 6.0).astype(int) % 8)
+        curves = separate(runs)
+        assert np.all(curves.replicates == 8)
+        for name, truth in (("viscoelastic", 0.03), ("coulomb", 0.05)):
+            low, high = curves.interval(of=name)  # type: ignore[arg-type]
+            held[name] += int(np.count_nonzero((low <= truth) & (truth <= high)))
+    # Limits that chance leaves once in a million times.
+    low_count, high_count = binom.interval(1 - 1e-6, 480, 0.95)
+    for name, count in held.items():
+        assert low_count <= count <= high_count, (name, count)
+
+
 @pytest.mark.parametrize("whole", [True, False], ids=["whole steps", "a direction of slip missing in one"])
 def test_readings_of_one_step_are_no_repetitions(whole: bool) -> None:
     """What goes wrong with a step, here its zero, goes wrong with all its readings: intervals hold nevertheless."""
@@ -268,6 +289,23 @@ def test_drift_is_told_with_its_size_in_friction() -> None:
     assert np.mean(left.coulomb) - 0.05 == pytest.approx(0.5 / 3600 * 120 / 2 / 25, rel=0.3)  # type: ignore[arg-type]
     # 144 readings of 0.01 N: 3e-5 of the load over all; five of them.
     assert np.mean(curves.coulomb) == pytest.approx(0.05, abs=2e-4)  # type: ignore[arg-type]
+
+
+def test_the_error_of_a_drift_is_in_the_standard_errors() -> None:
+    """All repetitions of a configuration before the next: the drift between them is small beside what it changes."""
+    held = 0
+    for seed in range(120):
+        runs = traction_runs(
+            viscoelastic=lambda v, T: 0.03, replicates=6, noise=0.02, seed=seed, speeds=[0.1], temperatures=[303.15]
+        )
+        time = 10.0 * np.arange(len(runs))
+        curves = separate(replace(runs, time=time, traction_force=runs.traction_force + 0.02 * time))
+        assert "drifts by" in curves.notes[0]
+        low, high = curves.interval()
+        held += int(np.count_nonzero((low <= 0.03) & (high >= 0.03)))
+    # Limits that chance leaves once in a million times.
+    low_count, high_count = binom.interval(1 - 1e-6, 120, 0.95)
+    assert low_count <= held <= high_count
 
 
 def test_steady_zeros_are_seldom_said_to_drift() -> None:
