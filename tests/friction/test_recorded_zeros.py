@@ -13,6 +13,7 @@ from scipy.stats import binom
 
 from friction.made_runs import FOUR, exported_runs, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
+from viscofric.friction.measurement.entry import Entry
 from viscofric.friction.measurement.tribometry import separate
 
 if TYPE_CHECKING:
@@ -143,6 +144,36 @@ def test_readings_of_one_step_are_no_repetitions(whole: bool) -> None:
     # Limits that chance leaves once in a million times; by single readings it is less than 70.
     low_count, high_count = binom.interval(1 - 1e-6, 120, 0.95)
     assert low_count <= held <= high_count
+
+
+def test_errors_by_steps_are_those_of_the_sandwich_formula() -> None:
+    """Liang and Zeger's, with the number of steps over that less the unknowns, worked out by matrices here."""
+    runs = exported_runs(zero_noise=0.1, noise=0.02, steps=7, rolling_speeds=[0.1], points=4, slip_ratio=0.04)
+    assert runs.step is not None
+    assert runs.zero_force is not None
+    there = (runs.step > 1) | (runs.disc_speed > runs.ball_speed)
+    columns = {field.name: getattr(runs, field.name) for field in fields(runs)}
+    runs = replace(runs, **{name: one[there] for name, one in columns.items() if isinstance(one, np.ndarray)})
+    curves = separate(runs)
+    slip = np.sign(runs.disc_speed - runs.ball_speed)
+    regressors = np.column_stack([runs.load, slip * runs.load])
+    force = runs.traction_force - runs.zero_force
+    inverse = np.linalg.inv(regressors.T @ regressors)
+    left = force - regressors @ (inverse @ regressors.T @ force)
+    sums = np.array([(regressors * left[:, None])[runs.step == one].sum(axis=0) for one in range(1, 8)])
+    errors = np.sqrt(np.diag(inverse @ sums.T @ sums @ inverse) * 7 / (7 - 2))
+    assert curves.viscoelastic_error == pytest.approx(errors[:1], rel=1e-9)
+    assert curves.coulomb_error == pytest.approx(errors[1:], rel=1e-9)
+
+
+def test_degrees_of_freedom_go_together_after_welch_and_satterthwaite() -> None:
+    """Equal variances of 4 and 6 degrees of freedom: 2² / (1/4 + 1/6) = 9.6; one of none stays as it is."""
+    error, freedom = np.full(4, 0.1), np.full(4, 4.0)
+    entry = Entry(np.zeros(4), error, error, freedom, 5, False, True, True)
+    wider = entry.widened(np.array([0.01, 0.01, 0.0, 0.03]), 6.0)
+    np.testing.assert_allclose(wider.error, [np.sqrt(0.02), np.sqrt(0.02), 0.1, 0.2])
+    np.testing.assert_allclose(wider.freedom, [9.6, 9.6, 4.0, 16.0 / (1.0 / 4.0 + 9.0 / 6.0)])
+    np.testing.assert_allclose(entry.widened(np.full(4, 0.03), np.inf).freedom, 64.0)
 
 
 def test_one_recording_is_used_and_said() -> None:
