@@ -122,6 +122,7 @@ def test_the_error_of_a_zero_that_all_replicates_share_is_told_by_the_other_reco
         assert low_count <= count <= high_count, (name, count)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("whole", [True, False], ids=["whole steps", "a direction of slip missing in one"])
 def test_readings_of_one_step_are_no_repetitions(whole: bool) -> None:
     """What goes wrong with a step, here its zero, goes wrong with all its readings: intervals hold nevertheless."""
