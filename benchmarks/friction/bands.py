@@ -38,9 +38,7 @@ def sweeps(noise: float, seed: int) -> IsothermalSweeps:
 
 
 def predicted(material: vf.Material, samples: vf.MaterialSamples | None) -> vf.FrictionCurves:
-    return vf.predict_friction(
-        material, BALL, speeds=SPEEDS, temperatures=TEMPERATURES, load=LOAD, samples=samples, accuracy=1e-4
-    )
+    return vf.predict_friction(material, BALL, speeds=SPEEDS, temperatures=TEMPERATURES, load=LOAD, samples=samples)
 
 
 def main(arguments: list[str] | None = None) -> None:
