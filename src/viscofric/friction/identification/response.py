@@ -119,7 +119,7 @@ def friction_response(
     """
     if not isinstance(indenter, Indenter):
         raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
-    velocities, forces = _contacts(indenter, speeds, load)
+    velocities, forces = contacts(indenter, speeds, load)
     material = Material(spectrum, poisson_ratio=poisson_ratio)
     calls = [
         {
@@ -167,7 +167,7 @@ def respond(
     return np.array([friction, error, logarithmic.E_inf, logarithmic.speed, logarithmic.load, *found.C])
 
 
-def _contacts(indenter: Indenter, speeds: Quantities, load: Quantities) -> tuple[Array, Array]:
+def contacts(indenter: Indenter, speeds: Quantities, load: Quantities) -> tuple[Array, Array]:
     """Return the speed and the load of every contact."""
     velocities = to_si_array(speeds, "m/s", "speeds")
     forces = to_si_array(load, indenter.geometry.load_unit, "load")
