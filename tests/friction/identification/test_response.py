@@ -14,6 +14,8 @@ from viscofric.friction.identification.response import FrictionResponse, frictio
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from viscofric.contact.indenters.indenter import Indenter
+
     Array = NDArray[np.float64]
 
 BALL, CYLINDER = vf.Ball(radius=10e-3), vf.Cylinder(radius=10e-3)
@@ -84,6 +86,15 @@ def test_modes_without_compliance_have_a_derivative() -> None:
     # A mode that never yields adds nothing, one that yields at once is a part of the glass.
     assert abs(other.C[0, 4]) <= 1e-6 * np.abs(one.C).max()
     assert other.C[0, 5] == pytest.approx(-one.log_E_inf[0] * whole.E_inf, rel=1e-3)
+
+
+@pytest.mark.parametrize(("indenter", "load"), [(BALL, 1.0), (CYLINDER, 100.0)])
+def test_friction_of_a_hardly_viscoelastic_solid_is_the_sum_of_its_modes(indenter: Indenter, load: float) -> None:
+    ratio = 1.0 + 1e-4
+    found = friction_response(rubber(E_inf=ratio * 1e6), 0.5, indenter, [0.1, 1.0], load, accuracy=0.1)
+    # At first order in the modes; the second is E_inf/E0 − 1 of it.
+    assert found.log_C.sum(axis=1) == pytest.approx(found.friction, rel=2e-4)
+    assert np.all(found.log_C > 0.0)
 
 
 def test_progress_is_told() -> None:
