@@ -54,7 +54,9 @@ if TYPE_CHECKING:
     from viscofric.friction.measurement.tribometry import separate as separate
     from viscofric.friction.prediction import predict_friction as predict_friction
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve as FrictionMasterCurve
-    from viscofric.friction.shifting.master_curve import shift_friction as shift_friction
+    from viscofric.friction.shifting.shift import shift_friction as shift_friction
+    from viscofric.friction.shifting.shift_agreement import ShiftAgreement as ShiftAgreement
+    from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
     from viscofric.readers.dma.master_curves import read_master_curve as read_master_curve
@@ -147,7 +149,9 @@ _HOME = {
     "ThermalProperties": "viscofric.friction.flash_temperature",
     "predict_friction": "viscofric.friction.prediction",
     "FrictionMasterCurve": "viscofric.friction.shifting.master_curve",
-    "shift_friction": "viscofric.friction.shifting.master_curve",
+    "shift_friction": "viscofric.friction.shifting.shift",
+    "ShiftAgreement": "viscofric.friction.shifting.shift_agreement",
+    "compare_shift_factors": "viscofric.friction.shifting.shift_agreement",
     "separate": "viscofric.friction.measurement.tribometry",
     "read_dma": "viscofric.readers",
     "read_mtm": "viscofric.readers",

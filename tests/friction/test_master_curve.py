@@ -9,7 +9,7 @@ import pytest
 
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
-from viscofric.friction.shifting.master_curve import shift_friction
+from viscofric.friction.shifting.shift import shift_friction
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 
 if TYPE_CHECKING:
@@ -185,6 +185,6 @@ def test_senseless_places_are_refused(speed: object, temperature: object, messag
         master(speed, temperature)  # type: ignore[arg-type]
 
 
-def test_a_shift_is_needed() -> None:
-    with pytest.raises(InputError, match="shift of friction curves must be a law"):
-        shift_friction(shifted_curves(), shift=None)  # type: ignore[arg-type]
+def test_a_shift_is_a_law() -> None:
+    with pytest.raises(InputError, match=r"shift of friction curves must be a law .* not str; leave it out"):
+        shift_friction(shifted_curves(), shift="wlf")  # type: ignore[arg-type]

@@ -59,14 +59,14 @@ def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMaster
             f"master curves have different references, {celsius(measured.reference):.2f} and "
             f"{celsius(predicted.reference):.2f} °C; give shift_friction the same reference for both."
         )
-    loads = float(np.median(measured.curves.load)), float(np.median(predicted.curves.load))
+    loads = measured.load, predicted.load
     if abs(loads[0] - loads[1]) > SAME_LOAD * loads[0]:
         unit = measured.curves.load_unit
         raise InputError(
             f"master curves are of different loads, {loads[0]:.3g} and {loads[1]:.3g} {unit}; predict friction at the "
             "measured load."
         )
-    points = measured.curves
+    points = measured.curves_at_load
     reduced = points.speed * np.asarray(measured.shift(points.temperature))
     covered = np.zeros(len(points), dtype=bool)
     for low, high in predicted.stretches:
@@ -90,7 +90,7 @@ def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMaster
 
 def _material_error(predicted: FrictionMasterCurve, reduced: Array, friction: Array) -> Array | None:
     """Return the standard error from the material, relative to friction interpolated along the reduced speed."""
-    curves = predicted.curves
+    curves = predicted.curves_at_load
     if curves.material_error is None:
         return None
     place = np.log(curves.speed * np.asarray(predicted.shift(curves.temperature)))

@@ -124,7 +124,7 @@ def measured_line(source: ReducedFriction) -> Predicted | None:
     gap = _POINTS_OF_A_LINE + np.arange(len(gaps)) * (_POINTS_OF_A_LINE + 1)
     friction[gap] = np.nan
     doubt = np.where(np.isfinite(error), LEVEL_95 * error, np.nan)
-    temperature, load = np.full(speed.shape, source.reference), np.full(speed.shape, source.curves.load.mean())
+    temperature, load = np.full(speed.shape, source.reference), np.full(speed.shape, source.load)
     none = np.zeros(speed.shape, dtype=bool)
     return Predicted(speed, temperature, load, friction, friction - doubt, friction + doubt, none)
 

@@ -13,7 +13,7 @@ from viscofric.errors import InputError, StudyError
 from viscofric.friction.agreement import compare
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.tribometry import separate
-from viscofric.friction.shifting.master_curve import shift_friction
+from viscofric.friction.shifting.shift import shift_friction
 from viscofric.readers import read_mtm
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study import labels

@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.shifting.smoothing import smoothing_weights
+from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.nominal import SAME_LOAD
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.units import Quantities, Quantity, celsius, positive, to_si_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.shifting.collapse import Collapse
+    from viscofric.friction.shifting.load_rule import LoadRule
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
     Array: TypeAlias = NDArray[np.float64]
-
-#: Half-width of the smoothing kernel, decades of reduced speed.
-BANDWIDTH = 0.25
-#: Widest stretch without measured points that is bridged, decades of reduced speed.
-WIDEST_GAP = 0.5
-
-# Rounding of log10(αv), so that the ends of the range belong to it.
-_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,29 +34,40 @@ class FrictionMasterCurve:
     the five nearest; every point weighs 1/(s² + m²), s its own standard error, m the median of all.  From 10
     points without noise per decade it is true to 0.5 % around a maximum where the slope of log μ over log v
     changes by 1 per decade, and to 1 % at the sharpest there is, that of one retardation time.  Stretches
-    wider than half a decade without points are not bridged.
+    wider than half a decade without points are not bridged, and nothing is extrapolated: beyond what was measured
+    a material predicts.
+
+    With a load rule, that of an indenter whose contacts are alike at all loads, the curve holds at one load and
+    without vertical shift, and gives friction at any: μ(v, T, F) = f^q μ(α(T) v/f^p, reference, load), with
+    f = F/(b(T) load); p = q = 1/3 for a ball or ellipsoid, 1/2 for a cylinder, p = 1/2 and q = 0 for a cone.
 
     Attributes
     ----------
     reduced_speed : (n,) array
-        α(T) v, ascending, m/s.
+        α(T) v, or α(T) v/f^p with a load rule; ascending, m/s.
     temperature : (n,) array
         At which the point was measured or predicted, K.
     friction, error, scatter : (n,) array
-        Viscoelastic friction coefficient, its standard error, its standard deviation over the replicates.
+        Viscoelastic friction coefficient, its standard error, its standard deviation over the replicates; with a load
+        rule divided by f^q.
     reference : float
         Temperature at which the reduced speed is the speed, K.
     shift : ShiftLaw
-        With α(reference) = 1.
+        With α(reference) = 1: as given, or as found from the curves.
     curves : FrictionCurves
         What was shifted.
-    overlap_rms : float or None
-        Root mean square of the relative difference of curves at neighbouring temperatures where their reduced
-        speeds overlap: at each point of one, the other one is read by a cubic spline.  None without overlap.
-    overlap_error : float or None
-        What this would be from the standard errors alone.
-    overlap_points : int
-        Points behind it.
+    overlap : Collapse
+        How well the curves coincide.
+    load : float
+        At which the curve holds, in the curves' `load_unit`.
+    load_rule : LoadRule or None
+        How it gives friction at other loads; None if it does not.
+    vertical_shift : VerticalShift or None
+        b(T), 1 at the reference; None for b = 1.
+    found : bool
+        Whether the shift factors were found from the curves.
+    notes : tuple of str
+        What was left out, one sentence each.
     """
 
     reduced_speed: Array
@@ -72,12 +78,45 @@ class FrictionMasterCurve:
     reference: float
     shift: ShiftLaw
     curves: FrictionCurves
-    overlap_rms: float | None
-    overlap_error: float | None
-    overlap_points: int
+    overlap: Collapse
+    load: float
+    load_rule: LoadRule | None = None
+    vertical_shift: VerticalShift | None = None
+    found: bool = False
+    notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.reduced_speed)
+
+    @property
+    def curves_at_load(self) -> FrictionCurves:
+        """What was shifted, all at the load of the master curve and without vertical shift, in the order of `curves`.
+
+        Without a load rule these are the curves themselves.
+        """
+        if self.load_rule is None:
+            return self.curves
+        return self.load_rule.reduced(self.curves, self.load, self.vertical_shift)
+
+    @property
+    def shift_factors(self) -> ShiftFactors:
+        """The shift factors with their covariance: those found or given, or a given law's at the temperatures.
+
+        Raises
+        ------
+        InputError
+            If a law was given and there is one temperature only, or the reference lies outside them.
+        """
+        if isinstance(self.shift, ShiftFactors):
+            return self.shift
+        kelvin = self.curves.temperatures
+        gradient = getattr(self.shift, "gradient", None)
+        covariance = getattr(self.shift, "covariance", None)
+        spread = None
+        if gradient is not None and covariance is not None:
+            slopes = gradient(kelvin)
+            spread = slopes @ covariance @ slopes.T
+        return ShiftFactors(kelvin, self.shift.log10(kelvin), self.reference, spread)
 
     @property
     def reduced_range(self) -> tuple[float, float]:
@@ -87,29 +126,39 @@ class FrictionMasterCurve:
     @property
     def stretches(self) -> tuple[tuple[float, float], ...]:
         """Lowest and highest reduced speed (m/s) of each stretch without a gap above half a decade."""
-        decades = np.log10(self.reduced_speed)
-        breaks = np.flatnonzero(np.diff(decades) > WIDEST_GAP) + 1
-        return tuple((float(part[0]), float(part[-1])) for part in np.split(self.reduced_speed, breaks))
+        return tuple((float(10.0**low), float(10.0**high)) for low, high in self._smoothed.stretches)
+
+    @property
+    def _smoothed(self) -> SmoothedPoints:
+        return SmoothedPoints(np.log10(self.reduced_speed), self.friction, self.error)
+
+    @property
+    def overlap_rms(self) -> float | None:
+        """Root mean square of the relative difference of curves at neighbouring temperatures where they overlap.
+
+        At each point of one, the other one is read by a cubic spline.  None without overlap.
+        """
+        return self.overlap.rms
+
+    @property
+    def overlap_error(self) -> float | None:
+        """What `overlap_rms` would be from the standard errors alone."""
+        return self.overlap.error
+
+    @property
+    def overlap_points(self) -> int:
+        """Points behind `overlap_rms`."""
+        return self.overlap.points
 
     @property
     def overlap_sentence(self) -> str:
         """How well the curves coincide, in words."""
-        if self.overlap_rms is None or self.overlap_error is None:
-            return (
-                "Curves of neighbouring temperatures do not overlap in reduced speed, so the master curve "
-                "does not test the shift factors."
-            )
-        alone = f"would make it {100 * self.overlap_error:.2g} %"
-        if not np.isfinite(self.overlap_error):
-            alone = "are unknown"
-        return (
-            f"Curves of neighbouring temperatures coincide to {100 * self.overlap_rms:.2g} % (root mean "
-            f"square over {self.overlap_points} points) where they overlap in reduced speed; their errors "
-            f"alone {alone}."
-        )
+        return self.overlap.sentence
 
-    def __call__(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
-        """Return μ(v, T).
+    def __call__(
+        self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
+    ) -> Any:
+        """Return μ(v, T), at a load.
 
         Parameters
         ----------
@@ -117,6 +166,9 @@ class FrictionMasterCurve:
             Above zero; m/s if plain numbers.
         temperature : the same, optional
             K if plain numbers; the reference if left out.  Broadcast against `speed`.
+        load : float, str or pint.Quantity, optional
+            In the curves' `load_unit` if a plain number; that of the curve if left out.  Without a load rule it must
+            be that of the curve, to 5 %.
 
         Returns
         -------
@@ -126,19 +178,59 @@ class FrictionMasterCurve:
         Raises
         ------
         InputError
-            If the reduced speed lies outside the range that was measured, or in a gap.
+            If the reduced speed lies outside the range that was measured, or in a gap; if α is not known at the
+            temperature; or at another load without a load rule.
         """
-        return self._read(speed, temperature)[0]
+        return self._read(speed, temperature, load)[0]
 
-    def standard_error(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
-        """Return the standard error that the points' errors leave on μ(v, T); arguments as in a call."""
-        return self._read(speed, temperature)[1]
+    def standard_error(
+        self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
+    ) -> Any:
+        """Return the standard error that the points' errors leave on μ(v, T); arguments as in a call.
 
-    def _read(self, speed: Quantities, temperature: Quantities | None) -> tuple[Any, Any]:
+        Errors of the shift factors are not in it.
+        """
+        return self._read(speed, temperature, load)[1]
+
+    def covers(self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None) -> Any:
+        """Say whether μ(v, T) is known: the reduced speed lies where there are points, and α is known at T.
+
+        Parameters
+        ----------
+        speed, temperature, load
+            As in a call.
+
+        Returns
+        -------
+        bool or array of bool
+            In the shape that a call has.
+
+        Raises
+        ------
+        InputError
+            As in a call, but not for reduced speeds without points and temperatures without α.
+        """
+        velocity, kelvin, single = self._asked(speed, temperature)
+        relative = self._relative_load(load)
+        inside = np.full(velocity.shape, False)
+        for one in np.unique(kelvin):
+            rows = kelvin == one
+            try:
+                decades, _ = self._reduced(velocity[rows], kelvin[rows], relative)
+            except InputError:
+                continue
+            inside[rows] = self._smoothed.covers(decades)
+        return bool(inside) if single else inside
+
+    def _asked(self, speed: Quantities, temperature: Quantities | None) -> tuple[Array, Array, bool]:
+        """Return speeds and temperatures of one shape, and whether both are single."""
         velocity, single_speed = _values(speed, "m/s", "speed")
         kelvin, single_temperature = (
             (np.array(self.reference), True) if temperature is None else _values(temperature, "K", "temperature")
         )
+        single = single_speed and single_temperature
+        if single:
+            velocity, kelvin = velocity.reshape(()), kelvin.reshape(())
         try:
             velocity, kelvin = np.broadcast_arrays(velocity, kelvin)
         except ValueError:
@@ -148,94 +240,49 @@ class FrictionMasterCurve:
             ) from None
         if not np.all(velocity > 0.0):
             raise InputError(f"speed must be above zero everywhere, but one is {velocity.min():g} m/s.")
-        decades = np.log10(velocity) + np.asarray(self.shift.log10(np.asarray(kelvin)))
-        value, error = self._smooth(decades.ravel())
-        if single_speed and single_temperature:
-            return float(value[0]), float(error[0])
-        return value.reshape(velocity.shape), error.reshape(velocity.shape)
+        return velocity, kelvin, single
 
-    def _smooth(self, decades: Array) -> tuple[Array, Array]:
-        """Smooth at log10 of the reduced speed, stretch by stretch: values and standard errors."""
-        value, error = np.full(decades.shape, np.nan), np.full(decades.shape, np.nan)
-        points = np.log10(self.reduced_speed)
-        weights = _weights(self.error)
-        for low, high in np.log10(self.stretches):
-            asked = (decades >= low - _ROUNDING) & (decades <= high + _ROUNDING)
-            rows = (points >= low) & (points <= high)
-            places = np.clip(decades[asked], low, high)
-            matrix = smoothing_weights(points[rows], weights[rows], places, BANDWIDTH)
-            value[asked] = matrix @ self.friction[rows]
-            variance = np.where(matrix == 0.0, 0.0, self.error[rows] ** 2)
-            error[asked] = np.sqrt(np.sum(matrix**2 * variance, axis=1))
-        if np.any(np.isnan(value)):
-            self._refuse(10.0 ** float(decades[np.isnan(value)][0]))
-        return value, error
+    def _relative_load(self, load: Quantity | None) -> float:
+        unit = self.curves.load_unit
+        asked = self.load if load is None else positive(load, unit, "load")
+        if self.load_rule is None and not abs(asked - self.load) <= SAME_LOAD * self.load:
+            raise InputError(
+                f"load = {asked:.3g} {unit}: the master curve holds at {self.load:.3g} {unit}, and friction at other "
+                "loads follows only with the indenter: shift_friction(…, indenter=…)."
+            )
+        return asked / self.load
+
+    def _reduced(self, velocity: Array, kelvin: Array, relative: float) -> tuple[Array, Array]:
+        """Return log10 of the reduced speed, and what friction on the curve is to be multiplied by."""
+        decades = np.log10(velocity) + np.asarray(self.shift.log10(np.asarray(kelvin)))
+        if self.load_rule is None:
+            return decades, np.ones(decades.shape)
+        vertical = 1.0 if self.vertical_shift is None else np.asarray(self.vertical_shift(kelvin.ravel()))
+        speed_factor, friction_factor = self.load_rule.factors(np.asarray(relative / vertical))
+        shape = velocity.shape if np.ndim(vertical) else ()
+        return decades - np.log10(speed_factor.reshape(shape)), np.ones(decades.shape) * friction_factor.reshape(shape)
+
+    def _read(self, speed: Quantities, temperature: Quantities | None, load: Quantity | None) -> tuple[Any, Any]:
+        velocity, kelvin, single = self._asked(speed, temperature)
+        decades, factor = self._reduced(velocity, kelvin, self._relative_load(load))
+        covered = self._smoothed.covers(decades)
+        if not np.all(covered):
+            self._refuse(10.0 ** float(decades[~covered][0]))
+        value, error = self._smoothed.read(decades.ravel())
+        value, error = value.reshape(velocity.shape) * factor, error.reshape(velocity.shape) * factor
+        return (float(value), float(error)) if single else (value, error)
 
     def _refuse(self, reduced: float) -> None:
         there = " and ".join(f"{low:.3g} to {high:.3g} m/s" for low, high in self.stretches)
+        low, high = self.reduced_range
+        place = "in the gap between"
+        if not low <= reduced <= high:
+            decades = np.log10(low / reduced) if reduced < low else np.log10(reduced / high)
+            place = f"{decades:.2g} decades {'below' if reduced < low else 'above'}"
         raise InputError(
             f"reduced speed α(T)·v = {reduced:.3g} m/s at {celsius(self.reference):.1f} °C is not covered: "
-            f"friction is known for {there}."
+            f"friction is known for {there}, and this lies {place}; a material predicts there (predict_friction)."
         )
-
-
-def shift_friction(
-    curves: FrictionCurves, *, shift: ShiftLaw, reference: Quantity | None = None
-) -> FrictionMasterCurve:
-    """Shift friction curves of several temperatures onto one by the shift factors of the modulus (Eq. 10).
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-        All at one load, since μ(v, T, F) = μ(α(T) v, T0, F) holds load by load.
-    shift : ShiftLaw or ShiftFactors
-        α(T), as of the material: ``rubber.shift``.
-    reference : float, str or pint.Quantity, optional
-        Temperature of the master curve, K; that of `shift` if left out.
-
-    Returns
-    -------
-    FrictionMasterCurve
-
-    Raises
-    ------
-    InputError
-        If there are no curves, no shift, loads that differ by more than 5 %, or a temperature at which α is
-        not known.
-    """
-    if not len(curves):
-        raise InputError("friction curves hold no points; there is nothing to shift.")
-    if not hasattr(shift, "log10"):
-        raise InputError(
-            f"shift of friction curves must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}."
-        )
-    if curves.load.max() > (1.0 + SAME_LOAD) * curves.load.min():
-        raise InputError(
-            f"load of the friction curves runs from {curves.load.min():.3g} to {curves.load.max():.3g} "
-            f"{curves.load_unit}, but a master curve holds at one load; choose one with curves.at_load()."
-        )
-    law = shift if reference is None else shift.at_reference(positive(reference, "K", "reference"))
-    reduced = np.asarray(law(curves.temperature)) * curves.speed
-    order = np.argsort(reduced, kind="stable")
-    overlap_rms, overlap_error, overlap_points = _overlap(curves, np.log10(reduced))
-    return FrictionMasterCurve(
-        reduced_speed=_frozen(reduced[order]),
-        temperature=_frozen(curves.temperature[order]),
-        friction=_frozen(curves.viscoelastic[order]),
-        error=_frozen(curves.viscoelastic_error[order]),
-        scatter=_frozen(curves.viscoelastic_scatter[order]),
-        reference=float(law.reference),
-        shift=law,
-        curves=curves,
-        overlap_rms=overlap_rms,
-        overlap_error=overlap_error,
-        overlap_points=overlap_points,
-    )
-
-
-def _frozen(column: Array) -> Array:
-    column.flags.writeable = False
-    return column
 
 
 def _values(values: Quantities, unit: str, name: str) -> tuple[Array, bool]:
@@ -244,58 +291,3 @@ def _values(values: Quantities, unit: str, name: str) -> tuple[Array, bool]:
         return to_si_array(values.ravel(), unit, name).reshape(values.shape), values.ndim == 0
     single = isinstance(values, str) or np.ndim(getattr(values, "magnitude", values)) == 0
     return to_si_array(values, unit, name), single
-
-
-def _weights(error: Array) -> Array:
-    """Return statistical weights 1/(s² + median²), relative to their largest; equal if no error is known."""
-    finite = error[np.isfinite(error)]
-    typical = float(np.median(finite)) if finite.size else 0.0
-    if typical == 0.0:
-        return np.ones(error.shape)
-    # An unknown error weighs little, not nothing: its point may be the only one around.
-    squared = np.where(np.isfinite(error), error, 100.0 * typical) ** 2 + typical**2
-    return np.asarray(squared.min() / squared)
-
-
-def _overlap(curves: FrictionCurves, decades: Array) -> tuple[float | None, float | None, int]:
-    """Compare the curves of each pair of neighbouring temperatures where they overlap."""
-    temperatures = curves.temperatures
-    parts = [_isotherm(curves, decades, temperature) for temperature in temperatures]
-    differences: list[Array] = []
-    expected: list[Array] = []
-    for cold, warm in pairwise(parts):
-        for one, other in ((cold, warm), (warm, cold)):
-            inside = (one[0] >= other[0][0] - _ROUNDING) & (one[0] <= other[0][-1] + _ROUNDING)
-            if not np.any(inside):
-                continue
-            place = np.clip(one[0][inside], other[0][0], other[0][-1])
-            friction = _spline(other[0], other[1], place)
-            mean = np.maximum(0.5 * (np.abs(one[1][inside]) + np.abs(friction)), np.finfo(float).tiny)
-            differences.append((one[1][inside] - friction) / mean)
-            expected.append(np.hypot(one[2][inside], np.interp(place, other[0], other[2])) / mean)
-    if not differences:
-        return None, None, 0
-    all_differences, all_expected = np.concatenate(differences), np.concatenate(expected)
-    return (
-        float(np.sqrt(np.mean(all_differences**2))),
-        float(np.sqrt(np.mean(all_expected**2))),
-        all_differences.size,
-    )
-
-
-def _isotherm(curves: FrictionCurves, decades: Array, temperature: float) -> tuple[Array, Array, Array]:
-    """Ascending log10 reduced speeds of one temperature, friction and its error; equal speeds averaged."""
-    rows = curves.temperature == temperature
-    places, number = np.unique(decades[rows], return_inverse=True)
-    count = np.bincount(number)
-    friction = np.bincount(number, curves.viscoelastic[rows]) / count
-    error = np.sqrt(np.bincount(number, curves.viscoelastic_error[rows] ** 2)) / count
-    return places, friction, error
-
-
-def _spline(x: Array, y: Array, at: Array) -> Array:
-    from scipy.interpolate import make_interp_spline
-
-    if x.size == 1:
-        return np.full(at.shape, y[0])
-    return np.asarray(make_interp_spline(x, y, k=3 if x.size > 3 else 1)(at))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -11,20 +13,77 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+#: Half-width of the smoothing kernel, decades of reduced speed.
+BANDWIDTH = 0.25
+#: Widest stretch without measured points that is bridged, decades of reduced speed.
+WIDEST_GAP = 0.5
+# Rounding of log10(αv), so that the ends of a stretch belong to it.
+_ROUNDING = 1e-9
 # Different abscissae that the kernel must reach beyond the three that a parabola needs, so that it smooths.
 _NEIGHBOURS = 5
 # Abscissae closer than this share of the bandwidth count as one.
 _COINCIDENT = 1e-6
 
 
+@dataclass(frozen=True, eq=False)
+class SmoothedPoints:
+    """A curve read between scattered points, stretch by stretch.
+
+    Attributes
+    ----------
+    decades : (n,) array
+        log10 of the reduced speed, ascending.
+    friction, error : (n,) array
+    """
+
+    decades: Array
+    friction: Array
+    error: Array
+
+    @cached_property
+    def stretches(self) -> tuple[tuple[float, float], ...]:
+        """Ends of each stretch without a gap wider than `WIDEST_GAP`, in decades."""
+        breaks = np.flatnonzero(np.diff(self.decades) > WIDEST_GAP) + 1
+        return tuple((float(part[0]), float(part[-1])) for part in np.split(self.decades, breaks))
+
+    def covers(self, decades: Array) -> NDArray[np.bool_]:
+        """Say which places lie in a stretch."""
+        inside = [(decades >= low - _ROUNDING) & (decades <= high + _ROUNDING) for low, high in self.stretches]
+        return np.asarray(np.any(inside, axis=0))
+
+    def read(self, decades: Array) -> tuple[Array, Array]:
+        """Return values and standard errors (m,) at places (m,) that lie in a stretch."""
+        value, error = np.empty(decades.shape), np.empty(decades.shape)
+        weights = _weights(self.error)
+        for low, high in self.stretches:
+            asked = (decades >= low - _ROUNDING) & (decades <= high + _ROUNDING)
+            rows = (self.decades >= low) & (self.decades <= high)
+            places = np.clip(decades[asked], low, high)
+            matrix = smoothing_weights(self.decades[rows], weights[rows], places, BANDWIDTH)
+            value[asked] = matrix @ self.friction[rows]
+            variance = np.where(matrix == 0.0, 0.0, self.error[rows] ** 2)
+            error[asked] = np.sqrt(np.sum(matrix**2 * variance, axis=1))
+        return value, error
+
+
+def _weights(error: Array) -> Array:
+    """Return statistical weights 1/(s² + median²), relative to their largest; equal if no error is known."""
+    finite = error[np.isfinite(error)]
+    typical = float(np.median(finite)) if finite.size else 0.0
+    if typical == 0.0:
+        return np.ones(error.shape)
+    # An unknown error weighs little, not nothing: its point may be the only one around.
+    squared = np.where(np.isfinite(error), error, 100.0 * typical) ** 2 + typical**2
+    return np.asarray(squared.min() / squared)
+
+
 def smoothing_weights(points: Array, weights: Array, at: Array, bandwidth: float) -> Array:
     """Return the matrix that turns ordinates at the points into smoothed values.
 
     At each place a parabola is fitted by weighted least squares; its weights are those given times the
-    tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979) 829), h the bandwidth or,
-    where points are
-    sparse, just beyond the fifth nearest one.  With fewer than four different points the parabola becomes a
-    line or a constant.
+    tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979) 829), h the bandwidth or, where
+    points are sparse, just beyond the fifth nearest one.  With fewer than four different points the parabola
+    becomes a line or a constant.
 
     Parameters
     ----------

@@ -40,7 +40,8 @@ class CommonShifts:
     """Shifts log10 α (n,) and log10 b (n,), zero at the reference, and their covariances (n, n); in decades.
 
     The cross covariance has log10 α in its rows and log10 b in its columns.  `parted` are the places of neighbours
-    that were joined pair by pair because a common curve moved them past each other.
+    that were joined pair by pair because a common curve moved them past each other; `freedom` are the degrees of
+    freedom that the scatter of the points was found from.
     """
 
     values: Array
@@ -49,6 +50,7 @@ class CommonShifts:
     vertical_covariance: Array
     cross_covariance: Array
     parted: tuple[int, ...] = ()
+    freedom: float = np.inf
 
 
 def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
@@ -135,12 +137,12 @@ def fitted(
         parameters = _descend(problem, parameters, smoothers, noise)
         if np.max(np.abs(parameters - before)) < 10 * CONVERGED:
             break
-    covariance = _covariance(problem, problem.state(parameters, smoothers, noise))
+    covariance, freedom = _covariance(problem, problem.state(parameters, smoothers, noise))
     values, vertical = problem.split(parameters)
     size = problem.size
     nothing = np.zeros((size, size))
     spread, cross = (covariance[size:, size:], covariance[:size, size:]) if gauge.free_vertical else (nothing, nothing)
-    found = CommonShifts(values, covariance[:size, :size], vertical, spread, cross)
+    found = CommonShifts(values, covariance[:size, :size], vertical, spread, cross, freedom=freedom)
     return found, problem.signal(parameters, smoothers)
 
 
@@ -169,8 +171,8 @@ def _descend(problem: ShiftProblem, parameters: Array, smoothers: list[Smoother]
     return parameters
 
 
-def _covariance(problem: ShiftProblem, state: State) -> Array:
-    """Return the covariance of the shifts: the curvature of what is minimised around real scatter.
+def _covariance(problem: ShiftProblem, state: State) -> tuple[Array, float]:
+    """Return the covariance of the shifts, the curvature of what is minimised around real scatter, and its freedom.
 
     The exact second derivatives are taken, not those of Gauss and Newton: these count the noise in the slope of
     the curves for information.  Where they are small or negative (a plateau, far from quadratic), a part of the
@@ -186,5 +188,6 @@ def _covariance(problem: ShiftProblem, state: State) -> Array:
     prior = ways.T @ problem.prior.T @ problem.prior @ ways
     # What the shifts take from the scatter: more than one degree of freedom each, as they follow noise in slopes.
     taken = float(np.trace(inverse @ (normal - prior)))
-    larger = state.freedom / max(state.freedom - taken, 1.0)
-    return np.asarray(ways @ inverse @ (larger * score + prior) @ inverse @ ways.T)
+    left = max(state.freedom - taken, 1.0)
+    score = state.freedom / left * score
+    return np.asarray(ways @ inverse @ (score + prior) @ inverse @ ways.T), left

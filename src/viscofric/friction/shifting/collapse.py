@@ -1,0 +1,95 @@
+"""How well shifted friction curves of neighbouring temperatures coincide where they overlap."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+# Rounding of log10(αv), so that the ends of a range belong to it.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Collapse:
+    """Differences of neighbouring curves where they overlap; None without overlap.
+
+    Attributes
+    ----------
+    rms : float or None
+        Root mean square of the relative differences.
+    error : float or None
+        What it would be from the standard errors alone.
+    points : int
+        Points behind it.
+    """
+
+    rms: float | None
+    error: float | None
+    points: int
+
+    @property
+    def sentence(self) -> str:
+        """The same in words."""
+        if self.rms is None or self.error is None:
+            return (
+                "Curves of neighbouring temperatures do not overlap in reduced speed, so the master curve "
+                "does not test the shift factors."
+            )
+        alone = f"would make it {100 * self.error:.2g} %" if np.isfinite(self.error) else "are unknown"
+        return (
+            f"Curves of neighbouring temperatures coincide to {100 * self.rms:.2g} % (root mean square over "
+            f"{self.points} points) where they overlap in reduced speed; their errors alone {alone}."
+        )
+
+
+def collapse(temperature: Array, decades: Array, friction: Array, error: Array) -> Collapse:
+    """Compare the curves of each pair of neighbouring temperatures where they overlap.
+
+    Parameters
+    ----------
+    temperature, decades, friction, error : (n,) array
+        K, log10 of the reduced speed, friction coefficient and its standard error.
+    """
+    parts = [_isotherm(temperature == one, decades, friction, error) for one in np.unique(temperature)]
+    differences: list[Array] = []
+    expected: list[Array] = []
+    for cold, warm in pairwise(parts):
+        for one, other in ((cold, warm), (warm, cold)):
+            inside = (one[0] >= other[0][0] - _ROUNDING) & (one[0] <= other[0][-1] + _ROUNDING)
+            if not np.any(inside):
+                continue
+            place = np.clip(one[0][inside], other[0][0], other[0][-1])
+            read = _spline(other[0], other[1], place)
+            mean = np.maximum(0.5 * (np.abs(one[1][inside]) + np.abs(read)), np.finfo(float).tiny)
+            differences.append((one[1][inside] - read) / mean)
+            expected.append(np.hypot(one[2][inside], np.interp(place, other[0], other[2])) / mean)
+    if not differences:
+        return Collapse(None, None, 0)
+    all_differences, all_expected = np.concatenate(differences), np.concatenate(expected)
+    return Collapse(
+        float(np.sqrt(np.mean(all_differences**2))), float(np.sqrt(np.mean(all_expected**2))), all_differences.size
+    )
+
+
+def _isotherm(rows: NDArray[np.bool_], decades: Array, friction: Array, error: Array) -> tuple[Array, Array, Array]:
+    """Ascending log10 reduced speeds of one temperature, friction and its error; equal speeds averaged."""
+    places, number = np.unique(decades[rows], return_inverse=True)
+    count = np.bincount(number)
+    mean = np.bincount(number, friction[rows]) / count
+    return places, mean, np.sqrt(np.bincount(number, error[rows] ** 2)) / count
+
+
+def _spline(x: Array, y: Array, at: Array) -> Array:
+    from scipy.interpolate import make_interp_spline
+
+    if x.size == 1:
+        return np.full(at.shape, y[0])
+    return np.asarray(make_interp_spline(x, y, k=3 if x.size > 3 else 1)(at))

@@ -1,0 +1,155 @@
+"""Shift factors found from friction curves alone: all temperatures on one smooth curve, with their covariance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.shifting.isotherms import scatter_scale
+from viscofric.friction.shifting.pairs import FEWEST_POINTS
+from viscofric.friction.shifting.placement import arrange, groups, rivals, scan_pairs
+from viscofric.friction.shifting.refusals import Doubts, shown
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import NOMINAL
+from viscofric.rheology.superposition.common_shifts import fitted
+from viscofric.rheology.superposition.gauge import Gauge
+from viscofric.rheology.superposition.overlap import Join
+from viscofric.units import celsius, kelvin_hint
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.shifting.isotherms import FrictionIsotherm
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Fitted curves overlap for sure if they would after being pulled apart by so many standard errors of their step.
+SURE = 2.0
+#: By which variances grow at most because the scatter is found from few points.
+LARGEST_FACTOR = 5.0
+
+
+@dataclass(frozen=True, eq=False)
+class FoundShifts:
+    """What friction curves tell of α(T).
+
+    Attributes
+    ----------
+    factors : ShiftFactors
+        Of the temperatures that reach each other.
+    members : tuple of int
+        Their places among all temperatures.
+    notes : tuple of str
+        What was left out, one sentence each.
+    """
+
+    factors: ShiftFactors
+    members: tuple[int, ...]
+    notes: tuple[str, ...]
+
+
+def found_shifts(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> FoundShifts:
+    """Find the shift factors that bring friction curves onto one smooth curve.
+
+    Pairs of temperatures are scanned for steps at which their curves coincide (`pairs`), the curves that reach each
+    other are put together roughly (`placement`), and all are brought onto one penalised spline at once, as moduli are
+    (`rheology.superposition.common_shifts`).  Overlaps that the fitted shifts and their errors do not confirm count
+    for nothing.
+
+    Parameters
+    ----------
+    isotherms : sequence of FrictionIsotherm
+        In ascending temperature.
+    reference : float or None
+        Where α is 1, K; if None the temperature in the middle of the largest group.
+
+    Raises
+    ------
+    SuperpositionError
+        If no curve overlaps with another one (that of the reference), friction is too flat, or it fits in two ways.
+    InputError
+        If the reference lies outside the temperatures, or between groups that do not overlap.
+    """
+    _check(isotherms, reference)
+    pairs = scan_pairs(isotherms, scatter_scale(isotherms) or 1.0)
+    doubts = Doubts(isotherms, pairs, reference)
+    joined = [places for places, pair in pairs.items() if pair.candidates]
+    members = _group(groups(range(len(isotherms)), joined), doubts)
+    arrangements = arrange(members, pairs)
+    doubts.elsewhere = rivals(arrangements)
+    members = [place for place in members if place not in doubts.elsewhere]
+    positions = arrangements[0].positions
+    while True:
+        members = _group([members], doubts)
+        chosen = [isotherms[place] for place in members]
+        kelvin = chosen[len(chosen) // 2].temperature if reference is None else reference
+        values, covariance = _fit(chosen, np.array([positions[place] for place in members]), kelvin)
+        sure = [(members[one], members[other]) for one, other in _overlaps(chosen, values, covariance)]
+        reaching = _group(groups(members, sure), doubts, fitted=True)
+        if len(reaching) == len(members):
+            break
+        positions = dict(zip(members, values.tolist(), strict=True))
+        members = reaching
+    temperatures = np.array([isotherm.temperature for isotherm in chosen])
+    notes = doubts.left_out(members)
+    return FoundShifts(ShiftFactors(temperatures, values, kelvin, covariance, notes), tuple(members), notes)
+
+
+def _check(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> None:
+    if len(isotherms) < 2:
+        raise SuperpositionError(
+            f"friction curves at one temperature, {shown(isotherms[0])}, hold no shift factor; give two or more."
+        )
+    low, high = isotherms[0].temperature, isotherms[-1].temperature
+    if reference is not None and not low - NOMINAL <= reference <= high + NOMINAL:
+        raise InputError(
+            f"reference = {celsius(reference):z.1f} °C lies outside the friction curves, {shown(isotherms[0])} to "
+            f"{shown(isotherms[-1])}{kelvin_hint(reference)}."
+        )
+
+
+def _group(found: list[list[int]], doubts: Doubts, *, fitted: bool = False) -> list[int]:
+    """Return the group of temperatures that the reference belongs to, or the largest one.
+
+    Raises
+    ------
+    SuperpositionError
+        If there is none of two or more.
+    """
+    near = [group for group in found if len(group) > 1 and doubts.reached_by(group)]
+    if not near:
+        raise SuperpositionError(doubts.refusal(fitted=fitted))
+    return max(near, key=len)
+
+
+def _fit(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> tuple[Array, Array]:
+    """Fit log10 α (n,) of all isotherms from a start, and its covariance."""
+    temperatures = np.array([isotherm.temperature for isotherm in chosen])
+    inside = np.clip(reference, temperatures[0], temperatures[-1])
+    weights = np.array([np.interp(-1.0 / inside, -1.0 / temperatures, unit) for unit in np.eye(len(temperatures))])
+    gauge = Gauge(1.0 / temperatures, weights, weights, {})
+    joins = [Join(float(step), 0.0, 0.0) for step in -np.diff(start)]
+    weight = np.median(np.concatenate([1.0 / isotherm.variance for isotherm in chosen]))
+    found, _ = fitted([isotherm.sweep(float(weight)) for isotherm in chosen], joins, gauge)
+    # The scatter is found from few points: shifts in units of their errors follow Student's t, whose variance is this.
+    few = found.freedom / (found.freedom - 2.0) if found.freedom > 2.5 else LARGEST_FACTOR
+    return found.values, min(few, LARGEST_FACTOR) * found.covariance
+
+
+def _overlaps(chosen: Sequence[FrictionIsotherm], values: Array, covariance: Array) -> list[tuple[int, int]]:
+    """Return the pairs whose curves lie over each other for sure, by enough points of each."""
+    found = []
+    for one, other in combinations(range(len(chosen)), 2):
+        colder, warmer = chosen[one].speed + values[one], chosen[other].speed + values[other]
+        low, high = max(colder[0], warmer[0]), min(colder[-1], warmer[-1])
+        variance = covariance[one, one] + covariance[other, other] - 2.0 * covariance[one, other]
+        counts = [np.count_nonzero((part >= low) & (part <= high)) for part in (colder, warmer)]
+        if min(counts) >= FEWEST_POINTS and high - low > SURE * np.sqrt(max(float(variance), 0.0)):
+            found.append((one, other))
+    return found

@@ -1,0 +1,181 @@
+"""Friction of one temperature as the search for shift factors takes it: logarithms, variances, a smooth curve."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.nominal import SAME_TEMPERATURE, numbered
+from viscofric.rheology.superposition.common_curve import Curves, Smoother
+from viscofric.rheology.superposition.overlap import LogSweep
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Points of an isotherm whose speeds differ by less are one point.
+SAME_SPEED = 1e-3  # decades
+#: Friction within so many standard errors of zero has no logarithm worth taking: all is then fitted as it is.
+CLEAR_OF_ZERO = 4.0
+#: Stated errors below this part of the typical one are not believed, relative.
+SMALLEST_ERROR = 0.1
+#: What points without errors may scatter by, decades of friction: as little as a curve can be read to.
+UNKNOWN_ERROR = 0.004
+#: Degrees of freedom of an error that is not found from replicates.
+EXACT = 1e6
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionIsotherm:
+    """Friction at one temperature.
+
+    Attributes
+    ----------
+    temperature : float
+        Mean of the points, K.
+    speed : (n,) array
+        log10 of the speed, at the reference load; ascending, all different.
+    friction : (n,) array
+        log10 of the friction coefficient, or the coefficient on a scale where its largest value has the slope of a
+        logarithm.
+    variance : (n,) array
+        Of `friction`, up to a factor common to all isotherms.
+    range : tuple of float
+        Smallest and largest friction coefficient, at the reference load.
+    """
+
+    temperature: float
+    speed: Array
+    friction: Array
+    variance: Array
+    range: tuple[float, float]
+
+    def __len__(self) -> int:
+        return len(self.speed)
+
+    @cached_property
+    def curves(self) -> Curves:
+        """The curve through the points of this temperature alone."""
+        columns = self.speed, self.friction[:, None], 1.0 / self.variance
+        return Smoother.fitted(*columns).curves(*columns)
+
+    def read(self, speed: Array) -> tuple[Array, Array]:
+        """Read the curve at log10 speeds (k, m) within the range, with the covariance of each m values (k, m, m)."""
+        from scipy.interpolate import BSpline
+
+        smoother, curves = self.curves.smoother, self.curves
+        inside = np.clip(speed, self.speed[0], self.speed[-1]).ravel()
+        basis = BSpline.design_matrix(inside, smoother.knots, smoother.degree).toarray().reshape(*speed.shape, -1)
+        spread = basis @ curves.inverse[0] @ np.swapaxes(basis, -1, -2)
+        return basis @ curves.coefficients[:, 0], spread
+
+    def sweep(self, unit: float) -> LogSweep:
+        """Return the points as superposition takes them, weights in units of an inverse variance."""
+        return LogSweep(self.speed, self.friction[:, None], 1.0 / (unit * self.variance))
+
+
+def nominal_rows(temperature: Array) -> list[NDArray[np.intp]]:
+    """Return the rows of each isotherm, in ascending temperature."""
+    number = numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE))
+    return [np.flatnonzero(number == one) for one in range(int(number.max()) + 1)]
+
+
+def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
+    """Sort the points of friction curves by temperature.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+        At one load.
+
+    Returns
+    -------
+    list of FrictionIsotherm
+        In ascending temperature.
+    """
+    friction, error = curves.viscoelastic, curves.viscoelastic_error
+    finite = np.isfinite(error)
+    clear = friction > CLEAR_OF_ZERO * np.where(finite, error, 0.0)
+    largest = float(np.max(np.abs(friction), initial=np.finfo(float).tiny))
+    unit = friction if np.all(clear) else np.full(friction.shape, largest)
+    ordinate = np.log10(friction) if np.all(clear) else friction / (math.log(10.0) * largest)
+    decades = error / (math.log(10.0) * unit)
+    rows = nominal_rows(curves.temperature)
+    variance = _variances(decades, curves.replicates, curves.viscoelastic_freedom, rows)
+    speed, kelvin = np.log10(curves.speed), curves.temperature
+    return [_merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row]) for row in rows]
+
+
+def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
+    """Return what the variances are to be multiplied by, from the scatter about the isotherms' own curves.
+
+    None without a degree of freedom to tell.
+    """
+    several = [isotherm.curves for isotherm in isotherms if len(isotherm) > 3]
+    freedom = sum(curves.freedom for curves in several)
+    if freedom < 1.0:
+        return None
+    return float(sum(np.sum(curves.residual**2) for curves in several) / freedom)
+
+
+def _variances(
+    error: Array, replicates: NDArray[np.int64], freedom: Array | None, rows: list[NDArray[np.intp]]
+) -> Array:
+    """Pool the squared errors of each temperature; a point without an error gets the typical one.
+
+    A standard error found from few replicates is itself uncertain, and weights that scatter cost precision which the
+    fit does not know of.  So squares are pooled with the typical one of their temperature, which counts for as many
+    replicates as their scatter over the points leaves room for (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004)
+    article 3).
+    """
+    known = np.isfinite(error)
+    if not np.any(error[known] > 0.0):
+        return np.full(error.shape, UNKNOWN_ERROR**2)
+    floor = SMALLEST_ERROR**2 * float(np.median(error[known & (error > 0.0)] ** 2))
+    squared = np.maximum(np.where(known, error, 0.0) ** 2, floor)
+    typical = np.empty(error.shape)
+    for row in rows:
+        among = row[known[row]] if known[row].any() else np.flatnonzero(known)
+        typical[row] = np.median(squared[among])
+    if freedom is None:
+        # A single replicate with an error: that of a prediction, or one that is known otherwise; it is taken as it is.
+        freedom = np.where(replicates > 1, replicates - 1.0, EXACT)
+    freedom = np.where(known, np.clip(freedom, 1.0, EXACT), 0.0)
+    prior = _prior_freedom(np.log(squared / typical)[known], freedom[known])
+    # What one replicate without an error weighs beside those with one.
+    fewer = np.where(known, 1.0, np.maximum(np.median(replicates[known]) / replicates, 1.0))
+    return np.asarray(fewer * (freedom * squared + prior * typical) / (freedom + prior))
+
+
+def _prior_freedom(log_squares: Array, freedom: Array) -> float:
+    """Return how many degrees of freedom the typical squared error counts for."""
+    from scipy.special import polygamma
+
+    candidates = np.logspace(0.0, 6.0, 61)
+    excess = np.var(log_squares) - np.mean(polygamma(1, freedom / 2.0))
+    return float(candidates[np.argmin(np.abs(polygamma(1, candidates / 2.0) - excess))])
+
+
+def _merged(temperature: float, speed: Array, ordinate: Array, variance: Array, friction: Array) -> FrictionIsotherm:
+    """Make one point of those at equal speeds."""
+    order = np.argsort(speed, kind="stable")
+    number = np.zeros(len(order), dtype=int)
+    number[1:] = np.cumsum(np.diff(speed[order]) > SAME_SPEED)
+    weight = 1.0 / variance[order]
+    total = np.bincount(number, weight)
+    return FrictionIsotherm(
+        temperature,
+        np.bincount(number, weight * speed[order]) / total,
+        np.bincount(number, weight * ordinate[order]) / total,
+        1.0 / total,
+        (float(friction.min()), float(friction.max())),
+    )

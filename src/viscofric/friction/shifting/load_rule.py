@@ -1,0 +1,106 @@
+"""How friction at one load follows from that at another: indenters whose contacts at all loads are alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
+from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+
+    Array: TypeAlias = NDArray[np.float64]
+
+# Exponents of the load in the size of the contact, and in its strain (load over modulus and size squared).
+_EXPONENTS: dict[type[Indenter], tuple[float, float]] = {
+    Ball: (1.0 / 3.0, 1.0 / 3.0),
+    Ellipsoid: (1.0 / 3.0, 1.0 / 3.0),
+    Cylinder: (0.5, 0.5),
+    Cone: (0.5, 0.0),
+}
+# What is in proportion to viscoelastic friction.
+_OF_FRICTION = (
+    "viscoelastic",
+    "viscoelastic_error",
+    "viscoelastic_scatter",
+    "material_error",
+    "viscoelastic_lower",
+    "viscoelastic_upper",
+)
+
+
+@dataclass(frozen=True)
+class LoadRule:
+    """Exact similarity of friction at different loads and vertical shifts.
+
+    A rigid indenter without a length of its own, on a linear half-space, makes contacts that are alike at all loads.
+    With the load relative to a reference load and to the vertical shift b of the modulus, f = F/(b F0), their size
+    goes as f^p and their strain as f^q, whatever the spectrum.  The time that a point spends in contact is the size
+    over the speed, and friction is proportional to the strain, hence
+
+        μ(v, T, F) = f^q μ(α(T) v / f^p, T0, F0),    f = F/(b(T) F0).
+
+    For a ball p = q = 1/3: μ = (a0/R) Φ(v/a0), with a0 the Hertz radius (K. L. Johnson, Contact Mechanics, Cambridge
+    1985, ch. 4); for a cylinder, with its load per length, p = q = 1/2; for a cone p = 1/2, q = 0.  It does not hold
+    on a layer nor for an elastic indenter.
+
+    Attributes
+    ----------
+    size, strain : float
+        p and q.
+    """
+
+    size: float
+    strain: float
+
+    @classmethod
+    def of(cls, indenter: Any) -> LoadRule:
+        """Return the rule of an indenter.
+
+        Raises
+        ------
+        InputError
+            If it is not a ball, an ellipsoid, a cylinder or a cone.
+        """
+        exponents = _EXPONENTS.get(type(indenter))
+        if exponents is None:
+            noun = indenter.noun if isinstance(indenter, Indenter) else type(indenter).__name__
+            raise InputError(
+                f"indenter of friction curves is a {noun}: contacts at different loads are alike for a Ball, "
+                "Ellipsoid, Cylinder or Cone only; leave it out and take curves of one load."
+            )
+        return cls(*exponents)
+
+    def factors(self, relative_load: Array) -> tuple[Array, Array]:
+        """Return f^p, of the speed, and f^q, of the friction, for f = F/(b F0)."""
+        return relative_load**self.size, relative_load**self.strain
+
+    def reduced(self, curves: FrictionCurves, load: float, vertical_shift: VerticalShift | None) -> FrictionCurves:
+        """Return friction curves at one load and without vertical shift: v/f^p and μ/f^q of every point.
+
+        Parameters
+        ----------
+        curves : FrictionCurves
+            Of any loads; what does not belong to viscoelastic friction stays.
+        load : float
+            F0, in the curves' `load_unit`.
+        vertical_shift : VerticalShift or None
+            b(T); 1 if None.
+        """
+        b = 1.0 if vertical_shift is None else np.asarray(vertical_shift(curves.temperature))
+        speed, friction = self.factors(np.asarray(curves.load / (b * load)))
+        columns = {name: getattr(curves, name) for name in _OF_FRICTION}
+        return replace(
+            curves,
+            speed=curves.speed / speed,
+            load=np.full(len(curves), load),
+            **{name: column / friction for name, column in columns.items() if column is not None},
+        )

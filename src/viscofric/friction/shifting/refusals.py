@@ -1,0 +1,111 @@
+"""Why friction curves tell no shift factor, in a sentence each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from viscofric.friction.shifting.pairs import FEWEST_POINTS
+from viscofric.rheology.shifts.shift_law import NOMINAL
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.friction.shifting.isotherms import FrictionIsotherm
+    from viscofric.friction.shifting.placement import Pairs
+#: More temperatures than these are told by their range.
+MOST_LISTED = 9
+
+
+@dataclass(eq=False)
+class Doubts:
+    """What is known of why temperatures do not reach each other.
+
+    Attributes
+    ----------
+    isotherms : sequence of FrictionIsotherm
+    pairs : mapping
+        From `scan_pairs`.
+    reference : float or None
+        Where α is to be 1, K.
+    elsewhere : list of int
+        Places of temperatures that fit in more than one place.
+    """
+
+    isotherms: Sequence[FrictionIsotherm]
+    pairs: Pairs
+    reference: float | None
+    elsewhere: list[int] = field(default_factory=list)
+
+    def reached_by(self, group: Sequence[int]) -> bool:
+        """Say whether a group of temperatures, in ascending order, has the reference among or between them."""
+        low, high = self.isotherms[group[0]].temperature, self.isotherms[group[-1]].temperature
+        return self.reference is None or low - NOMINAL <= self.reference <= high + NOMINAL
+
+    def refusal(self, *, fitted: bool) -> str:
+        """Say why there is nothing to return; `fitted` where overlaps were found that the fit did not confirm."""
+        what = f"friction curves at {_listed(self.isotherms)}"
+        if self.elsewhere:
+            where = _listed([self.isotherms[place] for place in self.elsewhere])
+            return (
+                f"the {what} tell no shift factor, because friction at {where} coincides with the other curves in "
+                "more than one place equally well; measure over more speeds or temperatures in between."
+            )
+        if self.reference is not None and not fitted and any(pair.candidates for pair in self.pairs.values()):
+            return (
+                f"no two of the {what} that overlap have the reference, {celsius(self.reference):z.1f} °C, between "
+                "them; choose another reference, or measure temperatures around it or over more speeds."
+            )
+        if any(pair.verdict == "rising" for pair in self.pairs.values()):
+            return (
+                f"the {what} coincide only if their shift factors rise with temperature, which those of a rubber never "
+                "do; check temperatures and speeds."
+            )
+        neighbours = [self.pairs[place, place + 1] for place in range(len(self.isotherms) - 1)]
+        if all(pair.verdict == "flat" for pair in neighbours):
+            return (
+                f"the {what} are too flat: friction changes too little with speed for its errors, so that any shift "
+                "factor would do."
+            )
+        lone = [isotherm for isotherm in self.isotherms if len(isotherm) < FEWEST_POINTS]
+        if len(lone) > len(self.isotherms) - 2:
+            return f"friction at {_listed(lone)} is known at one speed only; a shift factor needs two or more."
+        spans = ", ".join(f"{one.range[0]:.3g} to {one.range[1]:.3g}" for one in self.isotherms[:MOST_LISTED])
+        doubt = " for sure, in view of their errors" if fitted else ""
+        return (
+            f"the {what} do not overlap{doubt}: no shift brings {FEWEST_POINTS} or more points of one over another "
+            f"(friction coefficients from {spans}); measure temperatures in between or over more speeds."
+        )
+
+    def left_out(self, members: Sequence[int]) -> tuple[str, ...]:
+        """Say of each temperature that is not among the members why it was left out."""
+        return tuple(
+            f"The friction curve at {shown(self.isotherms[place])} was left out: {self._reason(place, members)}."
+            for place in range(len(self.isotherms))
+            if place not in members
+        )
+
+    def _reason(self, place: int, members: Sequence[int]) -> str:
+        own = self.isotherms[place]
+        if len(own) < FEWEST_POINTS:
+            return "it has only one speed"
+        if place in self.elsewhere:
+            return "it coincides with the others in more than one place equally well"
+        nearest = min(members, key=lambda member: abs(self.isotherms[member].temperature - own.temperature))
+        other = shown(self.isotherms[nearest])
+        if self.pairs[min(place, nearest), max(place, nearest)].verdict == "flat":
+            return f"it or the one at {other} is too flat to tell where they overlap"
+        return f"no shift makes it overlap with that at {other} or the others for sure"
+
+
+def shown(isotherm: FrictionIsotherm) -> str:
+    """Write the temperature of an isotherm as users read it."""
+    return f"{celsius(isotherm.temperature):z.1f} °C"
+
+
+def _listed(isotherms: Sequence[FrictionIsotherm]) -> str:
+    numbers = [f"{celsius(isotherm.temperature):z.1f}" for isotherm in isotherms]
+    if len(numbers) > MOST_LISTED:
+        return f"{len(numbers)} temperatures from {numbers[0]} to {numbers[-1]} °C"
+    return f"{', '.join(numbers[:-1])} and {numbers[-1]} °C" if len(numbers) > 1 else f"{numbers[0]} °C"

@@ -1,0 +1,242 @@
+"""Whether shift factors found in two ways are the same: those of friction beside those of a DMA, in numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology.shifts.shift_factors import ShiftFactors, referenced_covariance
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.superposition.superpose import Superposition
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: A temperature that lies so near to the reference is the reference, K.
+AT_REFERENCE = 1e-6
+#: Combinations whose variance is below this part of the largest one say how the reference was interpolated.
+INTERPOLATED = 1e-9
+#: Rounding of tabulated values, decades; keeps exact ones from dividing by zero.
+ROUNDING = 1e-6
+CONVERGED = 1e-10
+ITERATIONS = 100
+
+
+@dataclass(frozen=True, eq=False)
+class ShiftAgreement:
+    """Agreement of two sets of shift factors about the same reference.
+
+    Attributes
+    ----------
+    reference : float
+        Where both are 1, K.
+    temperature : (n,) array
+        At which they are compared, K; without the reference.
+    difference : (n,) array
+        log10 α found less log10 α of the other.
+    error : (n,) array
+        Its standard error, from both.
+    chi2 : float
+        Squared differences in units of their covariance, that of both.
+    freedom : int
+        Number of independent differences.
+    p_value : float
+        Probability of a χ² as large, if both are the same and their errors are right.
+    slope, slope_error : float
+        k and its standard error in log10 α_found = k log10 α_other, errors of both counted: 1 where they coincide.
+    rms : float
+        Root mean square difference, decades.
+    """
+
+    reference: float
+    temperature: Array
+    difference: Array
+    error: Array
+    chi2: float
+    freedom: int
+    p_value: float
+    slope: float
+    slope_error: float
+    rms: float
+
+    @property
+    def sentence(self) -> str:
+        """The same in words."""
+        where = f"{celsius(float(self.temperature.min())):z.1f} to {celsius(float(self.temperature.max())):z.1f} °C"
+        if self.temperature.size == 1:
+            where = f"{celsius(float(self.temperature[0])):z.1f} °C"
+        verdict = "agree within" if self.p_value >= 0.05 else "differ by more than"
+        return (
+            f"The shift factors at {where}, relative to {celsius(self.reference):z.1f} °C, differ by {self.rms:.2g} "
+            f"decades (root mean square) and {verdict} their errors "
+            f"(χ² = {self.chi2:.3g} for {self.freedom}, p = {self.p_value:.2g}): log10 α found is "
+            f"{self.slope:.3f} ± {self.slope_error:.2g} times the other."
+        )
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def compare_shift_factors(
+    found: FrictionMasterCurve | ShiftFactors, other: ShiftLaw | Superposition | Material | FrictionMasterCurve
+) -> ShiftAgreement:
+    """Compare shift factors, such as those found from friction with those of a DMA.
+
+    Parameters
+    ----------
+    found : FrictionMasterCurve or ShiftFactors
+        With its covariance; its reference and temperatures are used.
+    other : ShiftFactors, a law (WLF, …), Superposition, Material or FrictionMasterCurve
+        Independent of `found`, as the superposition of a DMA or a law fitted to it.  It is brought to the reference of
+        `found` and read at its temperatures; a law without covariance counts as exact.
+
+    Returns
+    -------
+    ShiftAgreement
+
+    Raises
+    ------
+    InputError
+        If they have no temperature in common beside the reference, or `found` is not a table of shift factors.
+
+    Notes
+    -----
+    k is the straight line through the reference that lies nearest to both in units of their errors (total least
+    squares with full covariances), so that errors of the other do not pull it towards zero.  Its standard error grows
+    with √(χ²/(n − 1)) where the factors scatter about that line by more than their errors say.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.WLF(C1=9.0, C2=100.0, reference=303.15)
+    >>> kelvin = [303.15, 313.15, 323.15]
+    >>> found = vf.ShiftFactors(kelvin, law.log10(kelvin), 303.15, [[0, 0, 0], [0, 1e-4, 1e-4], [0, 1e-4, 4e-4]])
+    >>> agreement = vf.compare_shift_factors(found, law)
+    >>> round(agreement.p_value, 3), round(agreement.slope, 3), round(agreement.slope_error, 3)
+    (1.0, 1.0, 0.012)
+    """
+    table = _factors(found, "found")
+    reference = table.reference
+    keep = np.abs(table.temperatures - reference) > AT_REFERENCE
+    law: Any = getattr(other, "shift", None)
+    if law is None:
+        law = getattr(other, "shift_factors", other)
+    if not hasattr(law, "at_reference"):
+        raise InputError(f"other must be ShiftFactors, a law, or what has them, not {type(other).__name__}.")
+    law = law.at_reference(reference)
+    keep &= _known(law, table.temperatures)
+    if not np.any(keep):
+        raise InputError(
+            f"the shift factors to compare have no temperature in common beside the reference, "
+            f"{celsius(reference):z.1f} °C."
+        )
+    kelvin = table.temperatures[keep]
+    y, y_spread = table.log10_values[keep], table.covariance[np.ix_(keep, keep)]
+    x, x_spread = np.asarray(law.log10(kelvin)), _covariance(law, kelvin)
+    difference, spread = y - x, x_spread + y_spread
+    told = _told(spread)
+    chi2, freedom = _chi2(told @ difference, told @ spread @ told.T), len(told)
+    slope, slope_error = _slope(told @ x, told @ y, told @ x_spread @ told.T, told @ y_spread @ told.T)
+    return ShiftAgreement(
+        reference=reference,
+        temperature=kelvin,
+        difference=difference,
+        error=np.sqrt(np.maximum(np.diag(spread), 0.0)),
+        chi2=chi2,
+        freedom=freedom,
+        p_value=_p_value(chi2, freedom),
+        slope=slope,
+        slope_error=slope_error,
+        rms=float(np.sqrt(np.mean(difference**2))),
+    )
+
+
+def _factors(found: Any, name: str) -> ShiftFactors:
+    table = getattr(found, "shift_factors", found)
+    if not isinstance(table, ShiftFactors):
+        raise InputError(
+            f"{name} must be ShiftFactors or a FrictionMasterCurve, which hold a covariance, not "
+            f"{type(found).__name__}."
+        )
+    return table
+
+
+def _known(law: Any, kelvin: Array) -> NDArray[np.bool_]:
+    """Say at which temperatures (n,) a law answers."""
+    try:
+        law.log10(kelvin)
+    except InputError:
+        if kelvin.size == 1:
+            return np.array([False])
+        return np.concatenate([_known(law, kelvin[place : place + 1]) for place in range(kelvin.size)])
+    return np.full(kelvin.shape, True)
+
+
+def _covariance(law: Any, kelvin: Array) -> Array:
+    """Return the covariance of log10 α at temperatures (n,); zero of a law without one."""
+    if isinstance(law, ShiftFactors):
+        # Carried through linear interpolation in 1/T, and less that of the reference between temperatures.
+        inverse = 1.0 / law.temperatures[::-1]
+        weights = np.stack([np.interp(1.0 / kelvin, inverse, unit) for unit in np.eye(len(inverse))[::-1]], axis=-1)
+        return np.asarray(weights @ referenced_covariance(law.temperatures, law.covariance, law.reference) @ weights.T)
+    covariance = getattr(law, "covariance", None)
+    if covariance is None:
+        return np.zeros((len(kelvin), len(kelvin)))
+    gradient = law.gradient(kelvin)
+    return np.asarray(gradient @ covariance @ gradient.T)
+
+
+def _told(spread: Array) -> Array:
+    """Return the combinations (m, n) of values whose differences mean something.
+
+    With a reference between temperatures the values around it are tied by interpolation, and there is one less.
+    """
+    variance, axes = np.linalg.eigh(spread)
+    keep = variance > INTERPOLATED * variance[-1]
+    return np.asarray(axes[:, keep].T if keep.any() else np.eye(len(spread)))
+
+
+def _chi2(difference: Array, spread: Array) -> float:
+    return float(difference @ np.linalg.solve(spread + ROUNDING**2 * np.eye(difference.size), difference))
+
+
+def _p_value(chi2: float, freedom: int) -> float:
+    from scipy.special import gammaincc
+
+    return float(gammaincc(0.5 * freedom, 0.5 * chi2))
+
+
+def _slope(x: Array, y: Array, x_spread: Array, y_spread: Array) -> tuple[float, float]:
+    """Return k of y = k x, and its standard error, by generalised total least squares.
+
+    χ²(k) = (y − kx)ᵀ (V_y + k² V_x)⁻¹ (y − kx) with the true x on the line; found by repeated generalised least
+    squares on the x that lies nearest.
+    """
+    slope = float(x @ y / (x @ x)) if np.any(x) else math.nan
+    if not math.isfinite(slope):
+        raise InputError("the other shift factors are all 1: there is no slope against them.")
+    floor = ROUNDING**2 * np.eye(x.size)
+    for _ in range(ITERATIONS):
+        inverse = np.linalg.inv(y_spread + slope**2 * x_spread + floor)
+        residual = inverse @ (y - slope * x)
+        nearest = x + slope * x_spread @ residual  # the true x, given the line
+        change = float(nearest @ residual) / float(nearest @ inverse @ nearest)
+        slope += change
+        if abs(change) < CONVERGED:
+            break
+    inverse = np.linalg.inv(y_spread + slope**2 * x_spread + floor)
+    residual = inverse @ (y - slope * x)
+    nearest = x + slope * x_spread @ residual
+    chi2 = float((y - slope * x) @ residual)
+    excess = max(1.0, chi2 / (x.size - 1)) if x.size > 1 else 1.0
+    return slope, float(np.sqrt(excess / (nearest @ inverse @ nearest)))

@@ -1,0 +1,291 @@
+"""Shift factors come out of friction curves alone, with the errors that they have, or are refused."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from friction.synthetic_curves import curves_of, noisy, planted_law, synthetic_curves
+from viscofric.contact.indenters.indenter import Ball
+from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.prediction import predict_friction
+from viscofric.friction.shifting.shift import shift_friction
+from viscofric.friction.shifting.shift_agreement import compare_shift_factors
+from viscofric.rheology.catalogue import synthetic_fluoroelastomer
+from viscofric.rheology.shifts.laws import WLF
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+
+    Array = NDArray[np.float64]
+
+LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
+SPEEDS = np.geomspace(0.02, 0.2, 10)
+# 5 % in eight replicates.
+NOISE = 0.05
+
+
+def power(reduced: Array) -> Array:
+    return np.asarray(0.02 * (reduced / 0.1) ** -0.25)
+
+
+def peak(reduced: Array) -> Array:
+    """Rise and fall like the loss of one retardation time."""
+    return np.asarray(0.06 / (reduced / 0.1 + 0.1 / reduced))
+
+
+def double_peak(reduced: Array) -> Array:
+    """Two maxima of equal height, two decades apart."""
+    return peak(reduced) + peak(reduced / 100.0)
+
+
+def constant(reduced: Array) -> Array:
+    return np.full(reduced.shape, 0.02)
+
+
+def made(
+    friction: Callable[[Array], Array],
+    *celsius: float,
+    speeds: Array = SPEEDS,
+    noise: float = 0.0,
+    seed: int = 1,
+) -> FrictionCurves:
+    temperature = np.repeat(np.array(celsius) + 273.15, len(speeds))
+    speed = np.tile(speeds, len(celsius))
+    exact = friction(np.asarray(LAW(temperature)) * speed)
+    if noise == 0.0:
+        return curves_of(speed, temperature, exact, 0.0)
+    return noisy(speed, temperature, exact, noise, np.random.default_rng(seed))
+
+
+def deviation(factors: ShiftFactors, law: ShiftLaw = LAW) -> Array:
+    return np.asarray(factors.log10_values - law.at_reference(factors.reference).log10(factors.temperatures))
+
+
+def test_the_synthetic_friction_is_what_the_solver_gives() -> None:
+    """The file of the tests, solved to 1e-4, against a contact solved anew to 1e-3."""
+    curves = synthetic_curves(46.0)
+    again = predict_friction(
+        synthetic_fluoroelastomer(),
+        Ball(radius="9.525 mm"),
+        speeds=float(curves.speed[4]),
+        temperatures="46 degC",
+        load="25 N",
+        accuracy=1e-3,
+    )
+    assert again.viscoelastic[0] == pytest.approx(curves.viscoelastic[4], rel=1e-3)
+
+
+def test_planted_shift_factors_are_found_without_noise() -> None:
+    """To 0.001 decades where 0.01 is asked: the spline between knots is the only error."""
+    master = shift_friction(synthetic_curves())
+    factors = master.shift_factors
+    assert master.found
+    assert master.notes == ()
+    assert len(factors.temperatures) == 9
+    np.testing.assert_allclose(deviation(factors, planted_law()), 0.0, atol=1e-3)
+    assert master.overlap_rms == pytest.approx(0.0, abs=1e-3)
+    law, planted = factors.law("wlf"), planted_law().at_reference(factors.reference)
+    assert law.log10("70 degC") == pytest.approx(planted.log10("70 degC"), abs=2e-3)
+    # Read half way between temperatures: what is found serves like what is given.
+    given_law = shift_friction(synthetic_curves(), shift=planted_law())
+    assert master("0.1 m/s", "56 degC") == pytest.approx(given_law("0.1 m/s", "56 degC"), rel=3e-3)
+
+
+@pytest.mark.slow
+def test_95_per_cent_intervals_hold_95_per_cent() -> None:
+    """Over 100 seeds; 1000 hold 94.9 % of each α and 94.5 % of all together, and none raises a false alarm."""
+    law = planted_law()
+    inside, slopes, together = [], [], []
+    for seed in range(100):
+        master = shift_friction(synthetic_curves(noise=NOISE, seed=seed))
+        assert master.notes == ()
+        factors = master.shift_factors
+        away = factors.temperatures != factors.reference
+        inside.append(np.abs(deviation(factors, law))[away] < 1.96 * factors.standard_errors[away])
+        agreement = compare_shift_factors(master, law)
+        slopes.append(abs(agreement.slope - 1.0) < 1.96 * agreement.slope_error)
+        together.append(agreement.p_value > 0.05)
+    # The asked 95 ± 5 %: of 800 correlated values and of 100 independent ones (whose standard deviation is 2.2 %).
+    assert 0.90 <= np.mean(inside) <= 1.0
+    assert np.mean(slopes) >= 0.89
+    assert np.mean(together) >= 0.89
+
+
+@pytest.mark.parametrize("noise", [0.0, NOISE])
+def test_the_papers_three_temperatures_do_not_overlap(noise: float) -> None:
+    """30, 60 and 90 °C over one decade leave gaps: no number, whatever the noise."""
+    for seed in range(10):
+        with pytest.raises(SuperpositionError, match=r"at 30\.0, 60\.0 and 90\.0 °C do not overlap"):
+            shift_friction(synthetic_curves(30.0, 60.0, 90.0, noise=noise, seed=seed))
+
+
+def test_a_temperature_that_reaches_no_other_is_left_out_and_told() -> None:
+    for seed in range(5):
+        master = shift_friction(synthetic_curves(30.0, 35.0, 40.0, 90.0, noise=NOISE, seed=seed))
+        np.testing.assert_allclose(master.shift_factors.temperatures, [303.15, 308.15, 313.15])
+        (note,) = master.notes
+        assert "at 90.0 °C was left out" in note
+        assert set(master.temperature) == {303.15, 308.15, 313.15}
+        assert len(master.curves) == 30
+
+
+def test_of_two_groups_that_of_the_reference_counts() -> None:
+    curves = synthetic_curves(30.0, 35.0, 78.0, 90.0)
+    cold, hot = (shift_friction(curves, reference=reference) for reference in ("32 degC", "90 degC"))
+    np.testing.assert_allclose(cold.shift_factors.temperatures, [303.15, 308.15])
+    np.testing.assert_allclose(hot.shift_factors.temperatures, [351.15, 363.15])
+    assert cold.reference == pytest.approx(305.15)
+    with pytest.raises(SuperpositionError, match=r"have the reference, 60\.0 °C, between them"):
+        shift_friction(curves, reference="60 degC")
+    with pytest.raises(InputError, match=r"reference = 20\.0 °C lies outside the friction curves, 30\.0 °C to 90\.0"):
+        shift_friction(curves, reference="20 degC")
+
+
+@pytest.mark.parametrize("noise", [0.0, NOISE])
+def test_friction_that_does_not_depend_on_speed_tells_no_shift(noise: float) -> None:
+    """One false alarm in 20 would be too many; 60 seeds of each of two gave none."""
+    for seed in range(20 if noise else 1):
+        with pytest.raises(SuperpositionError, match=r"too flat|do not overlap"):
+            shift_friction(made(constant, 30.0, 40.0, 50.0, noise=noise, seed=seed))
+    with pytest.raises(SuperpositionError, match=r"at 30\.0 and 40\.0 °C are too flat"):
+        shift_friction(made(constant, 30.0, 40.0, noise=noise))
+
+
+@pytest.mark.parametrize("friction", [power, peak, double_peak])
+def test_curves_with_and_without_maxima_are_joined(friction: Callable[[Array], Array]) -> None:
+    """Where one flank could pass for another, the curves of all temperatures together decide."""
+    celsius = (32.0, 38.0, 44.0, 50.0, 56.0, 62.0, 68.0)
+    exact = shift_friction(made(friction, *celsius)).shift_factors
+    np.testing.assert_allclose(deviation(exact), 0.0, atol=0.01)
+    found = [shift_friction(made(friction, *celsius, noise=NOISE, seed=seed)).shift_factors for seed in range(5)]
+    for factors in found:
+        assert len(factors.temperatures) == 7
+        away = factors.standard_errors > 0.0
+        # 30 values within 4 standard errors: one in 500 such tests would fail by chance.
+        assert np.all(np.abs(deviation(factors))[away] < 4.0 * factors.standard_errors[away])
+
+
+def test_curves_that_fit_in_two_places_are_not_placed() -> None:
+    """Friction that repeats itself in every decade, over two decades of speed, coincides one decade further on too."""
+
+    def repeating(reduced: Array) -> Array:
+        return np.asarray(0.02 * (1.0 + 0.3 * np.sin(2.0 * np.pi * np.log10(reduced))))
+
+    curves = made(repeating, 48.0, 50.0, speeds=np.geomspace(0.002, 0.2, 25))
+    with pytest.raises(SuperpositionError, match=r"friction at 50\.0 °C coincides with the other curves in more"):
+        shift_friction(curves)
+
+
+def test_opposite_flanks_of_a_maximum_do_not_overlap() -> None:
+    """38 and 62 °C lie on either side, with friction in the same range, and have no point of the curve in common."""
+    curves = made(peak, 38.0, 62.0)
+    with pytest.raises(SuperpositionError, match=r"38\.0 and 62\.0 °C do not overlap"):
+        shift_friction(curves)
+
+
+@pytest.mark.parametrize(
+    ("curves", "message"),
+    [
+        (made(power, 50.0), r"at one temperature, 50\.0 °C, hold no shift factor"),
+        (made(power, 44.0, 50.0, speeds=np.array([0.1])), r"friction at 44\.0 and 50\.0 °C is known at one speed only"),
+        (made(power, 50.0, 64.0), r"50\.0 and 64\.0 °C do not overlap"),  # by less than one point
+        (made(power, 44.0, 56.0, speeds=np.array([0.02, 0.2])), r"44\.0 and 56\.0 °C do not overlap"),  # by none
+    ],
+)
+def test_too_little_is_refused(curves: FrictionCurves, message: str) -> None:
+    with pytest.raises(SuperpositionError, match=message):
+        shift_friction(curves)
+
+
+def test_an_alpha_that_rises_with_temperature_is_refused() -> None:
+    """Temperatures that were mixed up make curves that coincide, the wrong way."""
+    right = made(power, 44.0, 50.0)
+    mixed_up = curves_of(right.speed, right.temperature[::-1], right.viscoelastic, 0.0)
+    with pytest.raises(SuperpositionError, match=r"44\.0 and 50\.0 °C coincide only if their shift factors rise"):
+        shift_friction(mixed_up)
+
+
+def test_many_temperatures_are_told_by_their_range() -> None:
+    with pytest.raises(SuperpositionError, match=r"at 10 temperatures from 30\.0 to 48\.0 °C are too flat"):
+        shift_friction(made(constant, *np.arange(30.0, 49.0, 2.0)))
+
+
+def test_an_overlap_of_one_point_is_none() -> None:
+    """At α = 10^-1 the last speed of the colder is the first of the warmer: nothing tests how steep they are there."""
+    speed, temperature = np.tile(SPEEDS, 2), np.repeat([320.0, 335.0], 10)
+    friction = power(speed * np.where(temperature > 330.0, 0.1, 1.0))
+    with pytest.raises(SuperpositionError, match="do not overlap"):
+        shift_friction(curves_of(speed, temperature, friction, 0.0))
+
+
+def test_two_temperatures_are_enough() -> None:
+    exact = shift_friction(made(power, 44.0, 50.0), reference="44 degC").shift_factors
+    np.testing.assert_allclose(deviation(exact), 0.0, atol=1e-3)
+    few = shift_friction(made(power, 48.0, 50.0, speeds=np.array([0.02, 0.06, 0.2]))).shift_factors
+    np.testing.assert_allclose(deviation(few), 0.0, atol=0.01)
+
+
+def test_points_of_one_temperature_to_half_a_kelvin_are_one_curve() -> None:
+    curves = made(power, 44.0, 50.0, 56.0)
+    wobble = 0.2 * np.random.default_rng(1).uniform(-1.0, 1.0, len(curves))
+    master = shift_friction(curves_of(curves.speed, curves.temperature + wobble, curves.viscoelastic, 0.0))
+    assert len(master.shift_factors.temperatures) == 3
+    np.testing.assert_allclose(master.shift_factors.temperatures, [317.15, 323.15, 329.15], atol=0.2)
+
+
+def test_equal_speeds_count_once_each_by_their_errors() -> None:
+    """Curves with every point twice, of half the variance each, give the same factors."""
+    once = made(power, 44.0, 50.0, 56.0, noise=NOISE)
+    twice = curves_of(
+        np.tile(once.speed, 2),
+        np.tile(once.temperature, 2),
+        np.tile(once.viscoelastic, 2),
+        np.tile(once.viscoelastic_error, 2),
+        replicates=8,
+    )
+    one, other = shift_friction(once).shift_factors, shift_friction(twice).shift_factors
+    np.testing.assert_allclose(one.log10_values, other.log10_values, atol=1e-6)
+    np.testing.assert_allclose(one.standard_errors, other.standard_errors, rtol=1e-3)
+
+
+def test_unknown_errors_and_friction_near_zero_are_fitted_too() -> None:
+    """Without errors all points count alike; with friction about zero it is fitted as it is, not its logarithm."""
+    curves = made(power, 44.0, 50.0, 56.0, noise=NOISE)
+    unknown = curves_of(curves.speed, curves.temperature, curves.viscoelastic, np.inf, replicates=1)
+    factors = shift_friction(unknown).shift_factors
+    assert np.all(np.abs(deviation(factors)) < 0.2)
+    assert np.all(np.isfinite(factors.covariance))
+    about_zero = curves_of(curves.speed, curves.temperature, curves.viscoelastic - 0.015, 0.0003)
+    found = shift_friction(about_zero).shift_factors
+    assert np.any(about_zero.viscoelastic < 0.0)
+    assert np.all(np.abs(deviation(found)) < 4.0 * found.standard_errors + 1e-9)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.floats(-3.0, 3.0), st.floats(-2.0, 2.0), st.integers(0, 3))
+def test_units_and_order_do_not_matter(speed: float, friction: float, seed: int) -> None:
+    """Other units of speed, other friction by a factor (another radius), rows in any order: the same α and errors."""
+    plain = made(power, 44.0, 50.0, 56.0, noise=NOISE)
+    order = np.random.default_rng(seed).permutation(len(plain))
+    other = curves_of(
+        10.0**speed * plain.speed[order],
+        plain.temperature[order],
+        10.0**friction * plain.viscoelastic[order],
+        10.0**friction * plain.viscoelastic_error[order],
+        replicates=8,
+    )
+    one, two = shift_friction(plain).shift_factors, shift_friction(other).shift_factors
+    # Rounding may choose the neighbouring one of the smoothing parameters, which are a quarter of a decade apart.
+    np.testing.assert_allclose(two.log10_values, one.log10_values, atol=2e-3)
+    np.testing.assert_allclose(two.standard_errors, one.standard_errors, rtol=0.05, atol=1e-9)

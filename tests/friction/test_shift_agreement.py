@@ -1,0 +1,124 @@
+"""That shift factors of friction and of a DMA coincide becomes a number with an error bar."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from importlib.resources import as_file, files
+
+import numpy as np
+import pytest
+
+from friction.synthetic_curves import planted_law, synthetic_curves
+from viscofric.errors import InputError
+from viscofric.friction.shifting.shift import shift_friction
+from viscofric.friction.shifting.shift_agreement import ShiftAgreement, compare_shift_factors
+from viscofric.readers import read_dma
+from viscofric.rheology.catalogue import synthetic_fluoroelastomer
+from viscofric.rheology.shifts.laws import WLF
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.superposition.superpose import superpose
+
+LAW = WLF(C1=9.0, C2=100.0, reference="30 degC")
+KELVIN = 303.15 + np.array([0.0, 5.0, 10.0, 16.0, 22.0, 30.0, 38.0, 48.0, 60.0])
+# From the reference on, independent steps add up.
+STEPS = np.tril(np.ones((9, 9))) * (np.arange(9) > 0)
+
+
+def factors(error: float, random: np.random.Generator, *, stretch: float = 1.0) -> ShiftFactors:
+    """Draw shift factors whose steps scatter by an error, with the covariance that this makes."""
+    exact = stretch * np.asarray(LAW.log10(KELVIN))
+    scattered = exact + error * STEPS @ random.standard_normal(9)
+    return ShiftFactors(KELVIN, scattered, 303.15, error**2 * STEPS @ STEPS.T)
+
+
+@cache
+def drawn(stretch: float) -> list[ShiftAgreement]:
+    random = np.random.default_rng(5)
+    return [compare_shift_factors(factors(0.02, random, stretch=stretch), factors(0.03, random)) for _ in range(400)]
+
+
+def test_p_is_uniform_where_both_are_the_same() -> None:
+    """400 pairs: each fifth holds 80 ± 8; three and a half standard deviations."""
+    counts, _ = np.histogram([one.p_value for one in drawn(1.0)], 5, (0.0, 1.0))
+    assert np.all(np.abs(counts - 80) < 28)
+
+
+@pytest.mark.parametrize("stretch", [1.0, 1.1])
+def test_the_slope_holds_what_its_error_says(stretch: float) -> None:
+    """Errors of both counted, k neither leans to zero nor misses its interval more than in one of twenty."""
+    agreements = drawn(stretch)
+    slope = np.array([one.slope for one in agreements])
+    inside = np.abs(slope - stretch) < 1.96 * np.array([one.slope_error for one in agreements])
+    # The standard deviation of the share is 1.1 %; the error grows where points scatter, so that it may hold more.
+    assert 0.92 <= inside.mean() <= 0.99
+    assert slope.mean() == pytest.approx(stretch, abs=4 * slope.std() / 20)
+
+
+def test_different_factors_are_told_apart() -> None:
+    agreement = compare_shift_factors(factors(0.02, np.random.default_rng(1), stretch=1.3), LAW)
+    assert agreement.p_value < 1e-6
+    assert abs(agreement.slope - 1.3) < 4.0 * agreement.slope_error
+    assert "differ by more than their errors" in agreement.sentence
+    assert agreement.freedom == 8
+    assert agreement.temperature[0] == pytest.approx(308.15)
+
+
+def test_another_reference_changes_no_verdict() -> None:
+    """χ² is the same about any measured temperature; about one between, one combination says nothing."""
+    random = np.random.default_rng(2)
+    found, other = factors(0.02, random), factors(0.03, random)
+    about = compare_shift_factors(found, other)
+    moved = compare_shift_factors(found.at_reference(KELVIN[4]), other)
+    assert moved.chi2 == pytest.approx(about.chi2, rel=1e-4)
+    between = compare_shift_factors(found.at_reference("60 degC"), other)
+    assert between.freedom == 8
+    assert between.temperature.size == 8
+    amid = compare_shift_factors(found.at_reference("58 degC"), other)
+    assert amid.freedom == 8
+    assert amid.temperature.size == 9
+    assert amid.chi2 == pytest.approx(about.chi2, rel=0.05)  # but for what interpolation does
+
+
+def test_friction_and_dma_of_one_rubber_agree() -> None:
+    """The paper's claim, on the synthetic fluoroelastomer: both are measured with noise, and coincide within it."""
+    with as_file(files("viscofric") / "example" / "dma.csv") as path:
+        sweeps = read_dma(path)
+    near = tuple(one for one in sweeps.isotherms if 293.0 < one.temperature < 374.0)
+    dma = superpose(replace(sweeps, isotherms=near), "60 degC")
+    friction = shift_friction(synthetic_curves(noise=0.05, seed=3), reference="60 degC")
+    agreement = compare_shift_factors(friction, dma)
+    assert agreement.p_value > 0.01
+    assert abs(agreement.slope - 1.0) < 3.0 * agreement.slope_error
+    assert agreement.slope_error < 0.03
+    assert agreement.rms < 0.06
+    assert "agree within their errors" in str(agreement)
+    assert agreement.chi2 == compare_shift_factors(friction, dma.shift_factors).chi2
+    exact = compare_shift_factors(shift_friction(synthetic_curves()), planted_law())
+    assert exact.slope == pytest.approx(1.0, abs=2e-3)
+    # The rubber has that very law.
+    assert compare_shift_factors(shift_friction(synthetic_curves()), synthetic_fluoroelastomer()).slope == exact.slope
+
+
+def test_a_master_curve_shifted_by_a_law_holds_its_factors() -> None:
+    """The table at the temperatures of the curves, with the law's covariance."""
+    law = factors(0.02, np.random.default_rng(4)).law("wlf")
+    master = shift_friction(synthetic_curves(30.0, 40.0, 52.0), shift=law)
+    table = master.shift_factors
+    np.testing.assert_allclose(table.log10_values, law.log10(table.temperatures), atol=1e-12)
+    np.testing.assert_allclose(table.standard_errors, law.standard_error(table.temperatures), rtol=1e-9)
+    assert not master.found
+    assert compare_shift_factors(master, law).slope == pytest.approx(1.0, abs=1e-9)
+    given = factors(0.02, np.random.default_rng(4))
+    assert shift_friction(synthetic_curves(30.0), shift=given).shift_factors is given
+
+
+def test_what_cannot_be_compared_is_refused() -> None:
+    table = factors(0.02, np.random.default_rng(1))
+    with pytest.raises(InputError, match="found must be ShiftFactors or a FrictionMasterCurve"):
+        compare_shift_factors(LAW, table)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="other must be ShiftFactors, a law, or what has them, not dict"):
+        compare_shift_factors(table, {})  # type: ignore[arg-type]
+    apart = ShiftFactors([303.15, 304.0], [0.0, -0.05], 303.15)
+    with pytest.raises(InputError, match=r"no temperature in common beside the reference, 30\.0 °C"):
+        compare_shift_factors(table, apart)
