@@ -97,6 +97,7 @@ def test_adjoint_is_the_gradient_of_the_friction_on_its_cells(seed: int) -> None
         assert (up - down) / (2.0 * step) == pytest.approx(gradient @ direction, abs=1e-5 * size)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 7])
 def test_gradient_is_that_of_the_friction_over_finite_steps(seed: int) -> None:
     spectrum, speed = random_contact(seed)
