@@ -4,6 +4,7 @@
 
 For every seed sweeps of the SYNTHETIC fluoroelastomer with planted noise are superposed, fitted and drawn anew, and
 friction is predicted with its band at some speeds and temperatures.  The true friction is that of the planted material.
+Sixty seeds at 2 % noise: 95 to 100 % held (97 % in all), 1.4 s of CPU each.
 """
 
 from __future__ import annotations

@@ -13,6 +13,9 @@ What is left out is of second order.  Drawn materials solved by themselves gave 
 was ±1 % (1 % noise of the moduli), and to 0.05 % where errors of α alone moved μ by ±9 %.  Made-up spectra of 3 to 13
 modes, each moved by 3 % by itself and all in time by 3 %, did to 0.1 %; moved by 10 %, so that μ changed by up to 10 %,
 to 0.3 % as a rule and 1.3 % at most.
+
+Of 60 planted measurements of one rubber with 2 % noise the bands held its true friction at 97 % of 360 points, and the
+standard errors told were 0 to 17 % above the scatter of the predictions (``benchmarks/friction/bands.py``).
 """
 
 from __future__ import annotations
