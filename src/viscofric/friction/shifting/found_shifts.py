@@ -54,7 +54,9 @@ class FoundShifts:
     notes: tuple[str, ...]
 
 
-def found_shifts(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> FoundShifts:
+def found_shifts(
+    isotherms: Sequence[FrictionIsotherm], reference: float | None, level_error: float = 0.0
+) -> FoundShifts:
     """Find the shift factors that bring friction curves onto one smooth curve.
 
     Pairs of temperatures are scanned for steps at which their curves coincide (`pairs`), the curves that reach each
@@ -68,6 +70,8 @@ def found_shifts(isotherms: Sequence[FrictionIsotherm], reference: float | None)
         In ascending temperature.
     reference : float or None
         Where α is 1, K; if None the temperature in the middle of the largest group.
+    level_error : float
+        Relative standard error of friction that all points of a temperature share.
 
     Raises
     ------
@@ -90,6 +94,8 @@ def found_shifts(isotherms: Sequence[FrictionIsotherm], reference: float | None)
         chosen = [isotherms[place] for place in members]
         kelvin = chosen[len(chosen) // 2].temperature if reference is None else reference
         values, covariance = _fit(chosen, np.array([positions[place] for place in members]), kelvin)
+        if level_error > 0.0:
+            covariance = covariance + _of_levels(chosen, values, kelvin, level_error)
         sure = [(members[one], members[other]) for one, other in _overlaps(chosen, values, covariance)]
         reaching = _group(groups(members, sure), doubts, fitted=True)
         if len(reaching) == len(members):
@@ -140,6 +146,15 @@ def _fit(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> 
     # The scatter is found from few points: shifts in units of their errors follow Student's t, whose variance is this.
     few = found.freedom / (found.freedom - 2.0) if found.freedom > 2.5 else LARGEST_FACTOR
     return found.values, min(few, LARGEST_FACTOR) * found.covariance
+
+
+def _of_levels(chosen: Sequence[FrictionIsotherm], values: Array, reference: float, level_error: float) -> Array:
+    """Return the covariance (n, n) that errors of the isotherms' levels make: each is moved by one, all fitted anew."""
+    moves = []
+    for place, isotherm in enumerate(chosen):
+        moved = [*chosen[:place], isotherm.raised(level_error), *chosen[place + 1 :]]
+        moves.append(_fit(moved, values, reference)[0] - values)
+    return np.asarray(np.transpose(moves) @ np.array(moves))
 
 
 def _overlaps(chosen: Sequence[FrictionIsotherm], values: Array, covariance: Array) -> list[tuple[int, int]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -51,6 +51,8 @@ class FrictionIsotherm:
         Of `friction`, up to a factor common to all isotherms.
     range : tuple of float
         Smallest and largest friction coefficient, at the reference load.
+    logarithmic : bool
+        Whether `friction` is the logarithm.
     """
 
     temperature: float
@@ -58,6 +60,7 @@ class FrictionIsotherm:
     friction: Array
     variance: Array
     range: tuple[float, float]
+    logarithmic: bool
 
     def __len__(self) -> int:
         return len(self.speed)
@@ -77,6 +80,11 @@ class FrictionIsotherm:
         basis = BSpline.design_matrix(inside, smoother.knots, smoother.degree).toarray().reshape(*speed.shape, -1)
         spread = basis @ curves.inverse[0] @ np.swapaxes(basis, -1, -2)
         return basis @ curves.coefficients[:, 0], spread
+
+    def raised(self, part: float) -> FrictionIsotherm:
+        """Return the same with all friction larger by a part."""
+        friction = self.friction + math.log10(1.0 + part) if self.logarithmic else (1.0 + part) * self.friction
+        return replace(self, friction=friction)
 
     def sweep(self, unit: float) -> LogSweep:
         """Return the points as superposition takes them, weights in units of an inverse variance."""
@@ -104,15 +112,18 @@ def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
     """
     friction, error = curves.viscoelastic, curves.viscoelastic_error
     finite = np.isfinite(error)
-    clear = friction > CLEAR_OF_ZERO * np.where(finite, error, 0.0)
+    logarithmic = bool(np.all(friction > CLEAR_OF_ZERO * np.where(finite, error, 0.0)))
     largest = float(np.max(np.abs(friction), initial=np.finfo(float).tiny))
-    unit = friction if np.all(clear) else np.full(friction.shape, largest)
-    ordinate = np.log10(friction) if np.all(clear) else friction / (math.log(10.0) * largest)
+    unit = friction if logarithmic else np.full(friction.shape, largest)
+    ordinate = np.log10(friction) if logarithmic else friction / (math.log(10.0) * largest)
     decades = error / (math.log(10.0) * unit)
     rows = nominal_rows(curves.temperature)
     variance = _variances(decades, curves.replicates, curves.viscoelastic_freedom, rows)
     speed, kelvin = np.log10(curves.speed), curves.temperature
-    return [_merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row]) for row in rows]
+    return [
+        _merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row], logarithmic)
+        for row in rows
+    ]
 
 
 def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
@@ -165,7 +176,9 @@ def _prior_freedom(log_squares: Array, freedom: Array) -> float:
     return float(candidates[np.argmin(np.abs(polygamma(1, candidates / 2.0) - excess))])
 
 
-def _merged(temperature: float, speed: Array, ordinate: Array, variance: Array, friction: Array) -> FrictionIsotherm:
+def _merged(
+    temperature: float, speed: Array, ordinate: Array, variance: Array, friction: Array, logarithmic: bool
+) -> FrictionIsotherm:
     """Make one point of those at equal speeds."""
     order = np.argsort(speed, kind="stable")
     number = np.zeros(len(order), dtype=int)
@@ -178,4 +191,5 @@ def _merged(temperature: float, speed: Array, ordinate: Array, variance: Array, 
         np.bincount(number, weight * ordinate[order]) / total,
         1.0 / total,
         (float(friction.min()), float(friction.max())),
+        logarithmic,
     )

@@ -14,7 +14,7 @@ from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.nominal import SAME_LOAD
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
-from viscofric.units import Quantity, positive
+from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,6 +34,7 @@ def shift_friction(
     vertical_shift: VerticalShift | None = None,
     indenter: Indenter | None = None,
     load: Quantity | None = None,
+    level_error: float = 0.0,
 ) -> FrictionMasterCurve:
     """Shift friction curves of several temperatures onto one (Eq. 10), by given shift factors or by their own.
 
@@ -59,6 +60,9 @@ def shift_friction(
         an exact rule (see `FrictionMasterCurve`), as μ(v, T, F) = μ(α(T) v, T0, F/b(T)).
     load : float, str or pint.Quantity, optional
         Of the master curve, with an indenter; the median of the curves' loads if left out.
+    level_error : float
+        Relative standard error of friction that all points of a temperature share, such as 0.01 for a force cell or
+        for samples that were changed between temperatures; counted in the covariance of found shift factors.
 
     Returns
     -------
@@ -79,8 +83,8 @@ def shift_friction(
     Errors of α are those of points that scatter about the common curve independently of each other.  Friction slopes
     little (0.05 to 0.3 decades per decade), so that what all points of a temperature share moves its α by many times
     as much: 1 % of friction by 0.014 to 0.09 decades, and the vertical shift of rubber elasticity (`DensityShift`),
-    left out from 30 to 90 °C, by 0.13.  Such errors are not in the covariance; a law fitted to the factors adds
-    their scatter about it.
+    left out from 30 to 90 °C, by 0.13.  The covariance holds such errors only as far as `level_error` tells of them;
+    a law fitted to the factors adds their scatter about it.
 
     Examples
     --------
@@ -104,13 +108,16 @@ def shift_friction(
             f"load of the friction curves is in {unit}, but a {indenter.noun} takes {indenter.geometry.load_unit}."
         )
     at_load = float(np.median(curves.load)) if load is None else positive(load, unit, "load")
+    shared = to_si(level_error, "dimensionless", "level_error")
+    if not 0.0 <= shared < 1.0:
+        raise InputError(f"level_error = {level_error!r}: must be zero or above, and below 1 (all of the friction).")
     kelvin = None if reference is None else positive(reference, "K", "reference")
     notes: tuple[str, ...] = ()
     found = shift is None
     if shift is None:
         # Whatever the reference of the vertical shift is, it moves all curves together.
         points = _at_one_load(curves, rule, at_load, vertical_shift)
-        result = found_shifts(friction_isotherms(points), kelvin)
+        result = found_shifts(friction_isotherms(points), kelvin, shared)
         shift, notes = result.factors, result.notes
         rows = nominal_rows(curves.temperature)
         curves = curves.select(np.sort(np.concatenate([rows[place] for place in result.members])))
