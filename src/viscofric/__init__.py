@@ -51,6 +51,10 @@ if TYPE_CHECKING:
     from viscofric.friction.curve_files import write_friction_curves as write_friction_curves
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
     from viscofric.friction.flash_temperature import ThermalProperties as ThermalProperties
+    from viscofric.friction.identification.anchors import ContactAnchor as ContactAnchor
+    from viscofric.friction.identification.anchors import ModulusAnchor as ModulusAnchor
+    from viscofric.friction.identification.identify import identify_material as identify_material
+    from viscofric.friction.identification.result import IdentifiedMaterial as IdentifiedMaterial
     from viscofric.friction.measurement.tribometry import separate as separate
     from viscofric.friction.prediction import predict_friction as predict_friction
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve as FrictionMasterCurve
@@ -147,6 +151,10 @@ _HOME = {
     "check_assumptions": "viscofric.friction.assumptions",
     "FrictionCurves": "viscofric.friction.curves",
     "ThermalProperties": "viscofric.friction.flash_temperature",
+    "ContactAnchor": "viscofric.friction.identification.anchors",
+    "ModulusAnchor": "viscofric.friction.identification.anchors",
+    "identify_material": "viscofric.friction.identification.identify",
+    "IdentifiedMaterial": "viscofric.friction.identification.result",
     "predict_friction": "viscofric.friction.prediction",
     "FrictionMasterCurve": "viscofric.friction.shifting.master_curve",
     "shift_friction": "viscofric.friction.shifting.shift",

@@ -1,0 +1,193 @@
+"""What follows from a settled identification: honest errors, bands, the family of levels, the result."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band
+from viscofric.friction.identification.iteration import Contacts, Weighed, most_evident, spectrum_of, weighed
+from viscofric.friction.identification.level_family import level_family
+from viscofric.friction.identification.result import IdentifiedMaterial, LevelFit
+from viscofric.rheology.material import Material
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.identification.problem import Problem
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+
+    Array = NDArray[np.float64]
+
+#: Residuals this many standard deviations above their expectation enlarge the errors.
+DOUBTFUL = 3.0
+#: Bands of moduli end so far beyond the contact's frequencies v/a at the latest: Hertz's pressure has waves up to 3/a.
+BEYOND = 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """A settled identification.
+
+    Attributes
+    ----------
+    curves : FrictionCurves
+    start : Problem
+        As set up.
+    fits : list of Weighed
+    iterations : int
+    contacts : Contacts
+    shift : ShiftLaw or None
+        As given.
+    name : str
+        Of the material.
+    """
+
+    curves: FrictionCurves
+    start: Problem
+    fits: list[Weighed]
+    iterations: int
+    contacts: Contacts
+    shift: ShiftLaw | None
+    name: str
+
+
+def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels: Sequence[float]) -> IdentifiedMaterial:
+    """Return the result; see `identify_material` for the arguments."""
+    fits, error_scale = _with_honest_errors(outcome.fits)
+    random = np.random.default_rng(seed)
+    posterior = Posterior.of(fits, samples, random)
+    best = posterior.best
+    problem, shifts = best.problem, best.problem.shifts
+    law = outcome.shift.at_reference(shifts.reference) if outcome.shift is not None and shifts.exact else None
+    material_of = MaterialOf(problem, law, outcome.contacts.poisson_ratio, outcome.name)
+    low, middle, high = _frequencies(best)
+    drawn = material_of.samples(posterior.drawn, (low, high))
+    expected = _expected(material_of, best, samples, random)
+    anchored = bool(problem.observations.moduli or problem.contacts)
+    bands = [
+        band(drawn, expected, part, middle, (low / BEYOND, high * BEYOND), limit, not anchored)
+        for part in ("magnitude", "storage", "loss")
+    ]
+    family: tuple[LevelFit, ...] = ()
+    if not anchored:
+        family = level_family(best, outcome.contacts, material_of, middle, levels, outcome.iterations + 1)
+    material = material_of(best.minimum.place, posterior.covariance)
+    fitted, residuals = _fitted(outcome, posterior)
+    levels_drawn = np.abs([one.complex_modulus(middle) for one in drawn.materials])
+    points = problem.observations.points
+    return IdentifiedMaterial(
+        material=material,
+        samples=drawn,
+        shift_factors=material.shift,
+        shift_found=shifts.found and material.shift is not None,
+        identified=bands[0],
+        identified_storage=bands[1],
+        identified_loss=bands[2],
+        anchored=anchored,
+        middle=middle,
+        frequency_range=(low, high),
+        level_range=(float(np.quantile(levels_drawn, 0.025)), float(np.quantile(levels_drawn, 0.975))),
+        family=family,
+        friction=fitted,
+        residuals=residuals,
+        chi2=float(residuals @ residuals),
+        freedom=_freedom(best),
+        rms=float(np.sqrt(np.mean((residuals * points.error) ** 2))),
+        error_scale=error_scale,
+        roughness=problem.smoothness.roughness,
+        iterations=outcome.iterations,
+        notes=(*points.notes, *_doubts(error_scale, best)),
+    )
+
+
+def _freedom(best: Weighed) -> float:
+    """Return the number of points less what the fit follows of their errors: the trace of the hat matrix."""
+    _, jacobian = best.problem.measured(best.minimum.place)
+    part = jacobian[: len(best.problem.observations.points)]
+    return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
+
+
+def _with_honest_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
+    """Enlarge the errors of the points, if their residuals are larger than these, and fit again."""
+    best = most_evident(fits)
+    points = best.problem.observations.points
+    away = best.problem.measured(best.minimum.place)[0][: len(points)]
+    freedom = max(_freedom(best), 1.0)
+    ratio = float(away @ away) / freedom
+    if ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / freedom):
+        return fits, 1.0
+    scale = float(np.sqrt(ratio))
+    larger = replace(best.problem.observations, points=replace(points, error=scale * points.error))
+    return weighed(replace(best.problem, observations=larger), best.minimum.place), scale
+
+
+def _doubts(error_scale: float, best: Weighed) -> tuple[str, ...]:
+    if error_scale == 1.0:
+        return ()
+    sentence = (
+        f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction, which were "
+        "multiplied by that: they are too small, or one shifted material does not describe all of the points."
+    )
+    return (sentence,)
+
+
+def _frequencies(best: Weighed) -> tuple[float, float, float]:
+    """Return the lowest, the middle and the highest of the contacts' frequencies v/a at the reference, rad/s."""
+    problem = best.problem
+    compliances, log_alpha = problem.split(best.minimum.place)
+    points = problem.observations.points
+    reduced = points.log_speed + log_alpha[points.number]
+    ends = np.array([reduced.min(), reduced.max()])
+    low, high = np.exp(ends - problem.friction.first(compliances, ends).log_radius)
+    return float(low), float(np.sqrt(low * high)), float(high)
+
+
+def _expected(material_of: MaterialOf, best: Weighed, samples: int, random: np.random.Generator) -> MaterialSamples:
+    """Draw materials from what was assumed of the spectrum before anything was measured."""
+    smoothness = best.problem.smoothness
+    drawn = np.linalg.solve(smoothness.matrix, random.standard_normal((len(smoothness.middle), samples)))
+    # About what was found: a level far off would only move the frequencies.
+    compliances = best.minimum.place[: best.problem.modes] + drawn.T
+    spectra = [spectrum_of(row, smoothness.tau) for row in compliances]
+    return MaterialSamples(
+        tuple(Material(one, None, material_of.poisson_ratio) for one in spectra),
+        np.array([one.C for one in spectra]),
+        np.array([one.tau for one in spectra]),
+        (0.0, np.inf),
+    )
+
+
+def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Array]:
+    """Return the friction of the identified material at the points, and the residuals over the standard errors."""
+    problem, place = posterior.best.problem, posterior.best.minimum.place
+    points = problem.observations.points
+    value, change = problem.log_friction(place)
+    spread = np.sqrt(np.einsum("ij,jk,ik->i", change, posterior.covariance, change))
+    drawn = np.array([problem.log_friction(row)[0] for row in posterior.drawn])
+    lower, upper = (np.exp(np.quantile(drawn, level, axis=0) + points.raised) for level in (0.025, 0.975))
+    friction = np.exp(value + points.raised)
+    measured = outcome.curves.select(points.rows)
+    solved = problem.friction.solved
+    relative = 0.0 if solved is None else float(solved.error.max())
+    curves = FrictionCurves(
+        speed=measured.speed,
+        temperature=measured.temperature,
+        load=points.forces,
+        viscoelastic=friction,
+        viscoelastic_error=relative * friction,
+        viscoelastic_scatter=np.zeros(len(friction)),
+        replicates=np.ones(len(friction), dtype=np.int64),
+        source="identified material",
+        load_unit=outcome.contacts.indenter.geometry.load_unit,
+        material_error=spread * friction,
+        viscoelastic_lower=lower,
+        viscoelastic_upper=upper,
+    )
+    return curves, (points.log_friction - value) / points.error

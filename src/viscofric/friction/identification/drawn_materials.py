@@ -1,0 +1,163 @@
+"""From the unknowns of an identification to rubbers: the best, the drawn ones, and the bands that they leave."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.friction.identification.iteration import Weighed, most_evident, spectrum_of
+from viscofric.friction.identification.posterior import draws
+from viscofric.friction.identification.result import IdentifiedBand
+from viscofric.rheology.material import Material
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.identification.problem import Problem
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+
+    Array = NDArray[np.float64]
+
+#: A roughness counts from this share of the evidence on.
+LEAST_SHARE = 0.02
+#: Frequencies at which bands are looked for, per decade.
+BAND_STEPS = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Posterior:
+    """All that the fits under every roughness say together.
+
+    Attributes
+    ----------
+    best : Weighed
+        Of the roughness with most evidence.
+    drawn : (samples, p) array
+        Unknowns drawn.
+    covariance : (p, p) array
+        Of the unknowns: of the normal densities about every fit, weighed by their evidence.
+    """
+
+    best: Weighed
+    drawn: Array
+    covariance: Array
+
+    @classmethod
+    def of(cls, fits: Sequence[Weighed], samples: int, random: np.random.Generator) -> Posterior:
+        """Draw from fits, each by its share of the evidence."""
+        evidence = np.array([fit.log_evidence for fit in fits])
+        shares = np.exp(evidence - evidence.max())
+        shares /= shares.sum()
+        shares = np.where(shares < LEAST_SHARE, 0.0, shares)
+        shares /= shares.sum()
+        counts = np.diff(np.round(samples * np.concatenate([[0.0], np.cumsum(shares)]))).astype(int)
+        drawn = [
+            draws(fit.problem, fit.minimum, int(count), random)
+            for fit, count in zip(fits, counts, strict=True)
+            if count
+        ]
+        best = most_evident(list(fits))
+        covariance = np.zeros_like(best.minimum.normal)
+        for fit, share in zip(fits, shares, strict=True):
+            if share > 0.0:
+                away = fit.minimum.place - best.minimum.place
+                covariance += share * (np.linalg.inv(fit.minimum.normal) + np.outer(away, away))
+        return cls(best, np.concatenate(drawn), covariance)
+
+
+@dataclass(frozen=True, eq=False)
+class MaterialOf:
+    """Makes materials of unknowns.
+
+    Attributes
+    ----------
+    problem : Problem
+    shift : ShiftLaw or None
+        Known exactly; None where the factors are among the unknowns, or there is one temperature only.
+    poisson_ratio : float
+    name : str
+    """
+
+    problem: Problem
+    shift: ShiftLaw | None
+    poisson_ratio: float
+    name: str
+
+    def __call__(self, unknowns: Array, covariance: Array | None = None) -> Material:
+        """Return the material of unknowns (p,); the shift factors carry a covariance (p, p) of the unknowns."""
+        problem = self.problem
+        compliances, log_alpha = problem.split(unknowns)
+        spectrum = spectrum_of(compliances, problem.smoothness.tau)
+        if self.shift is not None:
+            return Material(spectrum, self.shift, self.poisson_ratio, self.name)
+        if len(log_alpha) == 1:
+            return Material(spectrum, None, self.poisson_ratio, self.name)
+        size = len(log_alpha)
+        spread = np.zeros((size, size)) if covariance is None else covariance[-size:, -size:]
+        return Material(spectrum, problem.shifts.table(log_alpha, spread), self.poisson_ratio, self.name)
+
+    def samples(self, drawn: Array, frequency_range: tuple[float, float]) -> MaterialSamples:
+        """Return drawn unknowns (samples, p) as materials."""
+        materials = tuple(self(row) for row in drawn)
+        C = np.array([material.modes_at().C for material in materials])
+        tau = np.array([material.modes_at().tau for material in materials])
+        return MaterialSamples(materials, C, tau, frequency_range)
+
+
+def band(
+    samples: MaterialSamples,
+    expected: MaterialSamples,
+    part: str,
+    middle: float,
+    reach: tuple[float, float],
+    limit: float,
+    relative: bool,
+) -> IdentifiedBand:
+    """Return the frequencies about the middle over which a modulus is known to a limit.
+
+    Parameters
+    ----------
+    samples, expected : MaterialSamples
+        Drawn after, and before anything was measured: the latter must scatter three times as much at least.
+    part : {"magnitude", "storage", "loss"}
+    middle : float
+        rad/s.
+    reach : (low, high)
+        Frequencies that are looked at.
+    limit : float
+        Relative standard error.
+    relative : bool
+        Whether of the modulus over |E| at the middle.
+    """
+    steps = BAND_STEPS * np.log10([middle / reach[0], reach[1] / middle])
+    places = np.arange(-np.floor(steps[0]), np.floor(steps[1]) + 1.0)
+    omega = middle * 10.0 ** (places / BAND_STEPS)
+    after, before = (_spread(one, omega, part, middle, relative) for one in (samples, expected))
+    known = (after <= limit) & (3.0 * after <= before)
+    centre = int(np.argmin(np.abs(places)))
+    if relative and part == "magnitude":
+        known[centre] = True  # one by definition
+    if not known[centre]:
+        return IdentifiedBand(middle, middle, limit, relative)
+    low = high = centre
+    while low > 0 and known[low - 1]:
+        low -= 1
+    while high < len(known) - 1 and known[high + 1]:
+        high += 1
+    return IdentifiedBand(float(omega[low]), float(omega[high]), limit, relative)
+
+
+def _spread(samples: MaterialSamples, omega: Array, part: str, middle: float, relative: bool) -> Array:
+    """Return the standard deviation of the logarithm of a modulus, (n,)."""
+    E = np.array([material.complex_modulus(omega) for material in samples.materials])
+    values = {"magnitude": np.abs(E), "storage": E.real, "loss": E.imag}[part]
+    rows = np.log(values)
+    if relative:
+        levels = [np.log(np.abs(material.complex_modulus(middle))) for material in samples.materials]
+        rows = rows - np.array(levels)[:, None]
+    return np.asarray(rows.std(axis=0, ddof=1))

@@ -1,0 +1,184 @@
+"""The verb: identify a rubber from its friction at several speeds and temperatures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
+from viscofric.friction.identification.conclusions import Outcome, conclude
+from viscofric.friction.identification.iteration import Contacts, identify
+from viscofric.friction.identification.known_moduli import Known, anchored, known_part
+from viscofric.friction.identification.points import usable_points
+from viscofric.friction.identification.setting_up import alone_or_many, problem_of, shifts_of
+from viscofric.threads import one_blas_thread
+from viscofric.units import positive, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from viscofric.friction.identification.result import IdentifiedMaterial
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.units import Quantity
+
+#: Solved contacts are known to this part of their accuracy, as a rule.
+SOLVED_ERROR = 0.25
+FEWEST_SAMPLES, FEWEST_MODES = 20, 8
+LEVELS = (0.5, 0.7, 1.0, 1.4, 2.0)
+
+
+@one_blas_thread
+def identify_material(
+    curves: FrictionCurves,
+    *,
+    indenter: Indenter,
+    load: Quantity | None = None,
+    shift: ShiftLaw | None = None,
+    anchor: Anchor | Sequence[Anchor] | None = None,
+    prior: Known | None = None,
+    prior_band: tuple[float, float] | None = None,
+    prior_error: float = 0.02,
+    reference: Quantity | None = None,
+    poisson_ratio: float = 0.5,
+    modes: int = 30,
+    levels: Sequence[float] = LEVELS,
+    limit: float = 0.05,
+    samples: int = 200,
+    seed: int = 0,
+    accuracy: float = 1e-3,
+    name: str = "identified from friction",
+    progress: Callable[[int, int, int], object] | None = None,
+    workers: int = 1,
+) -> IdentifiedMaterial:
+    """Identify the retardation spectrum, as far as friction tells it, and α(T) with it.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+        Measured; points of infinite error are left out.
+    indenter : Indenter
+        That was measured with, rigid, on a half-space.
+    load : float, str or pint.Quantity, optional
+        Normal load of all points, N (of a line contact, N/m) if a plain number; each point has its own without it.
+        Loads may differ for a Ball, an Ellipsoid, a Cone and a Cylinder, whose contacts are similar.
+    shift : ShiftLaw, optional
+        α(T) as a DMA gave it, with its covariance where it has one; found from the friction without it.
+    anchor : ModulusAnchor, ContactAnchor or several of them, optional
+        What fixes the level of the modulus, which friction alone hardly does.
+    prior : Material, MaterialSamples or MasterCurve, optional
+        What is known of E(ω) over a part of the frequencies; it fixes the level too.
+    prior_band : (low, high), optional
+        Angular frequencies at the prior's reference over which it is known, rad/s; those that it was measured or
+        fitted at without it.
+    prior_error : float
+        Relative standard error of E' and E'' of the prior, four values of each per decade; samples have their own.
+    reference : float, str or pint.Quantity, optional
+        Temperature at which the material is described, K if a plain number; without it, that of `shift`, or of the
+        shift factors that are found.
+    poisson_ratio : float
+        Of the rubber.
+    modes : int
+        Retardation times; more are taken where these would be more than 0.4 decades apart.
+    levels : sequence of float
+        Without anchor and prior: factors of the modulus for which the best material is sought.
+    limit : float
+        Relative standard error of a modulus up to which it counts as identified.
+    samples : int
+        Materials drawn from the posterior density.
+    seed : int
+        Of the draws.
+    accuracy : float
+        Relative error of each solved contact that is aimed at.
+    name : str
+        Of the material.
+    progress : callable, optional
+        Called as ``progress(step, done, total)`` after every contact of a step; there are three to five steps as a
+        rule, and one for each level of the family.
+    workers : int
+        Processes that share the contacts out among them.
+
+    Returns
+    -------
+    IdentifiedMaterial
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, points are too few, friction is not above zero, loads differ where contacts are
+        not similar, or α(T) is neither given nor to be found because curves do not overlap.
+    ConvergenceError
+        If contacts cannot be solved, or the identification does not settle.
+
+    Notes
+    -----
+    The unknowns are ln C_k on a geometric grid of τ that reaches 1.9 decades beyond the contact's frequencies, ln E_inf
+    (what is faster acts as a spring) and ln α.  Minimised are the squared residuals of ln μ, of anchors and of the
+    prior, with a random walk of second order over ln C assumed of the spectrum, of a level and slope that hardly
+    matter; how rough it may be is weighed by the evidence.  ln μ is that of solved contacts with their adjoint
+    derivatives at four reduced speeds per decade; between them, and for neighbouring rubbers, what contacts differ by
+    from friction to first order in the loss is interpolated, and contacts are solved again until nothing moves.  The
+    uncertainty is drawn from the posterior density by elliptical slice sampling.
+
+    Errors of the points are taken to be independent.  Those of replicates are drawn towards a common scatter.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="2 MPa", E_inf="6 MPa", tau="10 ms")
+    >>> ball = vf.Ball(radius="10 mm")
+    >>> response = [
+    ...     vf.solve_steady(rubber, ball, speed=v, load="5 N", temperature=None).friction_coefficient
+    ...     for v in np.geomspace(0.02, 2.0, 8)
+    ... ]
+    >>> known = np.full(8, 0.01) * response
+    >>> curves = vf.FrictionCurves(
+    ...     np.geomspace(0.02, 2.0, 8),
+    ...     np.full(8, 300.0),
+    ...     np.full(8, 5.0),
+    ...     response,
+    ...     known,
+    ...     np.zeros(8),
+    ...     np.ones(8, int),
+    ... )
+    >>> anchor = vf.ModulusAnchor("3 MPa", "60 rad/s", temperature=300.0)
+    >>> found = vf.identify_material(curves, indenter=ball, anchor=anchor, accuracy=1e-2, samples=20)
+    >>> found.anchored
+    True
+    """
+    _check(curves, indenter, poisson_ratio, modes=modes, samples=samples, limit=limit, prior_error=prior_error)
+    anchors = alone_or_many(anchor)
+    points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy)
+    kelvin = None if reference is None else positive(reference, "K", "reference")
+    points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
+    moduli = anchored(one for one in anchors if isinstance(one, ModulusAnchor))
+    if prior is not None:
+        moduli.append(known_part(prior, prior_band, prior_error, shifts.reference))
+    sizes = tuple(one for one in anchors if isinstance(one, ContactAnchor))
+    contacts = Contacts(indenter, poisson_ratio, points.load, accuracy, workers, sizes, progress)
+    problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
+    start = np.concatenate([problem.smoothness.middle, shifts.middle])
+    fits, iterations = identify(problem, contacts, start)
+    outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name)
+    return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=tuple(levels))
+
+
+def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float, **numbers: float) -> None:
+    if not isinstance(curves, FrictionCurves):
+        raise InputError(f"curves must be FrictionCurves, as separate() gives them, not {type(curves).__name__}.")
+    if not isinstance(indenter, Indenter):
+        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
+    if indenter.has_walls:
+        raise InputError(f"indenter: friction of a {indenter.noun} sits on its edges and identifies no material.")
+    if not 0.0 <= to_si(poisson_ratio, "dimensionless", "poisson_ratio") <= 0.5:
+        raise InputError(f"poisson_ratio = {poisson_ratio:g}: must lie between 0 and 0.5.")
+    for name, fewest in (("modes", FEWEST_MODES), ("samples", FEWEST_SAMPLES)):
+        if numbers[name] != int(numbers[name]) or numbers[name] < fewest:
+            raise InputError(f"{name} = {numbers[name]!r}: must be a whole number, {fewest} or more.")
+    for name in ("limit", "prior_error"):
+        if not 0.0 < numbers[name] < 1.0:
+            raise InputError(f"{name} = {numbers[name]!r}: must be a relative error above 0 and below 1.")

@@ -1,0 +1,184 @@
+"""Friction as it enters an identification: logarithms at one load, with standard errors that neighbours moderate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.indenters.indenter import Ball, Cylinder
+from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.errors import InputError
+from viscofric.friction.curves import SAME_LOAD
+from viscofric.units import celsius, positive
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.units import Quantity
+
+    Array = NDArray[np.float64]
+
+#: Fewer points than these say nothing of a spectrum's shape.
+FEWEST_POINTS = 6
+#: Powers of the load with which contact radius and friction of an elastic contact rise: μ = F^q Φ(v F^−p).
+_SIMILARITY = {Ball: (1 / 3, 1 / 3), Ellipsoid: (1 / 3, 1 / 3), Cylinder: (1 / 2, 1 / 2), Cone: (1 / 2, 0.0)}
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """n measured friction coefficients, those of other loads carried over to one.
+
+    Attributes
+    ----------
+    log_speed : (n,) array
+        ln of the speed at which the rubber is deformed, of a similar contact under `load`; m/s.
+    log_load : (n,) array
+        ln of the load over `load`, as far as similarity has not taken it up.
+    log_friction, error : (n,) array
+        ln μ of that contact, and its standard error.
+    temperatures : (t,) array
+        Different ones, ascending, K.
+    number : (n,) array of int
+        Which of them each point has.
+    load : float
+        N or N/m.
+    forces : (n,) array
+        The loads that were measured under, N or N/m.
+    raised : (n,) array
+        ln of the measured friction over that of the contact under `load`.
+    rows : (n,) array of int
+        Of the curves, from which the points come.
+    notes : tuple of str
+        One sentence each.
+    """
+
+    log_speed: Array
+    log_load: Array
+    log_friction: Array
+    error: Array
+    temperatures: Array
+    number: NDArray[np.int64]
+    load: float
+    forces: Array
+    raised: Array
+    rows: NDArray[np.int64]
+    notes: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.log_speed)
+
+    def chosen(self, keep: NDArray[np.bool_]) -> Points:
+        """Return some of the points, by a mask (n,)."""
+        columns = ("log_speed", "log_load", "log_friction", "error", "number", "forces", "raised", "rows")
+        return replace(self, **{name: getattr(self, name)[keep] for name in columns})
+
+
+def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | None, least_error: float) -> Points:
+    """Return the points of friction curves that say something.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    indenter : Indenter
+    load : float, str or pint.Quantity, optional
+        Of all points; without it, each has its own.
+    least_error : float
+        Relative error that no point's falls below: that of the solved contacts.
+
+    Raises
+    ------
+    InputError
+        If points are too few, friction is not above zero, or the loads differ and the indenter has no similarity.
+    """
+    unit = indenter.geometry.load_unit
+    if load is None and len(curves) and curves.load_unit != unit:
+        raise InputError(
+            f"load of the friction curves is in {curves.load_unit}, but a {indenter.noun} takes a load in {unit}; "
+            "give the indenter that was measured with, or load=."
+        )
+    rows = np.flatnonzero(np.isfinite(curves.viscoelastic_error))
+    notes = []
+    if len(rows) < len(curves):
+        notes.append(
+            f"{len(curves) - len(rows)} of {len(curves)} points have no viscoelastic friction and were left out."
+        )
+    if len(rows) < FEWEST_POINTS:
+        raise InputError(
+            f"friction curves hold {len(rows)} usable points: too few to identify a material; give {FEWEST_POINTS} or "
+            "more, better ten per decade of reduced speed."
+        )
+    friction = curves.viscoelastic[rows]
+    if not np.all(friction > 0.0):
+        worst = rows[int(np.argmin(friction))]
+        raise InputError(
+            f"viscoelastic friction is {curves.viscoelastic[worst]:.3g} at {curves.speed[worst]:.3g} m/s and "
+            f"{celsius(float(curves.temperature[worst])):.1f} °C: must be above zero; leave the point out with "
+            "curves.select(), or check the signs of the measurement."
+        )
+    forces = curves.load[rows] if load is None else np.full(len(rows), positive(load, unit, "load"))
+    middle = float(np.exp(np.mean(np.log(forces))))
+    relative = np.log(forces / middle)
+    radius, rise = _SIMILARITY.get(type(indenter), (0.0, 0.0))
+    if not radius and np.ptp(relative) > np.log1p(SAME_LOAD):
+        raise InputError(
+            f"load of the friction curves runs from {forces.min():.3g} to {forces.max():.3g} {unit}, but a "
+            f"{indenter.noun} has no similarity that joins different loads; choose one with curves.at_load()."
+        )
+    temperatures, number = np.unique(curves.temperature[rows], return_inverse=True)
+    return Points(
+        log_speed=np.log(curves.speed[rows]) - radius * relative,
+        log_load=np.zeros(len(rows)) if radius else relative,
+        log_friction=np.log(friction) - rise * relative,
+        error=np.hypot(relative_errors(curves.select(rows)), least_error),
+        temperatures=temperatures,
+        number=number.astype(np.int64),
+        load=middle,
+        forces=forces,
+        raised=rise * relative,
+        rows=rows,
+        notes=tuple(notes),
+    )
+
+
+def relative_errors(curves: FrictionCurves) -> Array:
+    """Return standard errors of ln μ, each drawn towards the common scatter as chance asks.
+
+    Few replicates tell their own scatter badly: of eight, to a quarter, and to weigh points by it would make the
+    fit worse than its errors say.  With ν0 the freedom of the common variance s0², that of a point is
+    (ν0 s0² + ν s²)/(ν0 + ν); ν0 follows from how much more ln s² scatters than chance.
+
+    References
+    ----------
+    G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
+    """
+    own = curves.viscoelastic_error / curves.viscoelastic
+    freedom = curves.replicates - 1
+    scatter = curves.viscoelastic_scatter / curves.viscoelastic
+    told = (freedom > 0) & (scatter > 0.0)
+    if np.count_nonzero(told) < FEWEST_POINTS:
+        return np.asarray(own)
+    variance = moderated_variances(scatter[told] ** 2, freedom[told])
+    errors = own.copy()
+    # What else than scatter is in the stated error stays in it.
+    errors[told] *= np.sqrt(variance) / scatter[told]
+    return np.asarray(errors)
+
+
+def moderated_variances(variances: Array, freedom: NDArray[np.int64]) -> Array:
+    """Return sample variances (n,) of so many degrees of freedom (n,), drawn towards the common one."""
+    from scipy.optimize import brentq
+    from scipy.special import digamma, polygamma
+
+    half = 0.5 * freedom
+    logarithms = np.log(variances) - digamma(half) + np.log(half)
+    rest = float(np.var(logarithms, ddof=1) - np.mean(polygamma(1, half)))
+    common = float(np.exp(np.mean(logarithms)))
+    if rest <= polygamma(1, 5e3):  # no more than chance: all have one variance
+        return np.full(len(variances), float(np.sum(freedom * variances) / np.sum(freedom)))
+    prior_half = brentq(lambda value: float(polygamma(1, value)) - rest, 1e-3, 1e4)
+    common *= float(np.exp(digamma(prior_half)) / prior_half)
+    return np.asarray((2.0 * prior_half * common + freedom * variances) / (2.0 * prior_half + freedom))

@@ -1,0 +1,213 @@
+"""What an identification gives back: the material, how well each part of it is known, and what is not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+
+    Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class IdentifiedBand:
+    """Angular frequencies at the reference over which friction tells a modulus.
+
+    Attributes
+    ----------
+    low, high : float
+        rad/s; equal where there is none.
+    limit : float
+        Relative standard error of the modulus that is not exceeded between them.
+    relative : bool
+        Whether it is the modulus over that at the middle frequency: the level itself is not known.
+    """
+
+    low: float
+    high: float
+    limit: float
+    relative: bool
+
+    @property
+    def decades(self) -> float:
+        """Its width."""
+        return float(np.log10(self.high / self.low))
+
+
+@dataclass(frozen=True, eq=False)
+class LevelFit:
+    """The material of one level of the modulus that fits the friction best.
+
+    Attributes
+    ----------
+    factor : float
+        |E| at the middle frequency over that of the identified material.
+    modulus : float
+        That |E|, Pa.
+    material : Material
+    chi2 : float
+        Sum of the squared residuals of the friction, in standard errors.
+    rms : float
+        Root mean square of the relative residuals.
+    penalty : float
+        Rise of chi2 with what is assumed of the spectrum counted in, over the best level; 3.84 is the 95 % limit.
+    """
+
+    factor: float
+    modulus: float
+    material: Material = field(repr=False)
+    chi2: float
+    rms: float
+    penalty: float
+
+
+@dataclass(frozen=True, eq=False)
+class IdentifiedMaterial:
+    """A rubber found from its friction.
+
+    Attributes
+    ----------
+    material : Material
+        That of the greatest posterior density, at the reference.
+    samples : MaterialSamples
+        Materials drawn from the posterior density: their spread is the uncertainty.
+    shift_factors : ShiftLaw or None
+        α(T), found with its covariance (ShiftFactors), or as given; None for one temperature.
+    shift_found : bool
+        Whether α(T) was found from the friction.
+    identified : IdentifiedBand
+        Of |E(ω)|.
+    identified_storage, identified_loss : IdentifiedBand
+        Of E' and of E''.
+    anchored : bool
+        Whether the level of the modulus was given by an anchor or a prior.
+    middle : float
+        Middle of the contact's frequencies at the reference, rad/s.
+    frequency_range : (float, float)
+        Lowest and highest frequency v/a of the contacts at the reference, rad/s.
+    level_range : (float, float)
+        95 % limits of |E| at the middle frequency, Pa.
+    family : tuple of LevelFit
+        Without an anchor: what friction alone cannot tell apart; empty with one.
+    friction : FrictionCurves
+        Of the identified material at the measured points, with 95 % limits.
+    residuals : (n,) array
+        Measured less fitted, over the standard error, in the order of `friction`.
+    chi2, freedom : float
+        Sum of their squares, and their number less what the fit has taken up.
+    rms : float
+        Root mean square of the relative residuals.
+    error_scale : float
+        What the standard errors of the measurement were multiplied by, because the residuals are larger.
+    roughness : float
+        Standard deviation of d ln C/d ln τ over an e-fold of τ for which there is most evidence.
+    iterations : int
+        Steps that were made, contacts solved in each.
+    notes : tuple of str
+        One sentence each.
+    """
+
+    material: Material
+    samples: MaterialSamples
+    shift_factors: ShiftLaw | None
+    shift_found: bool
+    identified: IdentifiedBand
+    identified_storage: IdentifiedBand
+    identified_loss: IdentifiedBand
+    anchored: bool
+    middle: float
+    frequency_range: tuple[float, float]
+    level_range: tuple[float, float]
+    family: tuple[LevelFit, ...]
+    friction: FrictionCurves
+    residuals: Array
+    chi2: float
+    freedom: float
+    rms: float
+    error_scale: float
+    roughness: float
+    iterations: int
+    notes: tuple[str, ...] = ()
+
+    def standard_error(self, angular_frequency: ArrayLike, *, relative: bool | None = None) -> Array:
+        """Return the relative standard error of |E(ω)| at the reference.
+
+        Parameters
+        ----------
+        angular_frequency : array_like
+            rad/s.
+        relative : bool, optional
+            Whether of |E(ω)| over that at the middle frequency; if not given, without an anchor.
+        """
+        omega = np.asarray(angular_frequency, dtype=float)
+        rows = np.array([np.log(np.abs(one.complex_modulus(omega))) for one in self.samples.materials])
+        if not self.anchored if relative is None else relative:
+            level = self._levels
+            rows = rows - level.reshape((-1,) + (1,) * omega.ndim)
+        return np.asarray(rows.std(axis=0, ddof=1))
+
+    @cached_property
+    def _levels(self) -> Array:
+        return np.array([np.log(np.abs(one.complex_modulus(self.middle))) for one in self.samples.materials])
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What was found, and what not, one sentence each."""
+        return (self._told_fit(), *self._told_level(), self._told_band(), *self._told_shift(), *self.notes)
+
+    def _told_fit(self) -> str:
+        return (
+            f"The friction of {len(self.friction)} points is met to {100.0 * self.rms:.2g} % (root mean square); χ² = "
+            f"{self.chi2:.3g} with {self.freedom:.3g} degrees of freedom."
+        )
+
+    def _told_level(self) -> tuple[str, ...]:
+        low, high = self.level_range
+        if self.anchored:
+            return ()
+        sentence = (
+            "The level of the modulus is not identified: friction alone hardly tells it, and nothing else was given; "
+            f"|E| at {self.middle:.2g} rad/s lies between {low / 1e6:.3g} and {high / 1e6:.3g} MPa with 95 % "
+            "probability, most of which rests on the assumed smoothness of the spectrum, and the family tells which "
+            "materials give nearly the same friction."
+        )
+        return (sentence,)
+
+    def _told_band(self) -> str:
+        band = self.identified
+        about = "" if self.shift_factors is None else f" at {celsius(float(self.shift_factors.reference)):.1f} °C"
+        of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
+        if band.high <= band.low:
+            return f"{of} is known to {100.0 * band.limit:g} % nowhere."
+        return (
+            f"{of} is known to {100.0 * band.limit:g} % or better from {band.low:.2g} to {band.high:.2g} rad/s{about}, "
+            f"{band.decades:.1f} decades, E'' over {self.identified_loss.decades:.1f} of them; beyond, the material "
+            "is what a smooth spectrum would be, and its band tells how little that is worth."
+        )
+
+    def _told_shift(self) -> tuple[str, ...]:
+        from viscofric.rheology.shifts.shift_factors import ShiftFactors
+
+        if not self.shift_found or not isinstance(self.shift_factors, ShiftFactors):
+            return ()
+        largest = float(self.shift_factors.standard_errors.max())
+        sentence = (
+            f"α(T) was found from the friction at {len(self.shift_factors.temperatures)} temperatures, each factor to "
+            f"{largest:.2g} decades or better."
+        )
+        return (sentence,)
+
+    def __str__(self) -> str:
+        return "\n".join((repr(self.material.at()), *self.sentences))

@@ -1,0 +1,136 @@
+"""An identification set up: which shifts and moduli are unknown, which retardation times there are, where to begin."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.free.scale import Scale
+from viscofric.errors import InputError
+from viscofric.friction.curves import SAME_TEMPERATURE
+from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
+from viscofric.friction.identification.corrected import CorrectedFriction
+from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.problem import Observations, Problem
+from viscofric.friction.identification.shifts import Shifts
+from viscofric.friction.identification.smoothness import EXPECTED, Smoothness
+from viscofric.friction.shifting.master_curve import shift_friction
+from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.identification.iteration import Contacts
+    from viscofric.friction.identification.known_moduli import Block
+    from viscofric.friction.identification.points import Points
+
+    Array = NDArray[np.float64]
+
+#: Retardation times reach so far beyond the contact's frequencies, decades; those beyond are felt as a spring or not.
+MARGIN = 1.9
+#: Fewest modes per decade with which E(ω) does not ripple.
+LEAST_PER_DECADE = 2.5
+#: Slope of the indenter at the contact's edge that a first guess of the level assumes.
+GUESSED_SLOPE = 0.15
+
+
+def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...]:
+    """Return anchors as a tuple.
+
+    Raises
+    ------
+    InputError
+        If something else is among them.
+    """
+    if anchor is None:
+        return ()
+    anchors = (anchor,) if isinstance(anchor, (ModulusAnchor, ContactAnchor)) else tuple(anchor)
+    for one in anchors:
+        if not isinstance(one, (ModulusAnchor, ContactAnchor)):
+            raise InputError(f"anchor must be a ModulusAnchor or a ContactAnchor, not {type(one).__name__}.")
+    return anchors
+
+
+def shifts_of(
+    points: Points, curves: FrictionCurves, shift: ShiftLaw | None, reference: float | None, others: Sequence[float]
+) -> tuple[Points, Shifts]:
+    """Return the shifts as unknowns, and the points whose shifts there are.
+
+    Parameters
+    ----------
+    points : Points
+    curves : FrictionCurves
+        From which they come.
+    shift : ShiftLaw or None
+        As given.
+    reference : float or None
+        As asked for, K.
+    others : sequence of float
+        Temperatures of anchors, K.
+
+    Raises
+    ------
+    InputError
+        If the shift is none, or not known at a temperature; if it is to be found and curves do not overlap, or the
+        reference was not measured.
+    """
+    if shift is not None:
+        if not isinstance(shift, ShiftLaw):
+            raise InputError(f"shift must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}.")
+        law = shift if reference is None else shift.at_reference(reference)
+        everywhere = np.unique(np.concatenate([points.temperatures, [law.reference], others]))
+        number = np.searchsorted(everywhere, points.temperatures)[points.number]
+        return replace(points, temperatures=everywhere, number=number), Shifts.known(everywhere, law)
+    if len(points.temperatures) == 1:
+        return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]), np.zeros(1))
+    found = shift_friction(curves.select(points.rows)).shift_factors
+    away = np.abs(points.temperatures[points.number][:, None] - found.temperatures)
+    number, kept = away.argmin(axis=1), away.min(axis=1) <= SAME_TEMPERATURE
+    middle = float(found.reference) if reference is None else reference
+    nearest = float(found.temperatures[np.argmin(np.abs(found.temperatures - middle))])
+    if reference is not None and abs(nearest - reference) > SAME_TEMPERATURE:
+        shown = ", ".join(f"{celsius(float(one)):.1f}" for one in found.temperatures)
+        raise InputError(
+            f"reference = {celsius(reference):.1f} °C was not measured, and α(T) is to be found; choose one of "
+            f"{shown} °C, and describe the material at another with its at_reference()."
+        )
+    notes = points.notes
+    if not kept.all():
+        notes = (*notes, *found.notes, f"{np.count_nonzero(~kept)} points were left out with them.")
+    chosen = replace(points.chosen(kept), temperatures=found.temperatures, number=number[kept], notes=notes)
+    return chosen, Shifts.unknown(found.temperatures, nearest, LN10 * found.log10_values)
+
+
+def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contacts: Contacts, modes: int) -> Problem:
+    """Return the problem to first order in the loss, on a grid of retardation times about the contact's frequencies."""
+    plane_strain = 1.0 - contacts.poisson_ratio**2
+    compliance = _first_guess(moduli, contacts, plane_strain)
+    radius = Scale.for_load(contacts.indenter, 1.0 / (plane_strain * compliance), points.load).length
+    log_frequency = points.log_speed + shifts.middle[points.number] - np.log(radius)
+    inside = -float(log_frequency.max()), -float(log_frequency.min())
+    shortest, longest = inside[0] - MARGIN * LN10, inside[1] + MARGIN * LN10
+    count = max(modes, int(np.ceil(LEAST_PER_DECADE * (longest - shortest) / LN10)) + 1)
+    tau = np.exp(np.linspace(shortest, longest, count))
+    return Problem(
+        friction=CorrectedFriction(FirstOrder(contacts.indenter, points.load, plane_strain, tau)),
+        observations=Observations(points, moduli),
+        shifts=shifts,
+        smoothness=Smoothness(tau, compliance, (float(np.exp(inside[0])), float(np.exp(inside[1]))), EXPECTED),
+    )
+
+
+def _first_guess(moduli: tuple[Block, ...], contacts: Contacts, plane_strain: float) -> float:
+    """Return a compliance, 1/Pa: of what is known of the modulus, or that of a contact of moderate slope."""
+    if moduli:
+        return float(np.exp(-np.mean(np.concatenate([one.log_modulus for together, _ in moduli for one in together]))))
+    logarithms = np.linspace(np.log(1e-3), np.log(1e15), 181)
+    slopes = [Scale.for_load(contacts.indenter, float(np.exp(one)), contacts.load).slope for one in logarithms]
+    # Slopes fall as stiffness rises; a cone's is what it is.
+    place = int(np.argmin(np.abs(np.log(np.array(slopes) / GUESSED_SLOPE))))
+    return float(np.exp(-logarithms[place])) / plane_strain
