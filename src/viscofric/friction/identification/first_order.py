@@ -29,7 +29,7 @@ _WAVES = np.arange(-12.0, 7.0, 0.02)
 _COSH = np.arange(0.0, 14.0, 0.01)
 #: Newton's steps for the contact radius; each squares an error that begins below one.
 _NEWTON = 8
-_SETTLED = 1e-12
+_SETTLED = 1e-6
 #: Range of ln(load × compliance) that the radii are tabulated over, on both sides of the first guess.
 _REACH = 16.0
 
@@ -75,11 +75,8 @@ class FirstOrder:
     tau: Array
 
     def __post_init__(self) -> None:
-        from scipy.interpolate import CubicSpline
-
         dimension = self.indenter.geometry.dimension
         loss, storage = _kernels(dimension)
-        typical = Scale.for_load(self.indenter, 1e6 / self.plane_strain, self.load)
         middle = np.log(self.load * self.plane_strain / 1e6)
         places = middle + np.arange(-_REACH, _REACH + 0.25, 0.5)
         lengths = [
@@ -89,9 +86,8 @@ class FirstOrder:
             "_loss": loss,
             "_storage": storage,
             "_dimension": dimension,
-            "_radius": CubicSpline(places, np.log(lengths)),
+            "_radius": _with_slope(places, np.log(lengths)),
             "_log_tau": np.log(self.tau),
-            "_start": float(np.log(typical.length)),
             "_constant": np.log(self.load * self.plane_strain)
             - (np.log(2.0 * np.pi**2) if dimension == 2 else np.log(0.5 * np.pi)),
         }
@@ -103,7 +99,6 @@ class FirstOrder:
     _radius: CubicSpline = None  # type: ignore[assignment]
     _log_tau: Array = None  # type: ignore[assignment]
     _dimension: int = 2
-    _start: float = 0.0
     _constant: float = 0.0
 
     def __call__(self, compliances: Array, log_speed: Array) -> Friction:
@@ -117,27 +112,27 @@ class FirstOrder:
             ln v, m/s.
         """
         glass, C = np.exp(compliances[0]), np.exp(compliances[1:])
-        radius = np.full(log_speed.shape, self._start)
         log_load = np.log(self.load * self.plane_strain)
+        # of the relaxed solid, which is too wide
+        radius = np.full(log_speed.shape, float(self._radius(log_load + np.log(glass + C.sum()))[0]))
         for _ in range(_NEWTON):
-            place = (log_speed - radius)[:, None] + self._log_tau
-            kernel = C * np.exp(self._storage(place))
+            stored = self._storage((log_speed - radius)[:, None] + self._log_tau)
+            kernel = C * np.exp(stored[..., 0])
             total = glass + kernel.sum(axis=1)
-            bend = np.sum(kernel * self._storage(place, 1), axis=1) / total
-            argument = log_load + np.log(total)
-            power = self._radius(argument, 1)
+            bend = np.sum(kernel * stored[..., 1], axis=1) / total
+            elastic, power = self._radius(log_load + np.log(total)).T
             stiff = 1.0 + power * bend
-            step = (radius - self._radius(argument)) / stiff
+            step = (radius - elastic) / stiff
             radius = radius - step
             if np.abs(step).max() < _SETTLED:
                 break
         seen = np.concatenate([np.full((len(radius), 1), glass), kernel], axis=1) / total[:, None]
         radius_change = (power / stiff)[:, None] * seen
         radius_slope = power * bend / stiff
-        place = (log_speed - radius)[:, None] + self._log_tau
-        lost = C * np.exp(self._loss(place))
+        table = self._loss((log_speed - radius)[:, None] + self._log_tau)
+        lost = C * np.exp(table[..., 0])
         sum_lost = lost.sum(axis=1)
-        steep = np.sum(lost * self._loss(place, 1), axis=1) / sum_lost
+        steep = np.sum(lost * table[..., 1], axis=1) / sum_lost
         by_radius = -float(self._dimension) - steep
         change = by_radius[:, None] * radius_change
         change[:, 1:] += lost / sum_lost[:, None]
@@ -159,7 +154,6 @@ def _kernels(dimension: int) -> tuple[CubicSpline, CubicSpline]:
     pressure, whose transform is g(z) = 3 (sin z − z cos z)/z³, W(t) = 4 t ∫ g(t cosh y)² dy, and of a cylinder's,
     g(z) = 2 J1(z)/z, W(t) = g(t)².
     """
-    from scipy.interpolate import CubicSpline
     from scipy.special import expit, j1, spherical_jn
 
     t = np.exp(_WAVES)
@@ -176,4 +170,11 @@ def _kernels(dimension: int) -> tuple[CubicSpline, CubicSpline]:
     relaxed = expit(-2.0 * theta)
     lost = np.trapezoid(loss * t * debye, _WAVES, axis=1)
     stored = np.trapezoid(storage * t * relaxed, _WAVES, axis=1) / np.trapezoid(storage * t, _WAVES)
-    return CubicSpline(_TABLE, np.log(lost)), CubicSpline(_TABLE, np.log(stored))
+    return _with_slope(_TABLE, np.log(lost)), _with_slope(_TABLE, np.log(stored))
+
+
+def _with_slope(places: Array, values: Array) -> CubicSpline:
+    """Return a spline of values and their slope, (…, 2), which are then read at once."""
+    from scipy.interpolate import CubicSpline
+
+    return CubicSpline(places, np.column_stack([values, CubicSpline(places, values)(places, 1)]))

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     #: Residuals (r,) of standard deviation one, and their derivatives (r, p).
     Residuals = Callable[[Array], tuple[Array, Array]]
 
-ITERATIONS = 200
+ITERATIONS = 60
 CONVERGED = 1e-7  # relative fall of the sum of squares, beside one
 LARGEST_DAMPING = 1e12
 #: Draws of a chain that lie between two that are kept; elliptical slices forget in a few.
-THINNING = 4
+THINNING = 2
 
 
 class Minimum(NamedTuple):
@@ -35,7 +35,7 @@ class Minimum(NamedTuple):
 
 
 def descend(residuals: Residuals, start: Array) -> Minimum:
-    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 200 steps at most."""
+    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 60 steps at most."""
     place, damping = np.array(start), 1e-3
     values, jacobian = residuals(place)
     squares = float(values @ values)

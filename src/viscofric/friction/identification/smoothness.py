@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -50,14 +51,14 @@ class Smoothness:
     inside: tuple[float, float]
     roughness: float
 
-    @property
+    @cached_property
     def middle(self) -> Array:
         """What is expected, (1 + m,)."""
         spacing = float(np.log(self.tau[-1] / self.tau[0])) / (len(self.tau) - 1)
         level = np.log(self.compliance) + np.log(0.1 * spacing)
         return np.concatenate([[np.log(GLASS_SHARE * self.compliance)], np.full(len(self.tau), level)])
 
-    @property
+    @cached_property
     def matrix(self) -> Array:
         """A, (1 + m, 1 + m)."""
         m = len(self.tau)
