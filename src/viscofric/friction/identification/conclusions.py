@@ -47,6 +47,8 @@ class Outcome:
         As given.
     name : str
         Of the material.
+    anchored : bool
+        Whether anything fixes the level of the modulus.
     """
 
     curves: FrictionCurves
@@ -56,6 +58,7 @@ class Outcome:
     contacts: Contacts
     shift: ShiftLaw | None
     name: str
+    anchored: bool
 
 
 def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels: Sequence[float]) -> IdentifiedMaterial:
@@ -70,13 +73,12 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     low, middle, high = _frequencies(best)
     drawn = material_of.samples(posterior.drawn, (low, high))
     expected = _expected(material_of, best, samples, random)
-    anchored = bool(problem.observations.moduli or problem.contacts)
     bands = [
-        band(drawn, expected, part, middle, (low / BEYOND, high * BEYOND), limit, not anchored)
+        band(drawn, expected, part, middle, (low / BEYOND, high * BEYOND), limit, not outcome.anchored)
         for part in ("magnitude", "storage", "loss")
     ]
     family: tuple[LevelFit, ...] = ()
-    if not anchored:
+    if not outcome.anchored:
         family = level_family(best, outcome.contacts, material_of, middle, levels, outcome.iterations + 1)
     material = material_of(best.minimum.place, posterior.covariance)
     fitted, residuals = _fitted(outcome, posterior)
@@ -90,7 +92,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         identified=bands[0],
         identified_storage=bands[1],
         identified_loss=bands[2],
-        anchored=anchored,
+        anchored=outcome.anchored,
         middle=middle,
         frequency_range=(low, high),
         level_range=(float(np.quantile(levels_drawn, 0.025)), float(np.quantile(levels_drawn, 0.975))),

@@ -163,7 +163,7 @@ def identify_material(
     problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
     start = np.concatenate([problem.smoothness.middle, shifts.middle])
     fits, iterations = identify(problem, contacts, start)
-    outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name)
+    outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name, bool(moduli or sizes))
     return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=tuple(levels))
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.errors import ConvergenceError
+from viscofric.errors import ConvergenceError, InputError
 from viscofric.friction.identification.contacts import SolvedContact
 from viscofric.friction.identification.corrected import CorrectedFriction, Solved
 from viscofric.friction.identification.posterior import Minimum, descend, log_evidence
@@ -192,8 +192,8 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
         for halving in range(HALVINGS + 1):
             try:
                 solved = contacts.solved(problem, here, iteration)
-            except ConvergenceError:
-                if halving == HALVINGS or not np.isfinite(least):
+            except (ConvergenceError, InputError):  # the latter: wider than the indenter
+                if halving == HALVINGS:
                     raise
             else:
                 values, _ = solved(here)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import ConvergenceError
+from viscofric.errors import ConvergenceError, InputError
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.posterior import descend
 from viscofric.friction.identification.result import LevelFit
@@ -68,7 +68,7 @@ def level_family(
                 if factor != 1.0:
                     problem = contacts.solved(held, place, step + len(found))
                     place = descend(problem, place).place
-            except ConvergenceError:
+            except (ConvergenceError, InputError):
                 break
             last = factor
             points = problem.observations.points

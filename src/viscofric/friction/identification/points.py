@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Ball, Cylinder
-from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.errors import InputError
-from viscofric.friction.curves import SAME_LOAD
+from viscofric.friction.shifting.load_rule import LoadRule
+from viscofric.nominal import SAME_LOAD
 from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 #: Fewer points than these say nothing of a spectrum's shape.
 FEWEST_POINTS = 6
-#: Powers of the load with which contact radius and friction of an elastic contact rise: μ = F^q Φ(v F^−p).
-_SIMILARITY = {Ball: (1 / 3, 1 / 3), Ellipsoid: (1 / 3, 1 / 3), Cylinder: (1 / 2, 1 / 2), Cone: (1 / 2, 0.0)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,23 +120,24 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
     forces = curves.load[rows] if load is None else np.full(len(rows), positive(load, unit, "load"))
     middle = float(np.exp(np.mean(np.log(forces))))
     relative = np.log(forces / middle)
-    radius, rise = _SIMILARITY.get(type(indenter), (0.0, 0.0))
-    if not radius and np.ptp(relative) > np.log1p(SAME_LOAD):
+    alike = not isinstance(indenter, HeightMap | Profile)
+    if not alike and np.ptp(relative) > np.log1p(SAME_LOAD):
         raise InputError(
-            f"load of the friction curves runs from {forces.min():.3g} to {forces.max():.3g} {unit}, but a "
-            f"{indenter.noun} has no similarity that joins different loads; choose one with curves.at_load()."
+            f"load of the friction curves runs from {forces.min():.3g} to {forces.max():.3g} {unit}, but contacts of "
+            f"a {indenter.noun} at different loads are not alike; choose one with curves.at_load()."
         )
+    rule = LoadRule.of(indenter) if alike else LoadRule(0.0, 0.0)
     temperatures, number = np.unique(curves.temperature[rows], return_inverse=True)
     return Points(
-        log_speed=np.log(curves.speed[rows]) - radius * relative,
-        log_load=np.zeros(len(rows)) if radius else relative,
-        log_friction=np.log(friction) - rise * relative,
+        log_speed=np.log(curves.speed[rows]) - rule.size * relative,
+        log_load=np.zeros(len(rows)) if alike else relative,
+        log_friction=np.log(friction) - rule.strain * relative,
         error=np.hypot(relative_errors(curves.select(rows)), least_error),
         temperatures=temperatures,
         number=number.astype(np.int64),
         load=middle,
         forces=forces,
-        raised=rise * relative,
+        raised=rule.strain * relative,
         rows=rows,
         notes=tuple(notes),
     )

@@ -9,14 +9,15 @@ import numpy as np
 
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
-from viscofric.friction.curves import SAME_TEMPERATURE
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.corrected import CorrectedFriction
 from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.problem import Observations, Problem
 from viscofric.friction.identification.shifts import Shifts
 from viscofric.friction.identification.smoothness import EXPECTED, Smoothness
-from viscofric.friction.shifting.master_curve import shift_friction
+from viscofric.friction.shifting.shift import shift_friction
+from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.units import celsius
 
@@ -36,8 +37,10 @@ if TYPE_CHECKING:
 MARGIN = 1.9
 #: Fewest modes per decade with which E(ω) does not ripple.
 LEAST_PER_DECADE = 2.5
-#: Slope of the indenter at the contact's edge that a first guess of the level assumes.
+#: Slope of the indenter at the contact's edge that a first guess of the level assumes, and the standard deviation of
+#: ln |E| about it where nothing is known: of a ball, slopes from 0.06 to 0.4 are within two of them.
 GUESSED_SLOPE = 0.15
+GUESSED_SPREAD = 1.5
 
 
 def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...]:
@@ -89,7 +92,17 @@ def shifts_of(
         return replace(points, temperatures=everywhere, number=number), Shifts.known(everywhere, law)
     if len(points.temperatures) == 1:
         return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]), np.zeros(1))
-    found = shift_friction(curves.select(points.rows)).shift_factors
+    # Points are at one load already, as far as contacts at different loads are alike.
+    alike = replace(
+        curves.select(points.rows),
+        speed=np.exp(points.log_speed),
+        load=np.full(len(points), points.load),
+        viscoelastic=np.exp(points.log_friction),
+        viscoelastic_error=points.error * np.exp(points.log_friction),
+        viscoelastic_scatter=np.zeros(len(points)),
+        replicates=np.ones(len(points), dtype=np.int64),
+    )
+    found = shift_friction(alike).shift_factors
     away = np.abs(points.temperatures[points.number][:, None] - found.temperatures)
     number, kept = away.argmin(axis=1), away.min(axis=1) <= SAME_TEMPERATURE
     middle = float(found.reference) if reference is None else reference
@@ -117,12 +130,19 @@ def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contac
     shortest, longest = inside[0] - MARGIN * LN10, inside[1] + MARGIN * LN10
     count = max(modes, int(np.ceil(LEAST_PER_DECADE * (longest - shortest) / LN10)) + 1)
     tau = np.exp(np.linspace(shortest, longest, count))
+    if not moduli and not contacts.anchors:
+        moduli = (_guess(-0.5 * sum(inside), shifts.reference, compliance),)
     return Problem(
         friction=CorrectedFriction(FirstOrder(contacts.indenter, points.load, plane_strain, tau)),
         observations=Observations(points, moduli),
         shifts=shifts,
         smoothness=Smoothness(tau, compliance, (float(np.exp(inside[0])), float(np.exp(inside[1]))), EXPECTED),
     )
+
+
+def _guess(log_frequency: float, temperature: float, compliance: float) -> Block:
+    level = ModulusObservation(np.array([log_frequency]), temperature, "magnitude", np.array([-np.log(compliance)]))
+    return (level,), np.array([[1.0 / GUESSED_SPREAD]])
 
 
 def _first_guess(moduli: tuple[Block, ...], contacts: Contacts, plane_strain: float) -> float:
