@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 #: A roughness counts from this share of the evidence on.
-LEAST_SHARE = 0.02
+LEAST_SHARE = 0.05
 #: Frequencies at which bands are looked for, per decade.
 BAND_STEPS = 20
 

@@ -121,7 +121,8 @@ def identify_material(
     matter; how rough it may be is weighed by the evidence.  ln μ is that of solved contacts with their adjoint
     derivatives at four reduced speeds per decade; between them, and for neighbouring rubbers, what contacts differ by
     from friction to first order in the loss is interpolated, and contacts are solved again until nothing moves.  The
-    uncertainty is drawn from the posterior density by elliptical slice sampling.
+    uncertainty is that of fits to other errors, of the measurement and of what was assumed (randomised maximum
+    likelihood).
 
     Errors of the points are taken to be independent.  Those of replicates are drawn towards a common scatter.
 

@@ -1,0 +1,46 @@
+"""A rubber of three modes and its friction, few points that are quickly identified."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import viscofric as vf
+from friction.synthetic_curves import curves_of
+from viscofric.friction.identification.response import friction_response
+
+if TYPE_CHECKING:
+    from viscofric.friction.curves import FrictionCurves
+
+BALL = vf.Ball(radius=10e-3)
+LOAD = 5.0
+REFERENCE = 303.15
+#: Retardation times that the fit's own grid does not hold.
+RUBBER = vf.Material(
+    vf.RetardationSpectrum(
+        1.0 / (0.15e-6 + 0.08e-6 + 0.07e-6 + 0.10e-6),
+        1.0 / 0.15e-6,
+        np.array([0.08e-6, 0.07e-6, 0.10e-6]),
+        np.array([5e-4, 7e-3, 1.2e-1]),
+    ),
+    vf.WLF(C1=9.0, C2=100.0, reference=REFERENCE),
+)
+SPEEDS = np.geomspace(0.02, 0.2, 6)
+
+
+@lru_cache(maxsize=4)
+def planted_curves(*kelvin: float, accuracy: float = 1e-3) -> FrictionCurves:
+    """Friction without noise at six speeds and each of the temperatures."""
+    temperature = np.repeat(kelvin, len(SPEEDS))
+    reduced = np.tile(SPEEDS, len(kelvin)) * RUBBER.shift(temperature)
+    spectrum = RUBBER.modes_at()
+    response = friction_response(spectrum, 0.5, BALL, reduced, LOAD, accuracy=accuracy)
+    return curves_of(np.tile(SPEEDS, len(kelvin)), temperature, response.friction, 1e-6, load=LOAD)
+
+
+def planted_anchor(frequency: float = 10.0, error: float = 1e-3) -> vf.ModulusAnchor:
+    """|E| of the rubber at the reference."""
+    modulus = float(abs(RUBBER.complex_modulus(frequency)))
+    return vf.ModulusAnchor(modulus, frequency, REFERENCE, error=error)

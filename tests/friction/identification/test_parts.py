@@ -1,0 +1,165 @@
+"""The parts of an identification, each against what is known of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from friction.identification.planted import BALL, LOAD, RUBBER
+from friction.synthetic_curves import curves_of
+from viscofric.errors import InputError
+from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.moduli import compliance, log_modulus
+from viscofric.friction.identification.points import moderated_variances, usable_points
+from viscofric.friction.identification.posterior import descend, draws, log_evidence
+from viscofric.friction.identification.smoothness import Smoothness
+
+SPECTRUM = RUBBER.modes_at()
+COMPLIANCES = np.log([1.0 / SPECTRUM.E_inf, *SPECTRUM.C])
+LOG_SPEED = np.log(np.geomspace(1e-3, 10.0, 9))
+
+
+@pytest.mark.parametrize("indenter", [BALL, vf.Cylinder(radius=10e-3), vf.Cone(angle=0.1)])
+def test_derivatives_of_first_order_friction_are_those_of_its_differences(indenter: vf.Ball) -> None:
+    first = FirstOrder(indenter, LOAD, 0.75, SPECTRUM.tau)
+    found = first(COMPLIANCES, LOG_SPEED)
+    step = 1e-4
+    for place in range(len(COMPLIANCES)):
+        up, down = (first(COMPLIANCES + sign * step * np.eye(4)[place], LOG_SPEED) for sign in (1, -1))
+        # Second differences of smooth functions over a step of 1e-4, and Newton's steps that end at 1e-6 squared.
+        slope = (up.log_friction - down.log_friction) / (2.0 * step)
+        np.testing.assert_allclose(found.change[:, place], slope, atol=1e-6)
+        slope = (up.log_radius - down.log_radius) / (2.0 * step)
+        np.testing.assert_allclose(found.radius_change[:, place], slope, atol=1e-6)
+    up, down = (first(COMPLIANCES, LOG_SPEED + sign * step) for sign in (1, -1))
+    # The kernels' slope is a spline of its own, true to 1e-5.
+    np.testing.assert_allclose(found.slope, (up.log_friction - down.log_friction) / (2.0 * step), atol=1e-5)
+
+
+@pytest.mark.parametrize(("indenter", "load"), [(BALL, 5.0), (vf.Cylinder(radius=10e-3), 500.0)])
+def test_friction_to_first_order_is_right_for_little_loss(indenter: vf.Ball, load: float) -> None:
+    """With a hundredth of the compliance relaxing, what is left out is of second order: a few hundredths of it."""
+    rubber = vf.Material.standard_linear_solid(E0=3e6, E_inf=3.03e6, tau=1e-2)
+    modes = rubber.modes_at()
+    solved = vf.solve_steady(rubber, indenter, speed=0.1, load=load)
+    first = FirstOrder(indenter, load, 0.75, modes.tau)(np.log([1 / modes.E_inf, *modes.C]), np.log([0.1]))
+    assert np.exp(first.log_friction[0]) == pytest.approx(solved.friction_coefficient, rel=0.01)
+    assert np.exp(first.log_radius[0]) == pytest.approx(0.5 * (solved.front + solved.rear), rel=0.02)
+
+
+def test_first_order_friction_does_not_depend_on_units() -> None:
+    """Moduli times 1e6, lengths times 1e-3, times over 1e9: forces are those times 1, speeds times 1e6."""
+    there = FirstOrder(vf.Ball(radius=10e-6), LOAD * 1e6 * 1e-6, 0.75, SPECTRUM.tau * 1e-9)
+    here = FirstOrder(BALL, LOAD, 0.75, SPECTRUM.tau)
+    scaled = there(COMPLIANCES - np.log(1e6), LOG_SPEED + np.log(1e-3 * 1e9))
+    np.testing.assert_allclose(scaled.log_friction, here(COMPLIANCES, LOG_SPEED).log_friction, atol=1e-9)
+
+
+@pytest.mark.parametrize("part", ["magnitude", "storage", "loss"])
+def test_derivatives_of_moduli_are_those_of_their_differences(part: str) -> None:
+    omega, step = np.log([0.1, 3.0, 200.0]), 1e-5
+
+    def modulus(compliances: np.ndarray, log_frequency: np.ndarray) -> np.ndarray:
+        S, change, _ = compliance(compliances, SPECTRUM.tau, log_frequency)
+        return log_modulus(part, S, change)[0]
+
+    S, change, slope = compliance(COMPLIANCES, SPECTRUM.tau, omega)
+    moved = log_modulus(part, S, np.column_stack([change, slope]))[1]
+    E = RUBBER.complex_modulus(np.exp(omega))
+    planted = {"storage": E.real, "loss": E.imag, "magnitude": np.abs(E)}[part]
+    np.testing.assert_allclose(np.exp(modulus(COMPLIANCES, omega)), planted)
+    for place in range(5):
+        away = step * np.eye(5)[place]
+        up, down = (modulus(COMPLIANCES + sign * away[:4], omega + sign * away[4]) for sign in (1, -1))
+        np.testing.assert_allclose(moved[:, place], (up - down) / (2.0 * step), atol=1e-8)
+
+
+def test_scatter_of_few_replicates_is_drawn_to_the_common_one() -> None:
+    random = np.random.default_rng(2)
+    freedom = np.full(400, 7)
+    same = random.chisquare(7, 400) / 7.0
+    pooled = moderated_variances(same, freedom)
+    # Of one true variance the sample variances scatter by √(2/7) = 0.53; little of that may be left.
+    assert np.std(np.log(pooled)) < 0.1
+    assert np.mean(pooled) == pytest.approx(1.0, abs=0.05)  # 2800 degrees of freedom: ± 2.7 %
+    true = np.where(np.arange(400) < 200, 1.0, 25.0)
+    apart = moderated_variances(true * same, freedom)
+    assert np.mean(np.log(apart / true) ** 2) < np.mean(np.log(same) ** 2)
+    assert np.median(apart[200:]) / np.median(apart[:200]) > 10.0
+
+
+def test_draws_follow_a_density_that_is_not_normal() -> None:
+    """Residuals x and y − x²/2: x is normal, y = x²/2 + n has the mean 1/2 and the variance 3/2."""
+
+    def residuals(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        x, y = place
+        return np.array([x, y - 0.5 * x**2]), np.array([[1.0, 0.0], [-x, 1.0]])
+
+    minimum = descend(residuals, np.array([2.0, -1.0]))
+    assert minimum.settled
+    np.testing.assert_allclose(minimum.place, 0.0, atol=1e-3)
+    drawn = draws(residuals, minimum, 1000, np.random.default_rng(3))
+    # Four standard errors of 1000 draws; the map from errors to draws is one to one here, so that they are exact.
+    assert np.mean(drawn[:, 0]) == pytest.approx(0.0, abs=0.13)
+    assert np.var(drawn[:, 0]) == pytest.approx(1.0, abs=0.2)
+    assert np.mean(drawn[:, 1]) == pytest.approx(0.5, abs=0.16)
+    assert np.var(drawn[:, 1]) == pytest.approx(1.5, abs=0.4)
+
+
+def test_evidence_of_a_linear_problem_is_its_marginal_likelihood() -> None:
+    """Y = x + n, x ~ N(0, s²): the marginal of y is N(0, 1 + s²)."""
+    y = 1.7
+
+    def evidence(s: float) -> float:
+        minimum = descend(lambda x: (np.array([x[0] - y, x[0] / s]), np.array([[1.0], [1.0 / s]])), np.zeros(1))
+        return log_evidence(minimum, -np.log(s))
+
+    marginal = [-0.5 * y**2 / (1.0 + s**2) - 0.5 * np.log(1.0 + s**2) for s in (0.5, 3.0)]
+    assert evidence(0.5) - evidence(3.0) == pytest.approx(marginal[0] - marginal[1], abs=1e-6)
+
+
+def test_a_straight_spectrum_costs_the_prior_nothing_but_its_level_and_slope() -> None:
+    tau = np.geomspace(1e-3, 1e3, 20)
+    smooth = Smoothness(tau, 1e-6, (1e-2, 1e2), 0.1)
+    power_law = smooth.middle + np.concatenate([[0.0], 0.4 * np.log(tau)])
+    rows = smooth.matrix @ (power_law - smooth.middle)
+    np.testing.assert_allclose(rows[3:], 0.0, atol=1e-9)
+    assert rows @ rows == pytest.approx((0.4 / 0.7) ** 2, rel=1e-9)
+    wave = power_law + np.concatenate([[0.0], np.sin(np.log(tau))])
+    smoother = replace(smooth, roughness=0.01)
+    costs = [float(np.linalg.norm(one.matrix @ (wave - one.middle))) for one in (smooth, smoother)]
+    assert costs[0] < costs[1]
+
+
+def test_points_of_a_ball_at_two_loads_are_those_of_one() -> None:
+    """μ(v, F) = f^{1/3} μ(v f^{−1/3}, F0): both loads give the same point."""
+    loads = np.repeat([2.0, 16.0], 3)
+    speed = np.array([0.01, 0.02, 0.03])
+    speeds = np.concatenate([speed, 2.0 * speed])
+    both = curves_of(speeds, np.full(6, 300.0), speeds, 1e-4, load=loads)  # friction as large as the speed in m/s
+    points = usable_points(both, BALL, None, 1e-4)
+    np.testing.assert_allclose(points.log_speed[:3], points.log_speed[3:])
+    np.testing.assert_allclose(points.log_friction[:3], points.log_friction[3:])
+    assert points.load == pytest.approx(np.sqrt(2.0 * 16.0))
+    profile = vf.Profile(np.linspace(-1e-3, 1e-3, 101) ** 2, spacing=2e-5)
+    with pytest.raises(InputError, match="at different loads are not alike"):
+        usable_points(replace(both, load_unit="N/m"), profile, None, 1e-4)
+
+
+def test_points_that_cannot_be_used_are_told() -> None:
+    speed = np.geomspace(0.02, 0.2, 8)
+    curves = curves_of(speed, np.full(8, 300.0), np.full(8, 0.01), 1e-4)
+    negative = replace(curves, viscoelastic=np.where(speed == speed[2], -1e-3, 0.01))
+    with pytest.raises(InputError, match=r"-0\.001 at 0\.0386 m/s and 26\.9 °C: must be above zero"):
+        usable_points(negative, BALL, None, 1e-4)
+    with pytest.raises(InputError, match="hold 3 usable points"):
+        usable_points(curves.select(np.arange(3)), BALL, None, 1e-4)
+    with pytest.raises(InputError, match="takes a load in N/m"):
+        usable_points(curves, vf.Cylinder(radius=0.01), None, 1e-4)
+    unknown = replace(curves, viscoelastic_error=np.where(speed == speed[2], np.inf, 1e-4))
+    points = usable_points(unknown, BALL, None, 1e-4)
+    assert len(points) == 7
+    assert "1 of 8 points" in points.notes[0]
