@@ -32,7 +32,7 @@ def error_of(found: vf.IdentifiedMaterial, omega: NDArray[np.float64]) -> NDArra
 
 def test_modulus_and_shifts_come_back(found: vf.IdentifiedMaterial) -> None:
     omega = np.geomspace(*found.frequency_range, 12)
-    # Both sides of the planted friction are solved to some 1e-4, and three modes are not smooth.
+    # Both sides of the planted friction are solved to some 1e-4.
     np.testing.assert_allclose(error_of(found, omega), 0.0, atol=0.01)
     assert found.shift_found
     factors = found.shift_factors

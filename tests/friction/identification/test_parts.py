@@ -28,7 +28,7 @@ def test_derivatives_of_first_order_friction_are_those_of_its_differences(indent
     found = first(COMPLIANCES, LOG_SPEED)
     step = 1e-4
     for place in range(len(COMPLIANCES)):
-        up, down = (first(COMPLIANCES + sign * step * np.eye(4)[place], LOG_SPEED) for sign in (1, -1))
+        up, down = (first(COMPLIANCES + sign * step * np.eye(len(COMPLIANCES))[place], LOG_SPEED) for sign in (1, -1))
         # Second differences of smooth functions over a step of 1e-4, and Newton's steps that end at 1e-6 squared.
         slope = (up.log_friction - down.log_friction) / (2.0 * step)
         np.testing.assert_allclose(found.change[:, place], slope, atol=1e-6)
@@ -71,9 +71,10 @@ def test_derivatives_of_moduli_are_those_of_their_differences(part: str) -> None
     E = RUBBER.complex_modulus(np.exp(omega))
     planted = {"storage": E.real, "loss": E.imag, "magnitude": np.abs(E)}[part]
     np.testing.assert_allclose(np.exp(modulus(COMPLIANCES, omega)), planted)
-    for place in range(5):
-        away = step * np.eye(5)[place]
-        up, down = (modulus(COMPLIANCES + sign * away[:4], omega + sign * away[4]) for sign in (1, -1))
+    size = len(COMPLIANCES)
+    for place in range(size + 1):
+        away = step * np.eye(size + 1)[place]
+        up, down = (modulus(COMPLIANCES + sign * away[:size], omega + sign * away[size]) for sign in (1, -1))
         np.testing.assert_allclose(moved[:, place], (up - down) / (2.0 * step), atol=1e-8)
 
 

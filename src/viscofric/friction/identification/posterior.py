@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     #: Residuals (r,) of standard deviation one, and their derivatives (r, p).
     Residuals = Callable[[Array], tuple[Array, Array]]
 
-ITERATIONS = 60
-CONVERGED = 1e-7  # relative fall of the sum of squares, beside one
+ITERATIONS = 100
+CONVERGED = 1e-5  # relative fall of the sum of squares, beside one
 LARGEST_DAMPING = 1e12
 #: … with which a draw ends: its place need not be known better than to a hundredth of its scatter.
 DRAW_CONVERGED = 1e-4
@@ -35,7 +35,7 @@ class Minimum(NamedTuple):
 
 
 def descend(residuals: Residuals, start: Array, converged: float = CONVERGED) -> Minimum:
-    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 60 steps at most."""
+    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 100 steps at most."""
     place, damping = np.array(start), 1e-3
     values, jacobian = residuals(place)
     squares = float(values @ values)

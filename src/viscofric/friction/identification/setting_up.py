@@ -53,7 +53,7 @@ def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...
     """
     if anchor is None:
         return ()
-    anchors = (anchor,) if isinstance(anchor, (ModulusAnchor, ContactAnchor)) else tuple(anchor)
+    anchors = tuple(anchor) if isinstance(anchor, (list, tuple)) else (anchor,)
     for one in anchors:
         if not isinstance(one, (ModulusAnchor, ContactAnchor)):
             raise InputError(f"anchor must be a ModulusAnchor or a ContactAnchor, not {type(one).__name__}.")
