@@ -6,12 +6,18 @@ import os
 import pprint
 import statistics
 import subprocess
-from typing import Any
+import sys
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from viscofric.errors import InputError, ViscofricError
-from viscofric.processes import call_all
+from viscofric.processes import Workers, call_all
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+ONES: list[dict[str, Any]] = [{"data": [1.0]}] * 4
 
 
 @pytest.fixture
@@ -54,12 +60,13 @@ def test_error_of_a_call_is_raised_here() -> None:
         call_all(statistics.fmean, calls, workers=2)
 
 
-def test_interrupt_ends_the_processes(children: list[subprocess.Popen[bytes]]) -> None:
-    def interrupt(done: int) -> None:
-        raise KeyboardInterrupt
+def interrupt(done: int) -> None:
+    raise KeyboardInterrupt
 
+
+def test_interrupt_ends_the_processes(children: list[subprocess.Popen[bytes]]) -> None:
     with pytest.raises(KeyboardInterrupt):
-        call_all(statistics.fmean, [{"data": [1.0]}] * 4, workers=2, progress=interrupt)
+        call_all(statistics.fmean, ONES, workers=2, progress=interrupt)
     assert len(children) == 2
     assert all(child.returncode is not None for child in children)
 
@@ -78,6 +85,116 @@ def test_what_cannot_be_handed_over_is_told() -> None:
 
     with pytest.raises(InputError, match="use one worker"):
         call_all(local, [{"data": 1}] * 2, workers=2)
+
+
+def test_same_processes_answer_one_set_of_calls_after_another(children: list[subprocess.Popen[bytes]]) -> None:
+    with Workers(3) as workers:
+        assert not children  # none is started for nothing
+        assert call_all(os.getpid, [{}], workers=workers) == [os.getpid()]
+        for count, started in ((2, 2), (4, 3), (6, 3), (2, 3)):
+            calls: list[dict[str, Any]] = [{"data": [0.1 * n, 0.3]} for n in range(count)]
+            counted: list[int] = []
+            shared = call_all(statistics.fmean, calls, workers=workers, progress=counted.append)
+            assert shared == [statistics.fmean(**call) for call in calls]
+            assert counted == list(range(1, count + 1))
+            assert len(children) == started
+        assert set(call_all(os.getpid, [{}] * 9, workers=workers)) <= {child.pid for child in children}
+        assert all(child.poll() is None for child in children)
+    assert all(child.returncode is not None for child in children)
+
+
+def test_workers_outlive_a_call_that_failed(children: list[subprocess.Popen[bytes]]) -> None:
+    """Nor does what was begun along with it get among later results."""
+    with Workers(2) as workers:
+        for _ in range(3):
+            with pytest.raises(statistics.StatisticsError, match="at least one data point"):
+                call_all(statistics.fmean, [{"data": []}, *ONES], workers=workers)
+            assert call_all(statistics.fmean, [{"data": [n]} for n in range(5)], workers=workers) == [0, 1, 2, 3, 4]
+        assert len(children) == 2
+
+
+def test_workers_that_ended_are_told_and_replaced(children: list[subprocess.Popen[bytes]]) -> None:
+    with Workers(2) as workers:
+        with pytest.raises(ViscofricError, match="use fewer workers"):
+            call_all(os._exit, [{"status": 1}] * 2, workers=workers)
+        assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
+        alive = [child for child in children if child.poll() is None]
+        assert len(alive) == 2
+        alive[0].kill()
+        alive[0].wait()
+        # Killed while it had nothing to do: nothing is lost.
+        assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
+        assert sum(child.poll() is None for child in children) == 2
+    assert all(child.returncode is not None for child in children)
+
+
+def test_interrupted_workers_end_at_once_and_start_anew(children: list[subprocess.Popen[bytes]]) -> None:
+    with Workers(2) as workers:
+        with pytest.raises(KeyboardInterrupt):
+            call_all(statistics.fmean, ONES, workers=workers, progress=interrupt)
+        assert all(child.returncode is not None for child in children)
+        assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
+        assert len(children) == 4
+    assert all(child.returncode is not None for child in children)
+
+
+def test_calls_from_progress_do_not_get_between_those_that_are_at_work() -> None:
+    within: list[list[float]] = []
+    with Workers(2) as workers:
+
+        def call_more(done: int) -> None:
+            if done == 1:
+                within.append(call_all(statistics.fmean, [{"data": [n]} for n in (7, 8)], workers=workers))
+
+        assert call_all(statistics.fmean, ONES, workers=workers, progress=call_more) == [1.0] * 4
+    assert within == [[7.0, 8.0]]
+
+
+def test_workers_serve_within_their_block_only() -> None:
+    with Workers(2) as workers:
+        pass
+    with pytest.raises(InputError, match="must be used within their block"):
+        call_all(statistics.fmean, ONES, workers=workers)
+    assert call_all(statistics.fmean, ONES, workers=Workers(1)) == [1.0] * 4  # no process is needed
+
+
+def test_exception_that_cannot_be_handed_back_keeps_its_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "faulty_calls.py").write_text(
+        "class WornError(Exception):\n"
+        "    def __init__(self, part, depth):\n"
+        "        super().__init__(f'{part} is worn by {depth} mm')\n"
+        "def worn(depth):\n"
+        "    raise WornError('ball', depth)\n"
+        "def opened(path):\n"
+        "    return open(path)\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    import faulty_calls
+
+    with Workers(2) as workers:
+        with pytest.raises(ViscofricError, match="WornError: ball is worn by 2 mm"):
+            call_all(faulty_calls.worn, [{"depth": 2}, {"depth": 3}], workers=workers)
+        with pytest.raises(InputError, match=r"cannot be handed .*TextIOWrapper.* use one worker"):
+            call_all(faulty_calls.opened, [{"path": os.devnull}] * 2, workers=workers)
+        assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
+
+
+def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import statistics\n"
+        "from viscofric.processes import Workers, call_all\n"
+        "with Workers(2) as workers:\n"
+        "    for _ in range(2):\n"
+        "        print(call_all(statistics.fmean, [{'data': [1.0]}, {'data': [2.0]}], workers=workers))\n"
+    )
+    path = os.pathsep.join(sys.path)
+    said = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, check=True, env={**os.environ, "PYTHONPATH": path}
+    )
+    assert said.stdout == "[1.0, 2.0]\n" * 2
 
 
 @pytest.mark.parametrize("workers", [0, -1, 1.5, True, "2"])

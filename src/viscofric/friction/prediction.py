@@ -12,7 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.sensitivity import solve_with_sensitivity
-from viscofric.processes import call_all
+from viscofric.processes import Workers, call_all
 from viscofric.units import Quantities, Quantity, positive, to_si_array
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def predict_friction(
     load: Quantity,
     samples: MaterialSamples | None = None,
     accuracy: float = 1e-3,
-    workers: int = 1,
+    workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[ContactSettings],
 ) -> FrictionCurves:
@@ -71,8 +71,9 @@ def predict_friction(
         first order by one adjoint solve for each contact (see `viscofric.friction.bands`).
     accuracy : float
         Relative error of each friction coefficient that is aimed at; see `solve_steady`.
-    workers : int
-        Processes that share the contacts out among them; the result is the same to the last digit.
+    workers : int or Workers
+        Processes that share the contacts out among them, or `viscofric.processes.Workers` that are kept for more; the
+        result is the same to the last digit.
     progress : callable, optional
         Called as ``progress(done, total)`` before the first and after every contact.
     **settings

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.steady import friction_and_derivatives
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.processes import call_all
+from viscofric.processes import Workers, call_all
 from viscofric.rheology.material import Material
 from viscofric.units import Quantities, positive, to_si_array
 
@@ -68,7 +68,7 @@ def friction_response(
     load: Quantities,
     *,
     accuracy: float = 1e-3,
-    workers: int = 1,
+    workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[ContactSettings],
 ) -> FrictionResponse:
@@ -87,8 +87,9 @@ def friction_response(
         Normal load, the same at all speeds or one for each; N, of a line contact N/m.
     accuracy : float
         Relative error of each friction coefficient that is aimed at; see `solve_steady`.
-    workers : int
-        Processes that share the contacts out among them; the result is the same to the last digit.
+    workers : int or Workers
+        Processes that share the contacts out among them, or `viscofric.processes.Workers` that are kept for more; the
+        result is the same to the last digit.
     progress : callable, optional
         Called as ``progress(done, total)`` after every contact.
     **settings

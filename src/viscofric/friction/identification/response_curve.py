@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.prediction import ContactSettings
+    from viscofric.processes import Workers
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.units import Quantities
 
@@ -70,7 +71,7 @@ def friction_curve_response(
     *,
     accuracy: float = 1e-3,
     interpolation: float = 1e-3,
-    workers: int = 1,
+    workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[ContactSettings],
 ) -> CurveResponse:
