@@ -158,16 +158,50 @@ def solve_steady(
         indenter_modulus=indenter_modulus, indenter_poisson_ratio=indenter_poisson_ratio, layer=layer,
         backend=backend, direction=direction,
     )  # fmt: skip
-    stages, scale, velocity = solved.stages, solved.scale, solved.velocity
+    solution = _solution(solved, material, indenter, temperature, layer)
+    return replace(solution, derivatives=_derivatives(solved)) if derivatives else solution
+
+
+@one_blas_thread
+def solve_and_differentiate(
+    material: Material, indenter: Indenter, *, speed: Quantity, temperature: Quantity | None = None, **settings: Any
+) -> ContactSolution:
+    """Solve a contact as `solve_steady` does with derivatives, but without their error estimate.
+
+    That estimate takes an adjoint solve on each of the last grids; without it, theirs is infinite, and one enough.
+
+    Parameters
+    ----------
+    material, indenter, speed, temperature
+        As of `solve_steady`; the speed is neither zero nor infinite.
+    **settings
+        Likewise, but for `derivatives`.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As `solve_steady`.
+    """
+    _check_derivatives(_velocity(speed))
+    solved = _solved(material, indenter, speed=speed, temperature=temperature, **settings)
+    solution = _solution(solved, material, indenter, temperature, settings.get("layer"))
+    return replace(solution, derivatives=_derivatives(solved, with_error=False))
+
+
+def _solution(
+    solved: _Solved, material: Material, indenter: Indenter, temperature: Quantity | None, layer: Layer | None
+) -> ContactSolution:
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
     # What was given comes back as it was given, free of the rounding of sums and units.
-    solution = replace(assemble(stages, scale, velocity, solved.toward, kelvin), **solved.given)
-    if derivatives:
-        found = differentiate(stages, scale, solved.spectrum, solved.plane_strain, velocity)
-        solution = replace(solution, derivatives=found)
+    solution = replace(assemble(solved.stages, solved.scale, solved.velocity, solved.toward, kelvin), **solved.given)
     doubts = _doubts(solution, indenter, layer, solved.contact)
     said = (*material.notes_on_modes, *_beyond_table(solution, material.spectrum, solved.spectrum))
     return replace(solution, warnings=(*doubts, *said))
+
+
+def _derivatives(solved: _Solved, *, with_error: bool = True) -> FrictionDerivatives:
+    of_what = solved.stages, solved.scale, solved.spectrum, solved.plane_strain, solved.velocity
+    return differentiate(*of_what, with_error=with_error)
 
 
 @one_blas_thread
@@ -201,10 +235,8 @@ def friction_and_derivatives(
     coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
     solved = _solved(material, indenter, speed=speed, load=load, accuracy=accuracy, coarsest=coarsest, **settings)
     estimate, scale = friction_estimate(solved.stages), solved.scale
-    derivatives = differentiate(
-        solved.stages, scale, solved.spectrum, solved.plane_strain, solved.velocity, with_error=False
-    )
-    return math.copysign(scale.slope, solved.velocity) * estimate.value, scale.slope * estimate.error, derivatives
+    value, error = math.copysign(scale.slope, solved.velocity) * estimate.value, scale.slope * estimate.error
+    return value, error, _derivatives(solved, with_error=False)
 
 
 class _Solved(NamedTuple):

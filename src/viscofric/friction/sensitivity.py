@@ -13,7 +13,7 @@ import numpy as np
 
 from viscofric.contact.counterface import indenter_compliance
 from viscofric.contact.free.scale import Scale
-from viscofric.contact.steady import solve_steady
+from viscofric.contact.steady import solve_and_differentiate
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
@@ -98,8 +98,8 @@ def solve_with_sensitivity(
     length = Scale.for_load(indenter, 1.0 / relaxed, load).length
     alpha = 1.0 if material.shift is None else float(material.shift(temperature))
     everywhere = replace(material, spectrum=_with_empty_modes(material.modes_at(), length / (speed * alpha)))
-    solution = solve_steady(
-        everywhere, indenter, speed=speed, load=load, temperature=temperature, derivatives=True, **settings
+    solution = solve_and_differentiate(
+        everywhere, indenter, speed=speed, load=load, temperature=temperature, **settings
     )
     modes, found = everywhere.modes_at(temperature), solution.derivatives
     assert found is not None
