@@ -31,13 +31,18 @@ def viscoelastic(celsius: float, speed: float) -> float:
 
 
 def runs(
-    path: Path, signs: tuple[int, ...] = (-1, 1), replicates: int = 2, noise: float = 0.0, load: float = 25.0
+    path: Path,
+    signs: tuple[int, ...] = (-1, 1),
+    slips: tuple[int, ...] = (-1, 1),
+    replicates: int = 2,
+    noise: float = 0.0,
+    load: float = 25.0,
 ) -> Path:
     """Write runs of the formula: both slips for each of the signs of the disc speed."""
     random = np.random.default_rng(3)
     rows = [HEADER]
     for celsius, speed, replicate, sign, slip in product(
-        (30.0, 60.0), (20.0, 60.0, 200.0), range(1, replicates + 1), signs, (-1, 1)
+        (30.0, 60.0), (20.0, 60.0, 200.0), range(1, replicates + 1), signs, slips
     ):
         force = ZERO_FORCE + load * (COULOMB * slip + viscoelastic(celsius, speed) * sign)
         force += noise * random.standard_normal()
@@ -99,6 +104,27 @@ def test_several_files_make_one_test(tmp_path: Path) -> None:
     np.testing.assert_allclose([point["offset"] for point in found["points"]], ZERO_FORCE, rtol=1e-9)  # no noise
 
 
+def test_separated_curves_are_read_back_as_they_are(tmp_path: Path) -> None:
+    path = runs(tmp_path / "runs.csv", noise=0.01)
+    done = call("separate", path, "--out", tmp_path / "curves.csv")
+    assert done.exit_code == 0, done.output
+    assert f"curves   {tmp_path / 'curves.csv'}" in done.stdout
+    curves, again = vf.separate(vf.read_mtm(path)), vf.read_friction_curves(tmp_path / "curves.csv")
+    np.testing.assert_array_equal(again.viscoelastic, curves.viscoelastic)
+    np.testing.assert_array_equal(again.viscoelastic_error, curves.viscoelastic_error)
+
+
+def test_one_direction_of_slip_needs_an_assumption_which_is_told(tmp_path: Path) -> None:
+    path = runs(tmp_path / "runs.csv", slips=(1,))
+    assert call("separate", path).exit_code == 1
+    found = record("separate", path, "--coulomb", COULOMB, "--coulomb-error", "0.001")
+    assert found["assumption"]
+    for point in found["points"]:
+        celsius, speed = point["temperature"] - 273.15, 1e3 * point["speed"]
+        assert point["viscoelastic"] == pytest.approx(viscoelastic(celsius, speed), rel=1e-9)  # no noise
+    assert "assumed" in call("separate", path, "--coulomb", COULOMB).stdout
+
+
 def test_separate_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv")
     done = call("separate", path, "--picture", tmp_path / "curves.svg", "--synthetic")
@@ -115,7 +141,10 @@ def test_separate_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) 
         (["separate", "runs.csv", "--zero", "0.1 mm"], 1, "wrong kind of unit"),
         (["separate", "runs.csv", "--speed-tolerance", "2"], 1, "between 0 and 1"),
         (["separate", "runs.csv", "--picture", "a.txt"], 2, "must end in .png, .svg, .pdf"),
-        (["separate", "runs.svg", "--picture", "runs.svg"], 1, "would be overwritten"),
+        (["separate", "runs.csv", "--coulomb", "much"], 2, "'constant'"),
+        (["separate", "runs.csv", "--zero-error", "0.1 N"], 2, "which is not given"),
+        (["separate", "runs.csv", "--coulomb", "constant", "--coulomb-error", "0.1"], 2, "goes with a number"),
+        (["separate", "runs.csv", "--out", "runs.csv"], 1, "would be overwritten"),
         (["separat"], 2, "Did you mean 'separate'?"),
     ],
 )
@@ -128,6 +157,100 @@ def test_mistakes_are_one_sentence(
     assert done.exit_code == status, done.output
     assert told in done.output
     assert "Traceback" not in done.output
+    assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
+
+
+LAW = vf.WLF(C1=9.0, C2=100.0, reference="30 degC")
+TEMPERATURES = np.array([30.0, 35.0, 40.0, 46.0]) + 273.15
+
+
+def curves(path: Path, temperatures: Any = TEMPERATURES, noise: float = 0.01, load: float = 25.0) -> Path:
+    """Write friction curves of one formula over the reduced speed, with shift factors of the law."""
+    kelvin, speed = (grid.ravel() for grid in np.meshgrid(temperatures, np.geomspace(0.02, 0.2, 8), indexing="ij"))
+    friction = 0.01 * (1.0 + (LAW(kelvin) * speed / 0.02) ** -0.4)
+    error = noise * friction
+    moved = friction + error * np.random.default_rng(5).standard_normal(error.size)
+    same = np.full(error.size, load)
+    vf.write_friction_curves(
+        vf.FrictionCurves(speed, kelvin, same, moved, error, 3.0 * error, np.full(error.size, 9)), path
+    )
+    return path
+
+
+def test_shift_finds_the_planted_factors_and_writes_them(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv")
+    found = record("shift", path, "--reference", "30 degC", "--out", tmp_path / "alpha.csv")
+    assert found["found"]
+    planted = LAW.log10(np.array(found["temperature"]))
+    apart = np.abs(found["log10_shift_factor"] - planted)
+    # Four standard errors, of three factors; that of the reference is exact but for rounding.
+    assert np.all(apart <= 4.0 * np.array(found["standard_error"]) + 1e-12)
+    assert max(found["standard_error"]) < 0.1
+    written = vf.read_shift_factors(tmp_path / "alpha.csv")
+    # The reference's own is zero but for rounding.
+    np.testing.assert_allclose(written.log10_values, found["log10_shift_factor"], rtol=0.0, atol=1e-15)
+    np.testing.assert_array_equal(written.covariance, found["covariance"])
+
+
+def test_shift_lays_the_modulus_beside(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv")
+    vf.ShiftFactors(TEMPERATURES, LAW.log10(TEMPERATURES), "30 degC").save(tmp_path / "dma.csv")
+    words = ("shift", path, "--shift", tmp_path / "dma.csv", "--law", "arrhenius")
+    found = record(*words)
+    assert found["reference"] == pytest.approx(303.15)  # that of the modulus
+    assert found["law"]["kind"] == "Arrhenius"
+    # Planted in both: noise of 1 % decides, so that neither is to be called wrong at one in a thousand.
+    assert found["agreement"]["p_value"] > 1e-3
+    assert found["agreement"]["slope"] == pytest.approx(1.0, abs=4.0 * found["agreement"]["slope_error"])
+    done = call(*words, "--picture", tmp_path / "alpha.svg")
+    assert done.exit_code == 0, done.output
+    assert "of the modulus" in done.stdout.splitlines()[0]
+    assert (tmp_path / "alpha.svg").stat().st_size > 0
+
+
+def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv", [303.15, 363.15])
+    alone = call("shift", path)
+    assert alone.exit_code == 1
+    assert "do not overlap" in alone.output
+    beside = call("shift", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
+    assert beside.exit_code == 0, beside.output
+    assert "No shift factors from friction" in beside.output
+    assert not record("shift", path, "--shift", "synthetic fluoroelastomer")["found"]
+
+
+def test_runs_are_separated_before_they_are_shifted(tmp_path: Path) -> None:
+    done = call("shift", runs(tmp_path / "runs.csv", noise=0.01), "--shift", "synthetic fluoroelastomer")
+    assert done.exit_code == 0, done.output
+    assert "60.0" in done.stdout
+
+
+def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
+    one, other = curves(tmp_path / "one.csv"), curves(tmp_path / "other.csv", load=35.0)
+    assert "a master curve holds at one load" in call("shift", one, other).output
+    assert call("shift", one, other, "--ball", "9.525 mm").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["shift", "nothing.csv"], 1, "nothing.csv: no such file"),
+        (["shift", "curves.csv", "runs.csv"], 1, "runs.csv is none"),
+        (["shift", "curves.csv", "--shift", "no rubber"], 1, "no rubber"),
+        (["shift", "curves.csv", "--reference", "90 degC"], 1, "lies outside the friction curves"),
+        (["shift", "curves.csv", "--out", "alpha.json"], 2, "must end in .csv"),
+        (["shift", "curves.csv", "--out", "curves.csv"], 1, "would be overwritten"),
+    ],
+)
+def test_mistakes_of_shifting_are_one_sentence(
+    words: list[object], status: int, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    runs(tmp_path / "runs.csv")
+    curves(tmp_path / "curves.csv")
+    done = call(*words)
+    assert done.exit_code == status, done.output
+    assert told in done.output
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
 
 

@@ -160,3 +160,36 @@ def test_picture_is_the_same_bytes_every_time(tmp_path: Path) -> None:
     for name in ("a.svg", "b.svg"):
         draw_friction(tmp_path / name, curves(coulomb=False), synthetic=True)
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+def shift_factors(noise: float = 0.0) -> vf.ShiftFactors:
+    kelvin = np.array([30.0, 40.0, 52.0, 68.0, 90.0]) + ZERO
+    law = vf.WLF(C1=10.04, C2=89.6, reference="30 degC")
+    errors = np.array([0.0, 0.02, 0.03, 0.05, 0.08])
+    return vf.ShiftFactors(kelvin, law.log10(kelvin) + noise * errors, "30 degC", np.diag(errors**2))
+
+
+def test_shift_factors_of_friction_stand_beside_those_of_the_modulus(axes: Axes) -> None:
+    found, known = shift_factors(noise=1.0), shift_factors()
+    report.plot_shift_comparison(axes, found, known)
+    assert (axes.get_xscale(), axes.get_yscale()) == ("linear", "log")
+    drawn = {str(points.get_label()): points for points in bars(axes)}
+    for label, factors in (("from friction", found), ("of the modulus", known)):
+        (points,) = [one for name, one in drawn.items() if name.startswith(label)]
+        np.testing.assert_allclose(np.log10(points.lines[0].get_ydata()), factors.log10_values, atol=1e-12)
+        (segments,) = points.lines[2]
+        lengths = [np.ptp(np.log10(segment[:, 1])) for segment in segments.get_segments()]
+        np.testing.assert_allclose(lengths, 2.0 * factors.standard_errors, atol=1e-12)
+
+
+def test_a_modulus_with_another_reference_is_brought_to_that_of_friction(axes: Axes) -> None:
+    found = shift_factors()
+    report.plot_shift_comparison(axes, found, vf.WLF(C1=10.04, C2=89.6, reference="30 degC").at_reference("60 degC"))
+    (line,) = [line for line in axes.lines if "WLF" in str(line.get_label())]
+    np.testing.assert_allclose(np.asarray(line.get_ydata())[[0, -1]], 10.0 ** found.log10_values[[0, -1]], rtol=1e-9)
+
+
+def test_results_of_another_reference_are_not_drawn_together(axes: Axes, tree: xr.DataTree) -> None:
+    warm = shift_factors().at_reference("40 degC")
+    with pytest.raises(vf.InputError, match="must be the same"):
+        report.plot_shift_comparison(axes, warm, tree["shift_factors"].to_dataset())

@@ -61,6 +61,13 @@ def contact_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+def indenter_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of the indenter alone."""
+    for option in reversed(_INDENTER):
+        function = option(function)
+    return function
+
+
 def option(name: str) -> str:
     """Return an option as it is typed."""
     return "--" + {"rubber_modulus": "E0", "glass_modulus": "E-inf"}.get(name, name.replace("_", "-"))

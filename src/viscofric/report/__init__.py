@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         plot_friction_master_curve,
     )
     from viscofric.report.html import write_report
+    from viscofric.report.inverse_figures import plot_identified_modulus, plot_shift_comparison
     from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_residuals
     from viscofric.report.shift_figures import plot_law_residuals, plot_shift_factors, plot_vertical_shift
     from viscofric.report.spectrum_figures import plot_relaxation_spectrum, plot_retardation_spectrum
@@ -35,6 +36,7 @@ _HOME = {
     "plot_coulomb_friction": "viscofric.report.friction_figures",
     "plot_friction_curves": "viscofric.report.friction_figures",
     "plot_friction_master_curve": "viscofric.report.friction_figures",
+    "plot_identified_modulus": "viscofric.report.inverse_figures",
     "plot_isotherms": "viscofric.report.rubber_figures",
     "plot_kramers_kronig": "viscofric.report.consistency_figures",
     "plot_law_residuals": "viscofric.report.shift_figures",
@@ -42,6 +44,7 @@ _HOME = {
     "plot_relaxation_spectrum": "viscofric.report.spectrum_figures",
     "plot_residuals": "viscofric.report.rubber_figures",
     "plot_retardation_spectrum": "viscofric.report.spectrum_figures",
+    "plot_shift_comparison": "viscofric.report.inverse_figures",
     "plot_shift_factors": "viscofric.report.shift_figures",
     "plot_van_gurp_palmen": "viscofric.report.consistency_figures",
     "plot_vertical_shift": "viscofric.report.shift_figures",
@@ -56,6 +59,7 @@ __all__ = [
     "plot_coulomb_friction",
     "plot_friction_curves",
     "plot_friction_master_curve",
+    "plot_identified_modulus",
     "plot_isotherms",
     "plot_kramers_kronig",
     "plot_law_residuals",
@@ -63,6 +67,7 @@ __all__ = [
     "plot_relaxation_spectrum",
     "plot_residuals",
     "plot_retardation_spectrum",
+    "plot_shift_comparison",
     "plot_shift_factors",
     "plot_van_gurp_palmen",
     "plot_vertical_shift",

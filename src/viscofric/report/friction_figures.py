@@ -183,6 +183,7 @@ def _plot_band(axes: Axes, lines: Predicted, colour: Any, alpha: float) -> None:
 def _plot_predicted(axes: Axes, lines: Predicted, **look: Any) -> None:
     """Draw a predicted line, thin where it rests on frequencies that were not measured."""
     speed = _MILLIMETRES * lines.speed
+    look["zorder"] = 3.0  # above the points
     if not lines.extrapolated.any():
         axes.plot(speed, lines.friction, **look)
         return

@@ -61,6 +61,8 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
         low, high = float(curves.offset.min()), float(curves.offset.max())
         span = f"{short(low, 3)} N" if low == high else f"{short(low, 3)} to {short(high, 3)} N"
         lines.append(("zero of the force cell", span))
+    if curves.assumption:
+        lines.append(("assumed", curves.assumption))
     if curves.consistency is not None and curves.consistency_error is not None:
         told = consistency_words(curves.consistency, curves.consistency_error)
         if told is not None:
@@ -102,6 +104,7 @@ def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str,
         "format": "viscofric friction curves 1",
         "inputs": inputs,
         "points": [{name: _plain(column[row]) for name, column in columns.items()} for row in range(len(curves))],
+        "assumption": curves.assumption or None,
         "notes": list(curves.notes),
         "units": {name: UNITS.get(name, curves.load_unit if name == "load" else "1") for name in columns},
     }

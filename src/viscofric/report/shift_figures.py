@@ -57,7 +57,7 @@ def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | 
         axes.errorbar(
             table.temperature - CELSIUS_ZERO,
             10.0**table.log10,
-            yerr=_bars(table.log10, table.error),
+            yerr=bars(table.log10, table.error),
             fmt="o",
             color=BLUE,
             markersize=4.5,
@@ -67,7 +67,7 @@ def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | 
         )
     ]
     if law is not None:
-        handles += _plot_law(axes, law, table.temperature)
+        handles += draw_law(axes, law, table.temperature)
     low, high = np.nanmin(table.log10), np.nanmax(table.log10)
     room = 0.06 * max(high - low, 1.0)
     axes.set_yscale("log")
@@ -161,20 +161,21 @@ def _not_far(left: Array, scale: float) -> bool:
     return float(np.max(np.abs(left), initial=0.0)) <= 3.0 * scale
 
 
-def _bars(log10: Array, error: Array) -> Array:
+def bars(log10: Array, error: Array) -> Array:
     """Lengths of error bars of 10**log10 for a standard error of log10; endless ones end beyond any axis."""
     factor, error = 10.0**log10, np.minimum(error, _LARGEST)
     return np.array([factor * (1.0 - 10.0**-error), factor * (10.0**error - 1.0)])
 
 
-def _plot_law(axes: Axes, law: ShiftLaw, temperatures: Array) -> list[Any]:
+def draw_law(axes: Axes, law: ShiftLaw, temperatures: Array, whose: str = "") -> list[Any]:
+    """Draw a law with its 95 % band over a range of temperatures (K), and return what the legend shows of them."""
     line = np.linspace(temperatures.min(), temperatures.max(), 400)
     line = line[_answered(law, line)]
     if not line.size:
         return []
     warm, log10 = line - CELSIUS_ZERO, np.asarray(law.log10(line))
     handles: list[Any] = axes.plot(
-        warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=VERMILION, label=_described(law)
+        warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=VERMILION, label=f"{whose}{_described(law)}"
     )
     if getattr(law, "covariance", None) is not None:
         doubt = LEVEL_95 * np.asarray(law.standard_error(line))

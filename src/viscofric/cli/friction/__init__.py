@@ -9,6 +9,8 @@ from viscofric.cli.lazy import LazyGroup
 # command, which is also the module of this package that defines it -> what the overview says
 _COMMANDS = {
     "separate": "Separate viscoelastic from Coulomb friction in tribometer files.",
+    "shift": "Shift friction curves onto one, and find α(T) from friction alone.",
+    "identify": "Find the rubber behind friction, as far as friction tells it.",
 }
 
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-PICTURES = (".png", ".svg", ".pdf")
+PICTURES, CSV, JSON = (".png", ".svg", ".pdf"), (".csv",), (".json",)
 
 
 def check_ending(path: Path | None, option: str, endings: tuple[str, ...]) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.errors import refuse_to_overwrite, told
-from viscofric.cli.friction.files import PICTURES, check_ending, tell_notes
+from viscofric.cli.friction.files import CSV, PICTURES, check_ending, tell_notes
 from viscofric.cli.friction.options import separation_options, settings_of
 
 if TYPE_CHECKING:
@@ -17,13 +17,14 @@ if TYPE_CHECKING:
 
 _EXAMPLE = """\b
 Such as
-  viscofric friction separate run1.txt run2.txt --picture curves.svg
+  viscofric friction separate run1.txt run2.txt --out curves.csv --picture curves.svg
 """
 
 
 @click.command(name="separate", epilog=_EXAMPLE)
 @click.argument("runs", nargs=-1, required=True, type=click.Path(path_type=Path))
 @separation_options
+@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="Write the friction curves (CSV).")
 @click.option(
     "--picture",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -31,29 +32,34 @@ Such as
 )
 @click.option("--synthetic", is_flag=True, help="The data were made, not measured; the picture then says so.")
 @click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
-def command(runs: tuple[Path, ...], picture: Path | None, synthetic: bool, as_json: bool, **asked: Any) -> None:
+def command(
+    runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any
+) -> None:
     """Separate viscoelastic from Coulomb friction in RUNS, files of a mini-traction machine (MTM, ETM).
 
     Every reading's force is split by the signs of the surface speeds: viscoelastic friction turns with the motion of
     the rubber, Coulomb friction with the slip, the zero of the force cell with neither.  Several files make one test.
     """
     check_ending(picture, "--picture", PICTURES)
-    if picture is not None:
-        refuse_to_overwrite(picture, runs)
+    check_ending(out, "--out", CSV)
+    for target in (out, picture):
+        if target is not None:
+            refuse_to_overwrite(target, runs)
+    settings = settings_of(asked)
     with told():
         from viscofric.friction.measurement.tribometry import separate
         from viscofric.readers import read_mtm
         from viscofric.report.friction_summary import friction_record
 
-        curves = separate(read_mtm(*runs), **settings_of(asked))
+        curves = separate(read_mtm(*runs), **settings)
         if as_json:
-            inputs = {"runs": [str(path) for path in runs], **settings_of(asked)}
+            inputs = {"runs": [str(path) for path in runs], **settings}
             record = friction_record(curves, inputs)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         else:
             _tell(curves)
         tell_notes(curves.notes)
-        for written in _write(curves, picture, synthetic):
+        for written in _write(curves, out, picture, synthetic):
             click.echo(written, err=as_json)
 
 
@@ -70,9 +76,14 @@ def _tell(curves: FrictionCurves) -> None:
         click.echo(f"{name:<{width}}  {value}")
 
 
-def _write(curves: FrictionCurves, picture: Path | None, synthetic: bool) -> list[str]:
+def _write(curves: FrictionCurves, out: Path | None, picture: Path | None, synthetic: bool) -> list[str]:
     """Write the files that were asked for, and return what to say of them."""
     said = []
+    if out is not None:
+        from viscofric.friction.curve_files import write_friction_curves
+
+        write_friction_curves(curves, out)
+        said.append(f"curves   {out}")
     if picture is not None:
         from viscofric.report.friction_pictures import draw_friction
 

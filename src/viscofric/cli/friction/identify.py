@@ -1,0 +1,199 @@
+"""``viscofric friction identify SOURCES``: the rubber behind measured friction, as far as friction tells it."""
+
+from __future__ import annotations
+
+import json
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.contact_options import chosen_indenter, indenter_options
+from viscofric.cli.errors import refuse_to_overwrite, told
+from viscofric.cli.friction.files import JSON, PICTURES, check_ending, tell_notes
+from viscofric.cli.friction.options import separation_options, settings_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from viscofric.friction.identification.anchors import ModulusAnchor
+    from viscofric.friction.identification.result import IdentifiedMaterial
+    from viscofric.rheology.material import Material
+
+_FILE = click.Path(path_type=Path, dir_okay=False)
+#: Options that are settings of `identify_material` as they stand.
+_SETTINGS = ("load", "reference", "poisson_ratio", "modes", "samples", "seed", "accuracy", "name", "workers")
+_EXAMPLE = """\b
+Such as
+  viscofric friction identify curves.csv --ball "9.525 mm" --out rubber.json \\
+      --anchor-modulus "8 MPa" --anchor-frequency "1 Hz" --anchor-temperature "30 degC"
+"""
+
+
+@click.command(name="identify", epilog=_EXAMPLE)
+@click.argument("sources", nargs=-1, required=True, type=click.Path(path_type=Path))
+@indenter_options
+@click.option("--load", metavar="F", help="Normal load of all points, such as '25 N' [default: each point's own].")
+@click.option(
+    "--shift",
+    metavar="FILE|NAME",
+    help="Shift factors: a table (CSV), a rubber's file or a name of the catalogue [default: found from friction].",
+)
+@click.option("--reference", metavar="T", help="Temperature at which the rubber is described, such as '30 degC'.")
+@click.option("--anchor-modulus", metavar="E", help="|E| known at one frequency, such as '8 MPa': it fixes the level.")
+@click.option("--anchor-frequency", metavar="F", help="Of the anchor, such as '1 Hz' or '6.28 rad/s'.")
+@click.option("--anchor-temperature", metavar="T", help="Of the anchor, such as '30 degC'.")
+@click.option("--anchor-error", type=float, metavar="SHARE", help="Relative standard error of it [default: 0.01].")
+@click.option("--prior", metavar="FILE|NAME", help="A rubber that is known over a part of the frequencies.")
+@click.option("--prior-band", metavar="LOW,HIGH", help="Over which it is known, such as '0.1 Hz,10 Hz'.")
+@click.option("--prior-error", type=float, default=0.02, show_default=True, help="Relative standard error of it.")
+@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Of the rubber, 0 to 0.5.")
+@click.option("--modes", type=int, default=30, show_default=True, help="Retardation times, at least.")
+@click.option("--samples", type=int, default=200, show_default=True, help="Rubbers drawn for the limits.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of the draws.")
+@click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Of each contact that is solved.")
+@click.option("--workers", type=int, default=1, show_default=True, help="Processes that share the contacts.")
+@click.option("--name", default="identified from friction", show_default=True, help="Of the rubber.")
+@separation_options
+@click.option("--out", type=_FILE, help="Write the rubber (JSON), for `solve`, run files and `material`.")
+@click.option("--picture", type=_FILE, help="Draw the modulus with its limits (PNG, SVG or PDF).")
+@click.option("--beside", metavar="FILE|NAME", help="A rubber to draw beside it, such as the DMA's.")
+@click.option("--synthetic", is_flag=True, help="The data were made, not measured; the picture then says so.")
+@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
+def command(
+    sources: tuple[Path, ...],
+    out: Path | None,
+    picture: Path | None,
+    beside: str | None,
+    synthetic: bool,
+    as_json: bool,
+    **asked: Any,
+) -> None:
+    """Identify the rubber behind friction: its modulus, as far as friction tells it, and its shift factors.
+
+    SOURCES are tables of friction curves (CSV, as `viscofric friction separate --out` writes them) or files of a
+    tribometer.  Friction alone hardly tells the level of the modulus: give an anchor, or a prior.
+    """
+    check_ending(picture, "--picture", PICTURES)
+    check_ending(out, "--out", JSON)
+    for target in (out, picture):
+        if target is not None:
+            refuse_to_overwrite(target, sources)
+    if beside is not None and picture is None:
+        raise click.UsageError("--beside is drawn into the --picture, which is not asked for.")
+    settings, anchor = settings_of(asked), _anchor(asked)
+    with told():
+        from viscofric.cli.friction.sources import friction_curves, shifts
+        from viscofric.cli.material.rubbers import find_rubber
+        from viscofric.friction.identification.identify import identify_material
+        from viscofric.report.identification_summary import identification_record
+
+        shape = chosen_indenter(asked)
+        known = None if beside is None else find_rubber(beside)
+        options = {name: asked[name] for name in _SETTINGS}
+        options |= _prior(asked) | ({"anchor": anchor()} if anchor else {})
+        if asked["shift"] is not None:
+            options["shift"], _ = shifts(asked["shift"])
+        curves = friction_curves(sources, settings)
+        with _progress(quiet=as_json) as progress:
+            found = identify_material(curves, indenter=shape.indenter, progress=progress, **options)
+        if as_json:
+            inputs = {"sources": [str(path) for path in sources], "indenter": shape.record}
+            inputs |= {name: asked[name] for name in asked if name not in shape.record} | settings
+            record = identification_record(found, inputs)
+            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False, default=str))
+        else:
+            _tell(found)
+        tell_notes(curves.notes)
+        for written in _write(found, known, out, picture, synthetic):
+            click.echo(written, err=as_json)
+
+
+def _anchor(asked: dict[str, Any]) -> Callable[[], ModulusAnchor] | None:
+    """Return what makes the anchor, once it is worth loading what it takes."""
+    names = ("anchor_modulus", "anchor_frequency", "anchor_temperature")
+    given = [name for name in names if asked[name] is not None]
+    if not given and asked["anchor_error"] is None:
+        return None
+    if len(given) < len(names):
+        missing = next(name for name in names if asked[name] is None)
+        raise click.UsageError(f"an anchor has modulus, frequency and temperature; give --{_typed(missing)} too.")
+
+    def made() -> ModulusAnchor:
+        from viscofric.friction.identification.anchors import ModulusAnchor
+
+        more = {} if asked["anchor_error"] is None else {"error": asked["anchor_error"]}
+        return ModulusAnchor(*(asked[name] for name in names), **more)
+
+    return made
+
+
+def _typed(name: str) -> str:
+    return name.replace("_", "-")
+
+
+def _prior(asked: dict[str, Any]) -> dict[str, Any]:
+    """Return what is known of the rubber beforehand, as settings."""
+    if asked["prior"] is None:
+        if asked["prior_band"] is not None:
+            raise click.UsageError("--prior-band is the band of a --prior, which is not given.")
+        return {}
+    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.units import angular_frequency
+
+    prior: dict[str, Any] = {"prior": find_rubber(asked["prior"]), "prior_error": asked["prior_error"]}
+    if asked["prior_band"] is not None:
+        ends = asked["prior_band"].split(",")
+        if len(ends) != 2:
+            raise click.BadParameter("give two frequencies: '0.1 Hz,10 Hz'.", param_hint="--prior-band")
+        prior["prior_band"] = tuple(angular_frequency(end.strip(), "--prior-band") for end in ends)
+    return prior
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Callable[[int, int, int], None] | None]:
+    """Show on a terminal which contacts are solved; say nothing elsewhere."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(bar_width=24), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
+        task = bars.add_task("Shift factors", total=None)
+
+        def tell(step: int, done: int, total: int) -> None:
+            bars.update(task, description=f"Step {step}: contacts of a rubber", completed=done, total=total)
+
+        yield tell
+
+
+def _tell(found: IdentifiedMaterial) -> None:
+    from viscofric.report.identification_summary import family_lines, modulus_lines
+    from viscofric.report.messages import readable
+
+    for table in (modulus_lines(found), family_lines(found)):
+        for line in table:
+            click.echo(line)
+        if table:
+            click.echo()
+    for sentence in found.sentences:
+        click.echo(readable(sentence))
+
+
+def _write(
+    found: IdentifiedMaterial, known: Material | None, out: Path | None, picture: Path | None, synthetic: bool
+) -> list[str]:
+    """Write the files that were asked for, and return what to say of them."""
+    said = []
+    if out is not None:
+        from viscofric.rheology.cards import write_card
+
+        write_card(found.material, out, format="json")
+        said.append(f"rubber   {out}")
+    if picture is not None:
+        from viscofric.report.friction_pictures import draw_identified
+
+        draw_identified(picture, found, known, synthetic=synthetic)
+        said.append(f"picture  {picture}")
+    return said

@@ -1,0 +1,170 @@
+"""``viscofric friction shift SOURCES``: one master curve of friction, and the shift factors that friction tells."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.errors import refuse_to_overwrite, told
+from viscofric.cli.friction.files import CSV, PICTURES, check_ending, tell_notes
+from viscofric.cli.friction.options import separation_options, settings_of
+
+if TYPE_CHECKING:
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+    from viscofric.friction.shifting.shift_agreement import ShiftAgreement
+    from viscofric.rheology.shifts.laws import ParametricLaw
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+
+_FILE = click.Path(path_type=Path, dir_okay=False)
+_LAWS = ("best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none")
+_EXAMPLE = """\b
+Such as
+  viscofric friction shift curves.csv --shift rubber.json --reference "30 degC" --out alpha.csv
+"""
+
+
+@click.command(name="shift", epilog=_EXAMPLE)
+@click.argument("sources", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option(
+    "--shift",
+    "known",
+    metavar="FILE|NAME",
+    help="Shift factors of the modulus to lay beside: a table (CSV), a rubber's file or a name of the catalogue.",
+)
+@click.option("--reference", metavar="T", help="Where α is 1, such as '30 degC' [default: that of --shift, or found].")
+@click.option(
+    "--law", type=click.Choice(_LAWS), default="best", show_default=True, help="To be fitted to the shift factors."
+)
+@click.option(
+    "--ball", metavar="RADIUS", help="Of the ball, such as '9.525 mm': friction at all loads is then reduced to one."
+)
+@separation_options
+@click.option("--out", type=_FILE, help="Write the shift factors with their errors (CSV).")
+@click.option("--picture", type=_FILE, help="Draw master curve and shift factors (PNG, SVG or PDF).")
+@click.option("--synthetic", is_flag=True, help="The data were made, not measured; the picture then says so.")
+@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
+def command(
+    sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any
+) -> None:
+    """Shift the friction curves of several temperatures onto one, and find α(T) from friction alone.
+
+    SOURCES are tables of friction curves (CSV, as `viscofric friction separate --out` writes them) or files of a
+    tribometer.  Where the curves do not overlap, friction tells no shift factor: with --shift they are then shifted by
+    the modulus's, without it that is an error.
+    """
+    check_ending(picture, "--picture", PICTURES)
+    check_ending(out, "--out", CSV)
+    for target in (out, picture):
+        if target is not None:
+            refuse_to_overwrite(target, sources)
+    settings = settings_of(asked)
+    with told():
+        from viscofric.cli.friction.sources import friction_curves, shifts
+        from viscofric.report.shift_summary import shift_record
+
+        curves = friction_curves(sources, settings)
+        known, vertical = (None, None) if asked["known"] is None else shifts(asked["known"])
+        master = _shifted(curves, known, vertical, asked)
+        law = _law(master, asked["law"])
+        agreement = _agreement(master, known)
+        if as_json:
+            inputs = {"sources": [str(path) for path in sources]}
+            inputs |= {"shift": asked["known"]} | {name: asked[name] for name in ("reference", "law", "ball")}
+            record = shift_record(master, law, agreement, inputs | settings)
+            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+        else:
+            _tell(master, known, law, agreement)
+        tell_notes((*curves.notes, *master.notes))
+        for written in _write(master, known, out, picture, synthetic):
+            click.echo(written, err=as_json)
+
+
+def _shifted(
+    curves: FrictionCurves, known: ShiftLaw | None, vertical: VerticalShift | None, asked: dict[str, Any]
+) -> FrictionMasterCurve:
+    """Shift friction curves by their own factors, or by those of the modulus where they have none."""
+    from viscofric.contact.indenters.indenter import Ball
+    from viscofric.errors import SuperpositionError
+    from viscofric.friction.shifting.shift import shift_friction
+
+    reference = asked["reference"]
+    options: dict[str, Any] = {"indenter": None if asked["ball"] is None else Ball(asked["ball"])}
+    if options["indenter"] is not None:
+        options["vertical_shift"] = vertical
+    elif vertical is not None:
+        click.echo(
+            "Note: the rubber has a vertical shift b(T), which changes the load at which curves coincide; it is left "
+            "out without the ball's radius (--ball).",
+            err=True,
+        )
+    try:
+        about = known.reference if reference is None and known is not None else reference
+        return shift_friction(curves, reference=about, **options)
+    except SuperpositionError as error:
+        if known is None:
+            raise
+        click.echo(f"Note: No shift factors from friction: {error} The modulus's are taken.", err=True)
+        return shift_friction(curves, shift=known, reference=reference, **options)
+
+
+def _law(master: FrictionMasterCurve, kind: str) -> ParametricLaw | None:
+    """Fit a law to the shift factors; the best one only where one describes them."""
+    from viscofric.errors import InputError
+
+    if kind == "none" or not master.found:
+        return None
+    if kind != "best":
+        return master.shift_factors.law(kind)
+    try:
+        return master.shift_factors.compare_laws().best
+    except InputError as error:
+        click.echo(f"Note: {error}", err=True)
+        return None
+
+
+def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgreement | None:
+    from viscofric.errors import InputError
+    from viscofric.friction.shifting.shift_agreement import compare_shift_factors
+
+    if known is None or not master.found:
+        return None
+    try:
+        return compare_shift_factors(master, known)
+    except InputError as error:
+        click.echo(f"Note: {error}", err=True)
+        return None
+
+
+def _tell(
+    master: FrictionMasterCurve, known: ShiftLaw | None, law: ParametricLaw | None, agreement: ShiftAgreement | None
+) -> None:
+    from viscofric.report.shift_summary import shift_lines, shift_words
+
+    for line in shift_lines(master, known):
+        click.echo(line)
+    click.echo()
+    said = shift_words(master, law, agreement)
+    width = max(len(name) for name, _ in said)
+    for name, value in said:
+        click.echo(f"{name:<{width}}  {value}")
+
+
+def _write(
+    master: FrictionMasterCurve, known: ShiftLaw | None, out: Path | None, picture: Path | None, synthetic: bool
+) -> list[str]:
+    """Write the files that were asked for, and return what to say of them."""
+    said = []
+    if out is not None:
+        master.shift_factors.save(out)
+        said.append(f"factors  {out}")
+    if picture is not None:
+        from viscofric.report.friction_pictures import draw_shifted
+
+        draw_shifted(picture, master, known, synthetic=synthetic)
+        said.append(f"picture  {picture}")
+    return said

@@ -1,0 +1,112 @@
+"""Friction curves and shift factors named on the command line, whatever file they lie in."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+
+#: A table of friction curves has a column of it, the files of a tribometer have none.
+_MARK = "viscoelastic"
+_TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
+
+
+def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
+    """Return the friction curves of files: tables of curves, or runs that are separated here.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        All of one kind.
+    settings : dict
+        Of the separation of runs.
+
+    Raises
+    ------
+    DataFileError, InputError
+        If a file cannot be used, or the kinds are mixed.
+    """
+    from viscofric.errors import InputError
+    from viscofric.friction.curve_files import read_friction_curves
+    from viscofric.friction.measurement.tribometry import separate
+    from viscofric.readers import read_mtm
+
+    tables = [path for path in paths if _holds_curves(path)]
+    if not tables:
+        return separate(read_mtm(*paths), **settings)
+    other = [path for path in paths if path not in tables]
+    if other:
+        raise InputError(
+            f"{tables[0]} is a table of friction curves, {other[0]} is none: give either such tables or the runs of "
+            "a tribometer."
+        )
+    return joined([read_friction_curves(path) for path in tables])
+
+
+def _holds_curves(path: Path) -> bool:
+    from viscofric.errors import DataFileError
+    from viscofric.files import read_text
+
+    try:
+        return any(_MARK in line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#"))
+    except DataFileError:
+        return False  # what is wrong with it is told by the reader of runs
+
+
+def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
+    """Put friction curves together, with the columns that all of them have.
+
+    Raises
+    ------
+    InputError
+        If loads of some are per length and of others are not.
+    """
+    import numpy as np
+
+    from viscofric.errors import InputError
+    from viscofric.friction.curves import FrictionCurves
+
+    if len(parts) == 1:
+        return parts[0]
+    if len({part.load_unit for part in parts}) > 1:
+        raise InputError("friction curves of point and of line contacts, whose loads are per length, make no one set.")
+    columns: dict[str, Any] = {}
+    for field in fields(FrictionCurves):
+        values = [getattr(part, field.name) for part in parts]
+        if all(isinstance(value, np.ndarray) for value in values):
+            columns[field.name] = np.concatenate(values)
+    return FrictionCurves(
+        **columns,
+        source=", ".join(dict.fromkeys(part.source for part in parts if part.source)),
+        notes=tuple(dict.fromkeys(note for part in parts for note in part.notes)),
+        load_unit=parts[0].load_unit,
+        assumption=" ".join(dict.fromkeys(part.assumption for part in parts if part.assumption)),
+    )
+
+
+def shifts(name: str) -> tuple[ShiftLaw, VerticalShift | None]:
+    """Return the shift factors of a table, or those of a rubber, and its vertical shift where it has one.
+
+    Raises
+    ------
+    DataFileError, InputError
+        If the file cannot be used, or the rubber has no shift.
+    """
+    from viscofric.errors import InputError
+    from viscofric.rheology.shifts.shift_files import read_shift_factors
+
+    if Path(name).suffix.lower() in _TABLES:
+        return read_shift_factors(name), None
+    from viscofric.cli.material.rubbers import find_rubber
+
+    rubber = find_rubber(name)
+    if rubber.shift is None:
+        raise InputError(f"{name}: this rubber has no shift factors to compare with.")
+    return rubber.shift, rubber.vertical_shift

@@ -1,0 +1,157 @@
+"""Shift factors found from friction in words and numbers: lines for people, plain types for other programs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.report.house_style import degrees
+from viscofric.report.numbers import ABSENT, significant
+from viscofric.rheology.cards.native import plain
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+    from viscofric.friction.shifting.shift_agreement import ShiftAgreement
+    from viscofric.rheology.shifts.laws import ParametricLaw
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+
+_UNITS = {"temperature": "K", "reference": "K", "log10_shift_factor": "1", "standard_error": "1", "covariance": "1"}
+
+
+def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str]:
+    """Return the shift factors as lines of a table, beside those that are known.
+
+    Parameters
+    ----------
+    master : FrictionMasterCurve
+    known : ShiftLaw, optional
+        Of the modulus; dashes where it does not answer.
+    """
+    factors = master.shift_factors
+    columns = [
+        ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in factors.temperatures)],
+        ["log10 α", *_pairs(factors.log10_values, factors.standard_errors)],
+    ]
+    if known is not None and master.found:
+        known = known.at_reference(factors.reference)
+        answers = [_answer(known, float(kelvin)) for kelvin in factors.temperatures]
+        values, errors = (np.array(column) for column in zip(*answers, strict=True))
+        columns.append(["of the modulus", *_pairs(values, errors)])
+        doubt = np.hypot(errors, factors.standard_errors)
+        columns.append(["difference", *_pairs(factors.log10_values - values, doubt)])
+    widths = [max(map(len, column)) for column in columns]
+    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in _rows(columns)]
+
+
+def _rows(columns: list[list[str]]) -> list[tuple[str, ...]]:
+    return list(zip(*columns, strict=True))
+
+
+def _answer(law: ShiftLaw, kelvin: float) -> tuple[float, float]:
+    """Return log10 α and its standard error; NaN where a law refuses, zero for the error of an exact one."""
+    try:
+        value = float(law.log10(kelvin))
+    except InputError:
+        return math.nan, math.nan
+    known = getattr(law, "covariance", None) is not None
+    return value, float(law.standard_error(kelvin)) if known else 0.0
+
+
+def _pairs(values: Any, errors: Any) -> list[str]:
+    texts = []
+    for value, error in zip(values, errors, strict=True):
+        if not math.isfinite(value):
+            texts.append(ABSENT)
+        else:
+            doubt = f" ± {error:.3f}" if error > 0.0 else ""
+            texts.append(f"{value:z.3f}{doubt}".replace("-", "−"))
+    return texts
+
+
+def shift_words(
+    master: FrictionMasterCurve, law: ParametricLaw | None, agreement: ShiftAgreement | None
+) -> list[tuple[str, str]]:
+    """Return what is to be said of shifted friction curves, as pairs of name and value.
+
+    Parameters
+    ----------
+    master : FrictionMasterCurve
+    law : ParametricLaw, optional
+        Fitted to the shift factors.
+    agreement : ShiftAgreement, optional
+        With those of the modulus.
+    """
+    low, high = (1e3 * end for end in master.reduced_range)
+    lines = [
+        ("reference", degrees(master.reference)),
+        ("reduced speed", f"{significant(low)} to {significant(high)} mm/s"),
+    ]
+    if law is not None:
+        lines.append(("law", str(law)))
+    lines.append(("overlap", master.overlap_sentence))
+    if agreement is not None:
+        lines.append(("beside the modulus", agreement.sentence))
+    return lines
+
+
+def shift_record(
+    master: FrictionMasterCurve,
+    law: ParametricLaw | None,
+    agreement: ShiftAgreement | None,
+    inputs: dict[str, Any],
+) -> dict[str, Any]:
+    """Return shifted friction in plain types, SI units, without a NaN: what is not known is None.
+
+    Parameters
+    ----------
+    master : FrictionMasterCurve
+    law : ParametricLaw, optional
+    agreement : ShiftAgreement, optional
+    inputs : dict
+        What was asked for, in plain types.
+    """
+    factors = master.shift_factors
+    return {
+        "format": "viscofric friction shift 1",
+        "inputs": inputs,
+        "found": master.found,
+        "reference": factors.reference,
+        "temperature": factors.temperatures.tolist(),
+        "log10_shift_factor": factors.log10_values.tolist(),
+        "standard_error": factors.standard_errors.tolist(),
+        "covariance": factors.covariance.tolist(),
+        "law": None if law is None else plain(law),
+        "overlap": {
+            "rms": master.overlap_rms,
+            "error": _finite(master.overlap_error),
+            "points": master.overlap_points,
+            "sentence": master.overlap_sentence,
+        },
+        "agreement": None if agreement is None else _agreement(agreement),
+        "master_curve": {
+            "reduced_speed": master.reduced_speed.tolist(),
+            "temperature": master.temperature.tolist(),
+            "viscoelastic": master.friction.tolist(),
+            "viscoelastic_error": [_finite(error) for error in master.error.tolist()],
+            "load": master.load,
+        },
+        "notes": list(master.notes),
+        "units": _UNITS | {"reduced_speed": "m/s", "viscoelastic": "1", "load": master.curves.load_unit},
+    }
+
+
+def _agreement(agreement: ShiftAgreement) -> dict[str, Any]:
+    names = ("chi2", "freedom", "p_value", "slope", "slope_error", "rms", "sentence")
+    return {
+        "temperature": agreement.temperature.tolist(),
+        "difference": agreement.difference.tolist(),
+        "error": agreement.error.tolist(),
+    } | {name: getattr(agreement, name) for name in names}
+
+
+def _finite(value: float | None) -> float | None:
+    return None if value is None or not math.isfinite(value) else float(value)

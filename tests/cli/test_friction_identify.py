@@ -1,0 +1,130 @@
+"""``viscofric friction identify``: the planted rubber comes back, as a table, JSON, a file and a picture."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+import viscofric as vf
+from viscofric.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+RUBBER = vf.Material.standard_linear_solid("2 MPa", "6 MPa", "10 ms")
+ANCHOR = ("--anchor-modulus", "2.287 MPa", "--anchor-frequency", "60 rad/s", "--anchor-temperature", "300 K")
+#: On a ball of 10 mm under 5 N the loss peak of this solid lies between.
+SPEEDS = np.geomspace(0.02, 2.0, 6)
+
+
+def call(*words: object) -> Result:
+    return CliRunner().invoke(main, ["friction", "identify", *map(str, words)], standalone_mode=True)
+
+
+def curves(path: Path) -> Path:
+    ball = vf.Ball("10 mm")
+    friction = [
+        vf.solve_steady(RUBBER, ball, speed=speed, load="5 N", accuracy=1e-2).friction_coefficient for speed in SPEEDS
+    ]
+    same, error = np.ones(len(SPEEDS)), 0.01 * np.array(friction)
+    measured = vf.FrictionCurves(SPEEDS, 300.0 * same, 5.0 * same, friction, error, error, same.astype(int))
+    vf.write_friction_curves(measured, path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
+    """Identify once; return the folder with the files, and the JSON."""
+    folder = tmp_path_factory.mktemp("identified")
+    done = call(
+        curves(folder / "curves.csv"), "--ball", "10 mm", *ANCHOR, "--modes", 8, "--samples", 20, "--accuracy", 0.1,
+        "--out", folder / "rubber.json", "--picture", folder / "modulus.svg", "--json",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.output
+    return folder, json.loads(done.stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+
+
+@pytest.mark.slow
+def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path, dict[str, Any]]) -> None:
+    told = found[1]
+    band, modulus = told["identified"], told["modulus"]
+    assert band["high"] > 100.0 * band["low"]
+    omega = np.array(modulus["angular_frequency"])
+    inside = (omega >= band["low"]) & (omega <= band["high"])
+    found_modulus = np.array(modulus["storage_modulus"]) + 1j * np.array(modulus["loss_modulus"])
+    true = RUBBER.complex_modulus(omega)
+    # Three of the standard errors of 5 % that the band claims: one mode is the least smooth of all spectra.
+    assert np.all(np.abs(np.abs(found_modulus[inside]) / np.abs(true[inside]) - 1.0) < 0.15)
+    assert told["anchored"]
+    assert told["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01}
+    assert told["family"] == []
+
+
+@pytest.mark.slow
+def test_the_rubber_is_read_back_by_the_other_commands(found: tuple[Path, dict[str, Any]]) -> None:
+    folder, told = found
+    rubber = vf.read_card(folder / "rubber.json")
+    np.testing.assert_allclose(rubber.modes_at().C, told["material"]["C"], rtol=1e-12)
+    shown = CliRunner().invoke(main, ["material", "show", str(folder / "rubber.json"), "--frequency", "10 rad/s"])
+    assert shown.exit_code == 0, shown.output
+    assert "identified from friction" in shown.output
+    assert (folder / "modulus.svg").stat().st_size > 0
+
+
+def test_tables_tell_what_is_identified_and_what_not() -> None:
+    from types import SimpleNamespace
+
+    from viscofric.report.identification_summary import family_lines, modulus_lines
+
+    samples = SimpleNamespace(
+        modulus_band=lambda omega: SimpleNamespace(
+            lower=0.9 * RUBBER.complex_modulus(omega), upper=1.1 * RUBBER.complex_modulus(omega)
+        )
+    )
+    band = SimpleNamespace(low=5.0, high=500.0, decades=2.0)
+    fits = tuple(SimpleNamespace(factor=f, modulus=f * 2e6, rms=0.01, penalty=f) for f in (0.5, 2.0))
+    made: Any = SimpleNamespace(
+        material=RUBBER, samples=samples, identified=band, frequency_range=(3.0, 300.0), middle=30.0, family=fits
+    )
+    heading, *rows = modulus_lines(made)
+    assert heading.split()[:2] == ["ω", "(rad/s)"]
+    # From a decade below 1 rad/s to one above 1000 rad/s, of which 10 and 100 lie in the band.
+    assert [float(row.split()[0]) for row in rows] == [0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0]
+    assert ["not identified" in row for row in rows] == [True, True, False, False, True, True]
+    assert f"{1e-6 * complex(RUBBER.complex_modulus(10.0)).real:.3f}" in rows[2]
+    assert len(family_lines(made)) == 3
+    assert "× 0.5" in family_lines(made)[1]
+    made.family = ()
+    assert family_lines(made) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["curves.csv"], 2, "nothing says what the indenter is"),
+        (["curves.csv", "--ball", "10 mm", "--anchor-modulus", "2 MPa"], 2, "give --anchor-frequency too"),
+        (["curves.csv", "--ball", "10 mm", "--prior-band", "1 Hz,2 Hz"], 2, "--prior-band is the band of a --prior"),
+        (["curves.csv", "--ball", "10 mm", "--out", "rubber.csv"], 2, "must end in .json"),
+        (["curves.csv", "--ball", "10 mm", "--beside", "rubber.json"], 2, "drawn into the --picture"),
+        (["nothing.csv", "--ball", "10 mm"], 1, "nothing.csv: no such file"),
+        (["curves.csv", "--ball", "10 mm", "--modes", "3"], 1, "modes = 3"),
+        (["curves.csv", "--ball", "10 mm", *ANCHOR[:2], "--anchor-frequency", "5", *ANCHOR[4:]], 1, "Hz or rad/s"),
+        (["curves.csv", "--ball", "10 mm", "--prior", "no rubber"], 1, "no rubber"),
+    ],
+)
+def test_mistakes_are_one_sentence(
+    words: list[object], status: int, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    same = np.ones(2)
+    measured = vf.FrictionCurves(SPEEDS[:2], 300.0 * same, same, 0.01 * same, 1e-4 * same, 1e-4 * same, [1, 1])  # type: ignore[arg-type]
+    vf.write_friction_curves(measured, tmp_path / "curves.csv")
+    done = call(*words)
+    assert done.exit_code == status, done.output
+    assert told in done.output
+    assert "Traceback" not in done.output
+    assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
