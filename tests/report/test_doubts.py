@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from viscofric.report.tables import agreement_table, detail_tables, friction_at_a_glance
+from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
+from viscofric.report.tables import detail_tables
 from viscofric.report.words import captions, key_numbers, what_was_asked
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def test_measured_point_without_a_prediction_keeps_its_row(tree: xr.DataTree) ->
     agreement = agreement_table(tree)
     assert agreement is not None
     assert "1 measured point is left out" in agreement.note
-    assert "uncertainty of the material" in agreement.note
+    assert "the material's own (sweeps, shift factors, spectrum) is not counted" in agreement.note
 
 
 def test_isotherms_left_out_are_said_in_what_was_asked(tree: xr.DataTree) -> None:

@@ -28,6 +28,7 @@ NAMES = [
     "spectrum",
     "friction_against_speed",
     "friction_master_curve",
+    "coulomb_friction",
 ]
 
 

@@ -15,7 +15,8 @@ import pytest
 from viscofric import report
 from viscofric.errors import DataFileError
 from viscofric.report import html
-from viscofric.report.tables import agreement_table, detail_tables, friction_at_a_glance
+from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
+from viscofric.report.tables import detail_tables
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -84,7 +85,7 @@ def test_page_has_every_part(tree: xr.DataTree, tmp_path: Path) -> None:
     assert len(ids) == len(set(ids))
     assert {"asked", "answer", "checks", "figures", "tables", "reproduce"} <= set(ids)
     assert {f"figure-{name}" for name in ("friction_against_speed", "master_curve", "isotherms")} <= set(ids)
-    assert page.count("img") == 7
+    assert page.count("img") == 8
     assert all(page.attributes("alt"))
 
 

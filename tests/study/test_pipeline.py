@@ -31,6 +31,7 @@ speed = {{ from = "{slowest}", to = "{fastest}", points = {points} }}
 temperature = ["0 degC", "30 degC", "60 degC"]
 [solver]
 master_curve_points = 5
+samples = 0
 """
 
 
@@ -102,6 +103,18 @@ def test_planted_viscoelastic_friction_is_predicted_from_the_sweeps(results: Stu
     assert abs(results.tree["agreement"].attrs["bias"]) < 0.01
 
 
+def test_bands_hold_the_planted_friction(results: StudyResults) -> None:
+    measured = results.tree["measurement"]
+    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_friction.csv", delimiter=",", skiprows=3)[:, 2]
+    z = (measured["predicted"].values - planted) / measured["predicted_material_error"].values
+    # Errors of the rubber are shared by neighbouring points, so that few of the 30 are independent.
+    assert np.abs(z).max() < 3.0
+    lower, upper = (measured[f"predicted_{side}"].values for side in ("lower", "upper"))
+    assert np.all((lower < measured["predicted"].values) & (measured["predicted"].values < upper))
+    # 1 % noise of the sweeps, averaged over many readings: the bands are a few per cent wide, and not wider.
+    assert np.all((upper - lower) / planted < 0.1)
+
+
 def test_temperatures_fall_on_one_friction_master_curve(results: StudyResults) -> None:
     measured = results.tree["measurement"]
     master = results.tree["prediction_master"]
@@ -127,6 +140,10 @@ def test_results_are_labelled_with_units_and_provenance(results: StudyResults) -
             assert variable.attrs["long_name"]
             if variable.dtype.kind in "OU":  # names of laws, and their constants
                 assert all(variable.values.astype(str))
+            elif variable.attrs["long_name"] == "what is judged":
+                # How thick the rubber is was not said, so that its half-space cannot be judged.
+                judged = group["holds"].values >= 0
+                np.testing.assert_array_equal(np.isfinite(variable.values), judged)
             else:
                 assert np.all(np.isfinite(variable.values.astype(float)))
 
@@ -141,7 +158,7 @@ def test_a_second_run_solves_nothing_again(results: StudyResults, monkeypatch: p
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
-    monkeypatch.setattr("viscofric.study.cases.solve_steady", refuse)
+    monkeypatch.setattr("viscofric.study.cases.solve_with_sensitivity", refuse)
     again = run_study(results.folder.parent / "study.toml")
     first, second = (one.tree["prediction"]["friction_coefficient"].values for one in (results, again))
     np.testing.assert_array_equal(first, second)
@@ -221,6 +238,7 @@ def _small_study(folder: Path, **changes: str) -> Path:
         "temperature": 'temperature = "90 degC"',
         "accuracy": "[solver]\naccuracy = 1e-2",
         "master_curve_points": "master_curve_points = 2",
+        "samples": "samples = 0",
     }
     path = folder / "study.toml"
     path.write_text("\n".join(["[material]", *{**lines, **changes}.values()]), encoding="utf-8")

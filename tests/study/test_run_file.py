@@ -22,6 +22,8 @@ load = "25 N"
 speed = { from = "20 mm/s", to = "200 mm/s", points = 3 }
 temperature = ["30 degC", "60 degC"]
 """
+TWO = 'temperature = ["30 degC", "60 degC"]'
+MEASURED = f'{TWO}\n[measurement]\nmtm = "a.csv"'
 
 
 def test_quantities_become_si_and_paths_are_beside_the_run_file(tmp_path: Path) -> None:
@@ -45,6 +47,24 @@ def test_a_pattern_stands_for_all_files_of_that_kind(tmp_path: Path) -> None:
     path.write_text(GOOD.replace('"dma.csv"', '["notes.md", "X*.txt"]'), encoding="utf-8")
     # Where nothing answers to the pattern, its reader says that there is no such file.
     assert load_study(path).material.dma == (tmp_path / "notes.md", tmp_path / "X*.txt")
+
+
+def test_measurement_is_as_in_python(tmp_path: Path) -> None:
+    for name in ("run1.txt", "run2.txt"):
+        (tmp_path / name).write_text("", encoding="utf-8")
+    path = tmp_path / "study.toml"
+    more = 'zero = "-0.12 N"\nzero_error = "10 mN"\ncoulomb = 0.05\ntemperature_tolerance = "2 delta_degC"'
+    path.write_text(f"{GOOD}{MEASURED.removeprefix(TWO)}\n{more}".replace("a.csv", "run*.txt"), encoding="utf-8")
+    measurement = load_study(path).measurement
+    assert measurement is not None
+    assert measurement.inputs == (tmp_path / "run1.txt", tmp_path / "run2.txt")
+    assert measurement.settings == {
+        "zero": (-0.12, pytest.approx(0.01)),
+        "coulomb": 0.05,
+        "outliers": "keep",
+        "speed_tolerance": 0.05,
+        "temperature_tolerance": pytest.approx(2.0),
+    }
 
 
 def test_fixed_shift_factors_are_by_kelvin() -> None:
@@ -97,6 +117,24 @@ def test_one_speed_or_temperature_needs_no_list() -> None:
         ),
         ('dma = "dma.csv"', 'dma = "dma.csv"\npoisson_ratio = 0.6', ["material.poisson_ratio", "0.5"]),
         ('title = "a rubber"', 'title = "a rubber', ["not valid TOML"]),
+        (
+            'temperature = ["30 degC", "60 degC"]',
+            'temperature = "30 degC"\nthickness = "0 mm"',
+            ["conditions.thickness"],
+        ),
+        (TWO, f"{TWO}\n[measurement]", ["measurement: nothing says what was measured", "mtm ="]),
+        (TWO, f'{MEASURED}\ncurves = "b.csv"', ["measurement: mtm and curves are both given"]),
+        (TWO, f"{MEASURED}\nzero = 0.1", ["measurement.zero", "no unit"]),
+        (TWO, f'{MEASURED}\nzero_error = "0.1 N"', ["zero_error is the standard error of zero"]),
+        (TWO, f'{MEASURED}\ncoulomb = "much"', ["measurement.coulomb", "neither a friction coefficient", "'constant'"]),
+        (TWO, f'{MEASURED}\ncoulomb = "constant"\ncoulomb_error = 0.1', ["coulomb_error is the standard error"]),
+        (TWO, f'{MEASURED}\noutliers = "drop"', ["measurement.outliers", "leave out"]),
+        (TWO, f"{MEASURED}\nspeed_tolerance = 2.0", ["measurement.speed_tolerance"]),
+        (
+            TWO,
+            f'{TWO}\n[measurement]\ncurves = "b.csv"\nzero = "0.1 N"',
+            ["zero cannot be chosen for friction curves"],
+        ),
     ],
 )
 def test_each_mistake_is_told_by_its_field(good: str, bad: str, told: list[str]) -> None:

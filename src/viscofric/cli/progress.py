@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 _WORDS = {
     "material": "Material: shift factors, master curve, spectrum",
     "measurement": "Measurement: Coulomb and viscoelastic friction",
+    "shift": "Measurement: one friction curve of all temperatures",
     "friction": "Contacts at the speeds and temperatures asked for",
     "measured points": "Contacts at the measured points",
     "master curve": "Contacts along the friction master curve",

@@ -7,12 +7,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import matplotlib
+import numpy as np
 
 from viscofric.files import write_atomically
 from viscofric.report.consistency_figures import plot_cole_cole, plot_van_gurp_palmen
 from viscofric.report.figure_data import law_of, vertical_shift_of
-from viscofric.report.friction_figures import plot_friction_curves, plot_friction_master_curve
+from viscofric.report.friction_figures import (
+    plot_coulomb_friction,
+    plot_friction_curves,
+    plot_friction_master_curve,
+)
 from viscofric.report.house_style import STYLE, mark_synthetic, new_figure, temperature_bar
+from viscofric.report.inverse_figures import plot_shift_comparison
 from viscofric.report.results import group, is_synthetic, reference_temperature, values
 from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_residuals
 from viscofric.report.shift_figures import plot_shift_factors, plot_vertical_shift
@@ -105,12 +111,34 @@ def _friction_master_curve(tree: xr.DataTree) -> Figure | None:
     if prediction is None:
         return None
     figure = new_figure(7.4, 4.3)
+    measured = group(tree, "measurement_master")
     plot_friction_master_curve(
         figure.subplots(),
         prediction,
-        group(tree, "measurement"),
+        group(tree, "measurement") if measured is None else measured,
         reference_temperature=reference_temperature(tree),
     )
+    return figure
+
+
+def _coulomb_friction(tree: xr.DataTree) -> Figure | None:
+    measurement = group(tree, "measurement")
+    if measurement is None or not np.isfinite(values(measurement, "coulomb")).any():
+        return None
+    figure = new_figure(7.4, 4.0)
+    plot_coulomb_friction(figure.subplots(), measurement)
+    return figure
+
+
+def _friction_shift_factors(tree: xr.DataTree) -> Figure | None:
+    found = group(tree, "friction_shift_factors")
+    if found is None:
+        return None
+    # Friction may reach beyond the sweeps.
+    both = found.isel(temperature=np.isfinite(values(found, "known_log10_shift_factor")))
+    names = {f"known_{name}": name for name in ("log10_shift_factor", "standard_error")}
+    figure = new_figure()
+    plot_shift_comparison(figure.subplots(), found, both.drop_vars(names.values()).rename(names))
     return figure
 
 
@@ -124,6 +152,8 @@ FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "spectrum": _spectrum,
     "friction_against_speed": _friction_against_speed,
     "friction_master_curve": _friction_master_curve,
+    "coulomb_friction": _coulomb_friction,
+    "friction_shift_factors": _friction_shift_factors,
 }
 
 

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 from viscofric.files import write_atomically
 from viscofric.report.checks import all_checks
 from viscofric.report.drawing import figure_images
+from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
 from viscofric.report.messages import grouped_failures, readable
 from viscofric.report.results import group, is_synthetic, sentences, table
-from viscofric.report.tables import agreement_table, detail_tables, friction_at_a_glance
+from viscofric.report.tables import detail_tables
 from viscofric.report.words import captions, key_numbers, what_was_asked
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def _content(tree: xr.DataTree) -> dict[str, Any]:
     attrs = {name: str(value) for name, value in tree.attrs.items()}
     said = captions(tree)
     images = figure_images(tree, ("svg",))
-    spectrum = group(tree, "spectrum")
+    spectrum, agreement = group(tree, "spectrum"), group(tree, "agreement")
     return {
         "title": attrs.get("title") or "Viscoelastic friction",
         "synthetic": is_synthetic(tree),
@@ -75,6 +76,7 @@ def _content(tree: xr.DataTree) -> dict[str, Any]:
         "key_numbers": key_numbers(tree),
         "glance": friction_at_a_glance(tree),
         "agreement": agreement_table(tree),
+        "agreement_words": [] if agreement is None else sentences(agreement.attrs, "sentences"),
         "statements": []
         if spectrum is None
         else [readable(statement) for statement in sentences(spectrum.attrs, "statements")],

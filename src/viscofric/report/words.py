@@ -125,13 +125,21 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         found.append(KeyNumber("Viscoelastic friction coefficient", _range(friction), remark))
     if agreement is not None:
         bias, rms, points = (number(agreement.attrs, name) for name in ("bias", "rms", "points"))
-        remark = f"rms over {points:.0f} points; {signed_percent(bias)} on average" if math.isfinite(points) else ""
+        doubt = number(agreement.attrs, "bias_error")
+        average = signed_percent(bias) + (f" ± {percent(doubt)}" if math.isfinite(doubt) else "")
+        remark = f"rms over {points:.0f} points; {average} on average" if math.isfinite(points) else ""
         share = number(agreement.attrs, "share_within_error")
         if math.isfinite(share):
+            counted = "with" if number(agreement.attrs, "material_counted") == 1.0 else "without"
             remark += (
-                f"; {percent(share, 3)} of the points within twice the standard error (without the material's own)"
+                f"; {percent(share, 3)} of the points within twice the standard error ({counted} the material's own)"
             )
         found.append(KeyNumber("Prediction less measurement", percent(rms), remark))
+    shifts = group(tree, "friction_shift_factors")
+    if shifts is not None:
+        slope, error = (number(shifts.attrs, name) for name in ("slope", "slope_error"))
+        remark = "times those of the modulus, as logarithms: 1 where both coincide"
+        found.append(KeyNumber("Shift factors from friction", with_error(slope, error), remark))
     return found
 
 
@@ -187,10 +195,13 @@ def captions(tree: xr.DataTree) -> dict[str, str]:
     told = (note for note in sentences(tree.attrs, "notes") if "overlap in reduced speed" in note)
     together = f" {readable(next(told, ''))}".rstrip() if points else ""
     return {
-        "friction_against_speed": f"Viscoelastic friction against speed. Lines: predicted{_thin(tree, 'prediction')}."
-        f"{bars}",
-        "friction_master_curve": f"Viscoelastic friction against speed times shift factor, at {at}. "
-        f"Line: predicted over the whole range{_thin(tree, 'prediction_master')}.{bars}{together}",
+        "friction_against_speed": "Viscoelastic friction against speed. "
+        f"Lines: predicted{_thin(tree, 'prediction')}{_shaded(tree, 'prediction')}.{bars}",
+        "friction_master_curve": f"Viscoelastic friction against speed times shift factor, at {at}. Line: predicted "
+        f"over the whole range{_thin(tree, 'prediction_master')}{_shaded(tree, 'prediction_master')}.{bars}{together}",
+        "coulomb_friction": f"Coulomb friction against speed.{bars} It is measured, not predicted.",
+        "friction_shift_factors": "Shift factors found from friction alone, by laying its curves over one another, "
+        "beside those of the modulus; both with their standard errors.",
         "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: "
         f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them"
         f"{_banded(tree)}; below, what the spectrum leaves over.",
@@ -219,6 +230,14 @@ def _banded(tree: xr.DataTree) -> str:
     spectrum = group(tree, "spectrum_curve")
     banded = spectrum is not None and "storage_modulus_lower" in spectrum
     return ", with the 95 % band of its modulus" if banded else ""
+
+
+def _shaded(tree: xr.DataTree, name: str) -> str:
+    """Say what the bands are, where there are any."""
+    cases = group(tree, name)
+    if cases is None or "friction_lower" not in cases.variables:
+        return ""
+    return ", with the 95 % band that the uncertainty of the rubber (sweeps, shift factors, spectrum) leaves"
 
 
 def _thin(tree: xr.DataTree, name: str) -> str:

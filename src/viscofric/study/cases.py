@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError, InputError
+from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.study.store import CaseRecord, CaseStore, case_key
 from viscofric.units import celsius
 
@@ -31,6 +32,8 @@ class Progress(Protocol):
 class CaseSolver:
     """Solves contacts of one material and one ball, from the store where it has them.
 
+    A `sensitive` one also finds how friction answers to the rubber's compliance, for the bands.
+
     Attributes
     ----------
     failures : list of str
@@ -48,9 +51,10 @@ class CaseSolver:
         accuracy: float,
         store: CaseStore,
         progress: Progress,
+        sensitive: bool = False,
     ) -> None:
         self.material, self.shift, self.ball, self.accuracy = material, shift, ball, accuracy
-        self.store, self.progress = store, progress
+        self.store, self.progress, self.sensitive = store, progress, sensitive
         fit = getattr(material.spectrum, "fit", None)
         self.frequency_range: tuple[float, float] | None = None if fit is None else fit.frequency_range
         self.failures: list[str] = []
@@ -74,14 +78,18 @@ class CaseSolver:
         return records
 
     def _attempt(self, temperature: float, speed: float, load: float) -> CaseRecord | None:
+        case: Any = {"speed": speed, "load": load, "temperature": temperature, "accuracy": self.accuracy}
         try:
-            solution = solve_steady(
-                self.material, self.ball, speed=speed, load=load, temperature=temperature, accuracy=self.accuracy
-            )
+            if self.sensitive:
+                try:
+                    solution, sensitivity = solve_with_sensitivity(self.material, self.ball, **case)
+                    return CaseRecord.of(solution, temperature, sensitivity)
+                except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
+                    pass
+            return CaseRecord.of(solve_steady(self.material, self.ball, **case), temperature)
         except (ConvergenceError, InputError) as error:
             self.failures.append(f"{_where(temperature, speed)}: {error}")
             return None
-        return CaseRecord.of(solution, temperature)
 
     def _key(self, temperature: float, speed: float, load: float) -> str:
         spectrum = self.material.modes_at(temperature)
@@ -97,6 +105,7 @@ class CaseSolver:
                 "speed": speed,
                 "temperature": temperature,
                 "accuracy": self.accuracy,
+                "sensitive": self.sensitive,
             }
         )
 

@@ -9,15 +9,13 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.contact.indenters.indenter import Ball
-from viscofric.errors import InputError, StudyError
-from viscofric.friction.agreement import compare
-from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.measurement.tribometry import separate
-from viscofric.friction.shifting.shift import shift_friction
-from viscofric.readers import read_mtm
+from viscofric.errors import StudyError
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study import labels
+from viscofric.study.assumptions import assumptions
+from viscofric.study.bands import FrictionBands
 from viscofric.study.cases import CaseSolver, Progress, kept
+from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
 from viscofric.study.rubber import Rubber, make_rubber
 from viscofric.study.rubber_labels import rubber_data
@@ -36,6 +34,7 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 CASES_FOLDER = "cases"
+_ROUNDING = 1e-6
 
 
 def _silent(stage: str, done: int, total: int) -> None:
@@ -68,39 +67,44 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
     DataFileError, SuperpositionError, InputError
         If a data file cannot be used.
     """
+    import xarray
+
     path = Path(path)
     text = read_study_text(path)
     study = parse_study(text, path)
     folder = path.with_suffix(".results") if output is None else Path(output)
 
     hashes = input_hashes(study.inputs)
-    measured = None
+    curves = None
     if study.measurement is not None:
         progress("measurement", 0, 1)
-        measured = separate(read_mtm(*study.measurement.mtm))
+        curves = read_measurement(study.measurement)
         progress("measurement", 1, 1)
     progress("material", 0, 1)
     rubber = make_rubber(study.material)
+    bands = FrictionBands(rubber, study.solver.samples)
     progress("material", 1, 1)
     shift = _shift(rubber)
     # Temperatures without a shift factor are told now, not case by case.
     shift(np.array(study.conditions.temperature))
+    ball = Ball(study.indenter.radius)
+    measured = None
+    if curves is not None:
+        progress("shift", 0, 1)
+        measured = Measurement(curves, rubber.material, ball, study.conditions.load)
+        progress("shift", 1, 1)
 
-    solver = CaseSolver(
-        rubber.material,
-        shift,
-        Ball(study.indenter.radius),
-        study.solver.accuracy,
-        CaseStore(folder / CASES_FOLDER),
-        progress,
-    )
-    tree = _tree(study, rubber, shift, measured, solver)
+    store = CaseStore(folder / CASES_FOLDER)
+    sensitive = bands.samples is not None
+    solver = CaseSolver(rubber.material, shift, ball, study.solver.accuracy, store, progress, sensitive=sensitive)
+    groups = _solved(study, shift, measured, solver, bands)
+    tree = xarray.DataTree.from_dict({**rubber_data(rubber, bands.samples), **groups})
     tree.attrs = {
         "title": study.title,
         "data_origin": "synthetic" if rubber.synthetic else study.data_origin,
         "study_file": path.name,
         "study_text": text,
-        "notes": _listed([*rubber.notes, *(_measurement_notes(measured, shift) if measured else ())]),
+        "notes": _listed([*rubber.notes, *bands.notes, *(measured.notes if measured else ())]),
         "warnings": _listed([*_doubts(study, rubber, shift), *solver.warnings]),
         "failures": _listed(solver.failures),
         **rubber.attributes,
@@ -114,15 +118,6 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
     }
     save_results(tree, folder)
     return StudyResults(tree, folder)
-
-
-def _measurement_notes(measured: FrictionCurves, shift: ShiftLaw) -> tuple[str, ...]:
-    """Tell what was noted of a measurement, and how its temperatures fall on one friction master curve."""
-    try:
-        master = shift_friction(measured, shift=shift).overlap_sentence
-    except InputError as error:
-        master = f"The measured friction was not joined into one master curve: {error}"
-    return (*measured.notes, master)
 
 
 def _listed(sentences: Iterable[str]) -> str:
@@ -163,71 +158,43 @@ def _doubts(study: Study, rubber: Rubber, shift: ShiftLaw) -> list[str]:
     if rubber.material.vertical_shift is not None:
         said.append(
             "The modulus has a vertical shift b(T), so that curves of other temperatures fall on the friction master "
-            "curve only at the load F/b; at one load they lie beside it."
+            "curve only at the load F/b; measured points are brought to it by the similarity of contacts."
         )
     return said
 
 
-def _tree(
-    study: Study, rubber: Rubber, shift: ShiftLaw, measured: FrictionCurves | None, solver: CaseSolver
-) -> xarray.DataTree:
-    import xarray
-
-    conditions = study.conditions
+def _solved(
+    study: Study, shift: ShiftLaw, measured: Measurement | None, solver: CaseSolver, bands: FrictionBands
+) -> dict[str, xarray.Dataset]:
+    """Solve all cases: those asked for, those measured, and those along the friction master curve."""
+    conditions, groups = study.conditions, {}
     temperature, speed = (
         grid.ravel() for grid in np.meshgrid(conditions.temperature, conditions.speeds(), indexing="ij")
     )
     records = kept(solver.solve("friction", temperature, speed, np.full(len(speed), conditions.load)))
     if not records:
         raise StudyError(f"no case could be solved; the first one failed: {solver.failures[0]}")
-    reduced = speed * shift(temperature)
-    groups: dict[str, xarray.Dataset] = {
-        **rubber_data(rubber),
-        "/prediction": _prediction(records, solver),
-    }
+    groups["/prediction"] = _prediction(records, solver, bands)
+    reduced, at_points = speed * shift(temperature), []
     if measured is not None:
-        at_points = solver.solve("measured points", measured.temperature, measured.speed, measured.load)
-        reduced_measured = measured.speed * shift(measured.temperature)
-        reduced = np.concatenate([reduced, reduced_measured])
-        groups["/measurement"] = labels.measurement_data(
-            measured,
-            reduced_measured,
-            at_points,
-            None
-            if solver.frequency_range is None
-            else [record is not None and solver.within_measured_frequencies(record) for record in at_points],
-        )
-        groups |= _agreement(measured, at_points)
-    master_speeds = np.geomspace(reduced.min(), reduced.max(), study.solver.master_curve_points)
-    reference = np.full(len(master_speeds), shift.reference)
-    loads = np.full(len(master_speeds), conditions.load)
-    groups["/prediction_master"] = _prediction(
-        kept(solver.solve("master curve", reference, master_speeds, loads)), solver
-    )
-    return xarray.DataTree.from_dict(groups)
+        curves = measured.curves
+        at_points = solver.solve("measured points", curves.temperature, curves.speed, curves.load)
+        reduced = np.concatenate([reduced, measured.reduced_speed])
+    # A little beyond, so that rounding leaves no point outside.
+    ends = reduced.min() * (1.0 - _ROUNDING), reduced.max() * (1.0 + _ROUNDING)
+    master_speeds = np.geomspace(*ends, study.solver.master_curve_points)
+    same = np.full(len(master_speeds), shift.reference), master_speeds, np.full(len(master_speeds), conditions.load)
+    at_reference = kept(solver.solve("master curve", *same))
+    groups["/prediction_master"] = _prediction(at_reference, solver, bands)
+    if measured is not None:
+        within = [record is not None and solver.within_measured_frequencies(record) for record in at_points]
+        known = None if solver.frequency_range is None else within
+        groups |= measured.groups(at_points, known, bands.curves(at_reference), bands)
+    return groups | assumptions(study, solver, measured, records, at_points)
 
 
-def _prediction(records: list[CaseRecord], solver: CaseSolver) -> xarray.Dataset:
-    if solver.frequency_range is None:
-        return labels.prediction_data(records, None)
-    return labels.prediction_data(records, [solver.within_measured_frequencies(record) for record in records])
-
-
-def _agreement(measured: FrictionCurves, at_points: list[CaseRecord | None]) -> dict[str, xarray.Dataset]:
-    """Compare where there is a prediction, and a friction above zero to relate the difference to."""
-    comparable = np.array([record is not None for record in at_points]) & (measured.viscoelastic > 0.0)
-    if not comparable.any():
-        return {}
-    records = [record for record, good in zip(at_points, comparable, strict=True) if good and record is not None]
-    predicted = FrictionCurves(
-        speed=np.array([record.speed for record in records]),
-        temperature=np.array([record.temperature for record in records]),
-        load=np.array([record.load for record in records]),
-        viscoelastic=np.array([record.friction_coefficient for record in records]),
-        viscoelastic_error=np.array([record.friction_error for record in records]),
-        viscoelastic_scatter=np.zeros(len(records)),
-        replicates=np.ones(len(records), dtype=np.int64),
-        source="prediction",
-    )
-    found = compare(measured.select(comparable), predicted)
-    return {"/agreement": labels.agreement_data(found, left_out=int(np.count_nonzero(~comparable)))}
+def _prediction(records: list[CaseRecord], solver: CaseSolver, bands: FrictionBands) -> xarray.Dataset:
+    within = None
+    if solver.frequency_range is not None:
+        within = [solver.within_measured_frequencies(record) for record in records]
+    return labels.prediction_data(records, within, bands.curves(records))

@@ -2,21 +2,26 @@
 
 The tree of a study's results (every variable in SI, with ``units`` and ``long_name``):
 
-======================  ==========================================================================
-``/isotherms`` …        the rubber: see `viscofric.study.rubber_labels`
-``/prediction``         one entry per speed and temperature asked for
-``/prediction_master``  friction at the reference temperature over the reduced speeds α(T)·v
-``/measurement``        the separated measurement and the prediction at the same points (if measured)
-``/agreement``          prediction against measurement, per temperature (if measured)
-======================  ==========================================================================
+===========================  =====================================================================
+``/isotherms`` …             the rubber: see `viscofric.study.rubber_labels`
+``/prediction``              one entry per speed and temperature asked for
+``/prediction_master``       friction at the reference temperature over the reduced speeds α(T)·v
+``/measurement``             the separated measurement and the prediction at the same points (if measured)
+``/measurement_master``      measured friction over the reduced speed, at the load of the master curve
+``/agreement``               prediction against measurement, per temperature (if measured)
+``/friction_shift_factors``  α(T) from friction alone, beside the modulus's (if measured, where curves overlap)
+``/assumptions``             what the predictions take for granted, as checked
+===========================  =====================================================================
 """
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.errors import InputError
 from viscofric.study.store import NUMBERS, CaseRecord
 
 if TYPE_CHECKING:
@@ -25,7 +30,11 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.friction.agreement import Agreement
+    from viscofric.friction.assumptions import AssumptionCheck
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+    from viscofric.friction.shifting.shift_agreement import ShiftAgreement
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 # variable -> unit, long name
 _MEANING = {
@@ -54,6 +63,9 @@ _MEANING = {
     "load": ("N", "normal load"),
     "friction_coefficient": ("1", "viscoelastic friction coefficient"),
     "friction_error": ("1", "numerical error estimate of the friction coefficient"),
+    "friction_material_error": ("1", "standard error of the friction coefficient that the rubber's uncertainty leaves"),
+    "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
+    "friction_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
     "indentation": ("m", "indentation"),
     "contact_area": ("m**2", "contact area"),
     "front": ("m", "distance from the axis to the leading edge"),
@@ -76,10 +88,22 @@ _MEANING = {
     "consistency_error": ("1", "standard error of the consistency"),
     "predicted": ("1", "predicted viscoelastic friction coefficient"),
     "predicted_error": ("1", "numerical error estimate of the predicted friction coefficient"),
+    "predicted_material_error": ("1", "standard error of predicted friction that the rubber's uncertainty leaves"),
+    "predicted_lower": ("1", "lower end of the 95 % band of the predicted friction coefficient"),
+    "predicted_upper": ("1", "upper end of the 95 % band of the predicted friction coefficient"),
     "bias": ("1", "mean relative difference of prediction and measurement"),
     "rms": ("1", "root mean square relative difference"),
     "share_within_error": ("1", "share of points within twice the combined standard error"),
     "points": ("1", "points compared"),
+    "bias_error": ("1", "standard error of the mean relative difference"),
+    "share_within_scatter": ("1", "share of repeated points within the scatter of the repetitions"),
+    "known_log10_shift_factor": ("1", "decadic logarithm of the modulus's shift factor"),
+    "known_standard_error": ("1", "standard error of log10 of the modulus's shift factor"),
+    "assumption_name": ("1", "what is taken for granted"),
+    "value": ("1", "what is judged"),
+    "limit": ("1", "largest value at which the assumption holds well"),
+    "holds": ("1", "whether it does (1), does not (0), or cannot be told (-1)"),
+    "sentence": ("1", "the same in words"),
 }
 
 
@@ -113,31 +137,69 @@ def dataset(
     return result.set_coords(coordinate) if coordinate else result
 
 
-def prediction_data(records: Sequence[CaseRecord], within: Sequence[bool] | None) -> xarray.Dataset:
-    """Label solved cases, with whether they lie within the measured frequencies, where those are known."""
+def prediction_data(
+    records: Sequence[CaseRecord], within: Sequence[bool] | None, curves: FrictionCurves
+) -> xarray.Dataset:
+    """Label solved cases, with whether they lie within the measured frequencies, and their bands, where known."""
     columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in NUMBERS}
+    columns |= _band(curves, "friction")
     if within is not None:
         columns["within_measured_frequencies"] = np.array(within, dtype=np.int8)
     return dataset("case", columns)
 
 
+def _band(curves: FrictionCurves, name: str) -> dict[str, Any]:
+    """Return the uncertainty that the rubber leaves on friction, where it is known."""
+    found = {
+        "material_error": curves.material_error,
+        "lower": curves.viscoelastic_lower,
+        "upper": curves.viscoelastic_upper,
+    }
+    return {f"{name}_{kind}": column for kind, column in found.items() if column is not None}
+
+
 def measurement_data(
-    measured: FrictionCurves, reduced_speed: Any, records: Sequence[CaseRecord | None], within: Sequence[bool] | None
+    measured: FrictionCurves,
+    reduced_speed: Any,
+    records: Sequence[CaseRecord | None],
+    within: Sequence[bool] | None,
+    predicted: FrictionCurves,
 ) -> xarray.Dataset:
-    """Label the separated measurement with the prediction at the same points, NaN where it failed."""
+    """Label the separated measurement with the prediction at the same points, NaN where it failed.
+
+    `predicted` holds the points where it did not.
+    """
     columns: dict[str, Any] = {
         name: getattr(measured, name) for name in _MEASURED if getattr(measured, name) is not None
     }
     columns["reduced_speed"] = reduced_speed
-    columns["predicted"] = [np.nan if record is None else record.friction_coefficient for record in records]
-    columns["predicted_error"] = [np.nan if record is None else record.friction_error for record in records]
+    solved = np.array([record is not None for record in records])
+    told = {"predicted": predicted.viscoelastic, "predicted_error": predicted.viscoelastic_error}
+    for name, values in (told | _band(predicted, "predicted")).items():
+        columns[name] = np.full(len(records), np.nan)
+        columns[name][solved] = values
     if within is not None:
         columns["within_measured_frequencies"] = np.array(within, dtype=np.int8)
     return dataset("point", columns)
 
 
-def agreement_data(agreement: Agreement, left_out: int) -> xarray.Dataset:
-    """Label how well prediction and measurement agree."""
+def measured_master_data(master: FrictionMasterCurve) -> xarray.Dataset:
+    """Label measured friction over the reduced speed, all of it at the load of the master curve."""
+    columns = {
+        "reduced_speed": master.reduced_speed,
+        "temperature": master.temperature,
+        "viscoelastic": master.friction,
+        "viscoelastic_error": master.error,
+        "viscoelastic_scatter": master.scatter,
+    }
+    return dataset("point", columns, reference_temperature=master.reference, load=master.load)
+
+
+def agreement_data(agreement: Agreement, sentences: Sequence[str], left_out: int) -> xarray.Dataset:
+    """Label how well prediction and measurement agree; the sentences are attributes."""
+    more = {}
+    if agreement.share_within_scatter is not None:
+        more["share_within_scatter"] = agreement.share_within_scatter
     return dataset(
         "temperature",
         {
@@ -146,6 +208,8 @@ def agreement_data(agreement: Agreement, left_out: int) -> xarray.Dataset:
             "rms": agreement.rms_at,
             "share_within_error": agreement.share_within_error_at,
             "points": agreement.points_at,
+            "bias_error": agreement.bias_error_at,
+            "share_within_scatter": agreement.share_within_scatter_at,
         },
         "temperature",
         bias=agreement.bias,
@@ -153,4 +217,53 @@ def agreement_data(agreement: Agreement, left_out: int) -> xarray.Dataset:
         share_within_error=agreement.share_within_error,
         points=agreement.points,
         left_out=left_out,
+        bias_error=agreement.bias_error,
+        material_counted=int(agreement.material_counted),
+        sentences=json.dumps(list(sentences), ensure_ascii=False),
+        **more,
+    )
+
+
+def friction_shift_data(found: FrictionMasterCurve, known: ShiftLaw, agreement: ShiftAgreement) -> xarray.Dataset:
+    """Label the shift factors that friction alone tells, and those of the modulus where they are known there."""
+    factors = found.shift_factors
+    known = known.at_reference(factors.reference)
+    columns: dict[str, Any] = {
+        "temperature": factors.temperatures,
+        "log10_shift_factor": factors.log10_values,
+        "standard_error": factors.standard_errors,
+        "known_log10_shift_factor": np.full(len(factors.temperatures), np.nan),
+        "known_standard_error": np.full(len(factors.temperatures), np.nan),
+    }
+    exact = getattr(known, "covariance", None) is None
+    for row, kelvin in enumerate(factors.temperatures.tolist()):
+        try:
+            columns["known_log10_shift_factor"][row] = known.log10(kelvin)
+            columns["known_standard_error"][row] = 0.0 if exact else known.standard_error(kelvin)
+        except InputError:
+            continue  # friction may reach beyond the sweeps
+    return dataset(
+        "temperature",
+        columns,
+        "temperature",
+        reference_temperature=factors.reference,
+        sentence=agreement.sentence,
+        slope=agreement.slope,
+        slope_error=agreement.slope_error,
+        p_value=agreement.p_value,
+        rms=agreement.rms,
+    )
+
+
+def assumption_data(checks: Sequence[AssumptionCheck]) -> xarray.Dataset:
+    """Label what predicted friction takes for granted, as checked; `holds` is −1 where it could not be told."""
+    return dataset(
+        "assumption",
+        {
+            "assumption_name": [check.name for check in checks],
+            "value": [np.nan if check.value is None else check.value for check in checks],
+            "limit": [check.limit for check in checks],
+            "holds": [-1 if check.holds is None else int(check.holds) for check in checks],
+            "sentence": [check.sentence for check in checks],
+        },
     )

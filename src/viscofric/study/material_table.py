@@ -35,7 +35,7 @@ _HOW = (
 _OF_SWEEPS = ("temperature", "vertical_shift", "fixed_shift_factors")
 
 
-def _listed(value: object) -> object:
+def listed(value: object) -> object:
     """Let one entry stand for a list of one."""
     return [value] if isinstance(value, str) else value
 
@@ -64,14 +64,14 @@ def _in_catalogue(value: str) -> str:
 class MaterialTable(Table):
     """[material]: the DMA files and how the rubber is made of them, or a rubber that is ready."""
 
-    dma: Annotated[tuple[Path, ...], BeforeValidator(_listed), Field(min_length=1)] | None = None
+    dma: Annotated[tuple[Path, ...], BeforeValidator(listed), Field(min_length=1)] | None = None
     master_curve: Path | None = None
     file: Path | None = None
     catalogue: Annotated[str, AfterValidator(_in_catalogue)] | None = None
 
     name: str = ""
     deformation: Literal["tension", "shear"] | None = None
-    temperature: Annotated[tuple[Temperature, ...], BeforeValidator(_listed), Field(min_length=1)] | None = None
+    temperature: Annotated[tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1)] | None = None
     modulus_unit: Annotated[str, AfterValidator(_unit_of_modulus)] | None = None
     poisson_ratio: float = Field(default=0.5, ge=0.0, le=0.5)
     reference_temperature: Temperature | None = None
@@ -121,7 +121,7 @@ class MaterialTable(Table):
         """Return the table with its paths relative to a folder, and patterns such as ``*.txt`` written out."""
         changes: dict[str, Any] = {}
         if self.dma is not None:
-            changes["dma"] = tuple(path for one in self.dma for path in _found(folder, one))
+            changes["dma"] = tuple(path for one in self.dma for path in files_of(folder, one))
         for name in ("master_curve", "file", "shift_factors"):
             if (path := getattr(self, name)) is not None:
                 changes[name] = folder / path
@@ -136,7 +136,7 @@ class MaterialTable(Table):
         )
 
 
-def _found(folder: Path, path: Path) -> tuple[Path, ...]:
+def files_of(folder: Path, path: Path) -> tuple[Path, ...]:
     """Return the files that a path with ``*`` or ``?`` stands for, by name; the path itself if there are none."""
     whole = folder / path
     if not any(mark in str(path) for mark in "*?") or whole.exists():

@@ -31,6 +31,8 @@ def kelvin(value: object) -> float:
 Length = Annotated[float, BeforeValidator(lambda value: positive(_with_unit(value), "m", VALUE))]
 Force = Annotated[float, BeforeValidator(lambda value: positive(_with_unit(value), "N", VALUE))]
 Speed = Annotated[float, BeforeValidator(lambda value: positive(_with_unit(value), "m/s", VALUE))]
+SignedForce = Annotated[float, BeforeValidator(lambda value: to_si(_with_unit(value), "N", VALUE))]
+TemperatureStep = Annotated[float, BeforeValidator(lambda value: positive(_with_unit(value), "delta_degC", VALUE))]
 Temperature = Annotated[float, BeforeValidator(kelvin)]
 
 

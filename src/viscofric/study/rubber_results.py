@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.rheology.cards import CardFormat, write_card
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.uncertainty.sampling import sample_materials
+from viscofric.study.bands import draw_rubber
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
 from viscofric.study.rubber import make_rubber
 from viscofric.study.rubber_labels import rubber_data
@@ -78,9 +78,7 @@ def run_material(
     folder = Path(output)
     hashes = input_hashes(wanted.inputs)
     rubber = make_rubber(wanted)
-    draws = None
-    if samples > 0 and rubber.fit is not None and isinstance(rubber.material.spectrum, RetardationSpectrum):
-        draws = sample_materials(rubber.fit, rubber.material.spectrum, samples=samples)
+    draws = draw_rubber(rubber, samples)
     tree = xarray.DataTree.from_dict(rubber_data(rubber, draws))
     tree.attrs = {
         "title": title,

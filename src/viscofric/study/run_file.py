@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import (
+    AfterValidator,
     BaseModel,
     Discriminator,
     Field,
@@ -18,10 +19,13 @@ from pydantic import (
 )
 
 from viscofric.errors import StudyError
+from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
 from viscofric.study.material_table import MaterialTable
+from viscofric.study.measurement_table import MeasurementTable
 from viscofric.study.quantities import VALUE, Force, Length, Speed, Table, Temperature
 
 _MOST_POINTS = 10_000
+_MOST_SAMPLES = 10_000
 
 
 class SpeedRange(Table):
@@ -46,7 +50,7 @@ class IndenterTable(Table):
 
 
 class ConditionsTable(Table):
-    """[conditions]: load, speeds and temperatures to predict friction at."""
+    """[conditions]: load, speeds and temperatures to predict friction at, and how thick the rubber is."""
 
     load: Force
     speed: Annotated[
@@ -54,6 +58,7 @@ class ConditionsTable(Table):
         Discriminator(lambda value: "range" if isinstance(value, dict | SpeedRange) else "list"),
     ]
     temperature: tuple[Temperature, ...] = Field(min_length=1)
+    thickness: Length | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -70,24 +75,18 @@ class ConditionsTable(Table):
         return self.speed.speeds() if isinstance(self.speed, SpeedRange) else self.speed
 
 
-class MeasurementTable(Table):
-    """[measurement]: traction runs to lay beside the prediction."""
-
-    mtm: tuple[Path, ...] = Field(min_length=1)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _one_is_a_list(cls, values: Any) -> Any:
-        if isinstance(values, dict) and isinstance(values.get("mtm"), str):
-            return {**values, "mtm": [values["mtm"]]}
-        return values
+def _enough(value: int) -> int:
+    if 0 < value < FEWEST_SAMPLES:
+        raise ValueError(f"{value} is too few; give {FEWEST_SAMPLES} or more, or 0 for no bands")
+    return value
 
 
 class SolverTable(Table):
-    """[solver]: how accurate the friction is to be."""
+    """[solver]: how accurate the friction is to be, and how many rubbers are drawn for its bands."""
 
     accuracy: float = Field(default=1e-3, ge=1e-4, le=0.1, allow_inf_nan=False)
     master_curve_points: int = Field(default=41, ge=2, le=_MOST_POINTS)
+    samples: Annotated[int, AfterValidator(_enough)] = Field(default=200, ge=0, le=_MOST_SAMPLES)
 
 
 class Study(Table):
@@ -104,7 +103,7 @@ class Study(Table):
     @property
     def inputs(self) -> tuple[Path, ...]:
         """All data files."""
-        return (*self.material.inputs, *(self.measurement.mtm if self.measurement else ()))
+        return (*self.material.inputs, *(self.measurement.inputs if self.measurement else ()))
 
 
 def load_study(path: str | Path) -> Study:
@@ -179,9 +178,7 @@ def _sentences(error: ValidationError) -> str:
 
 def _resolve_paths(study: Study, folder: Path) -> Study:
     material = study.material.beside(folder)
-    measurement = study.measurement
-    if measurement is not None:
-        measurement = measurement.model_copy(update={"mtm": tuple(folder / file for file in measurement.mtm)})
+    measurement = None if study.measurement is None else study.measurement.beside(folder)
     return study.model_copy(update={"material": material, "measurement": measurement})
 
 
@@ -212,11 +209,11 @@ def _known_keys(path: list[Any]) -> list[str]:
     """Keys that the table at a path may hold, as the user writes them."""
     model: type[BaseModel] = Study
     for part in path:
-        model = _TABLES.get(part, model)
+        model = TABLES.get(part, model)
     return [field.alias or name for name, field in model.model_fields.items()]
 
 
-_TABLES: dict[Any, type[BaseModel]] = {
+TABLES: dict[Any, type[BaseModel]] = {
     "material": MaterialTable,
     "indenter": IndenterTable,
     "conditions": ConditionsTable,

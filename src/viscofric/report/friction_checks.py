@@ -1,0 +1,171 @@
+"""What was checked of friction: the contacts, what they take for granted, the measurement beside them."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.report.check import Check
+from viscofric.report.doubts import is_extrapolated, knows_range, reach
+from viscofric.report.friction_summary import CONSISTENT_WITHIN, consistency_words
+from viscofric.report.numbers import percent, several, significant
+from viscofric.report.results import group, number, numbers, sentences, values
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import xarray as xr
+
+    from viscofric.report.check import Verdict
+
+# What still counts as sound
+_COMPLEMENTARITY = 1e-6  # over the indentation
+_CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
+# Probability of differences as large, below which two sets of shift factors are not the same
+_LIKELY = 0.05
+# How far apart, in units of the accuracy, friction from the pressure and from the dissipation may be.
+_ENERGY_BALANCE = 5.0
+# What `viscofric.friction.assumptions` judges -> how the report calls it.
+_ASSUMPTIONS = {"half-space": "Half-space", "linearity": "Linear rubber", "one temperature": "Isothermal"}
+_VERDICTS: dict[int, Verdict] = {1: "passed", 0: "look at this", -1: "noted"}
+
+
+def friction_checks(tree: xr.DataTree) -> Iterator[Check]:
+    """Yield every check of friction that the results allow, in the order of the calculation."""
+    parts = (_contact, _small_strain, _assumptions, _frequencies, _measurement, _friction_shifts, _cases)
+    for part in parts:
+        yield from part(tree)
+
+
+def _contact(tree: xr.DataTree) -> Iterator[Check]:
+    parts = [part for name in ("prediction", "prediction_master") if (part := group(tree, name)) is not None]
+    if not parts:
+        return
+
+    def largest(name: str) -> float:
+        sizes = np.abs(np.concatenate([values(part, name) for part in parts]))
+        sizes = sizes[np.isfinite(sizes)]
+        return float(sizes.max()) if sizes.size else math.nan
+
+    accuracy = number(tree.attrs, "accuracy")
+    energy = largest("energy_balance")
+    if math.isfinite(energy):
+        limit = _ENERGY_BALANCE * (accuracy if math.isfinite(accuracy) else 1e-3)
+        yield Check.of(
+            "Energy balance",
+            energy <= limit * (1.0 + 1e-9),
+            "Friction is calculated twice, from the contact pressure and from the energy that the rubber dissipates. "
+            f"The two differ by {percent(energy)} at most. Up to {percent(limit)} counts as sound, "
+            f"{_ENERGY_BALANCE:g} times the accuracy asked for: only the better known of the two is reported, and "
+            "that one must reach the accuracy.",
+        )
+    violation = largest("complementarity")
+    if math.isfinite(violation):
+        yield Check.of(
+            "Contact conditions",
+            violation <= _COMPLEMENTARITY,
+            f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of "
+            f"the indentation at most (up to {significant(_COMPLEMENTARITY, 1)} counts as sound).",
+        )
+
+
+def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
+    parts = [part for name in ("prediction", "prediction_master") if (part := group(tree, name)) is not None]
+    if not parts:
+        return
+    reaches = np.concatenate([reach(tree, part) for part in parts])
+    reaches = reaches[np.isfinite(reaches)]
+    if not reaches.size:
+        words = "Could not be checked: the results do not say how large the ball or its contact is."
+        yield Check("Small strain", "noted", words)
+        return
+    wide = int(np.sum(reaches > SMALL_STRAIN))
+    many = f" This concerns {wide} of {reaches.size} cases, which the tables mark." if wide else ""
+    yield Check.of(
+        "Small strain",
+        wide == 0,
+        f"The contact reaches up to {significant(float(reaches.max()), 2)} of the ball's radius from its axis; above "
+        f"{SMALL_STRAIN:g} the linear, half-space description of the contact is doubtful.{many}",
+    )
+
+
+def _assumptions(tree: xr.DataTree) -> Iterator[Check]:
+    found = group(tree, "assumptions")
+    if found is None:
+        return
+    for name, holds, sentence in zip(
+        *(found[column].values for column in ("assumption_name", "holds", "sentence")), strict=True
+    ):
+        if str(name) in _ASSUMPTIONS:  # the others are those of small strain, which counts the cases
+            verdict = _VERDICTS[int(holds)]
+            yield Check(_ASSUMPTIONS[str(name)], verdict, str(sentence))
+
+
+def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
+    counts, outside = [], 0
+    for name, what in (
+        ("prediction", "cases asked for"),
+        ("measurement", "measured points"),
+        ("prediction_master", "cases along the friction master curve"),
+    ):
+        part = group(tree, name)
+        if part is None or not knows_range(part):
+            continue
+        beyond, of = int(is_extrapolated(part).sum()), next(iter(part.sizes.values()))
+        outside += beyond
+        counts.append(f"{beyond} of {of} {what}")
+    if not counts:
+        return
+    ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
+    measured = f" ({ends[0]} to {ends[1]} rad/s at the reference temperature)" if len(ends) == 2 else ""
+    meaning = "the frequency at which the contact deforms the rubber, shift factor times speed over half-width,"
+    if outside:
+        words = (
+            f"In {several(counts)} {meaning} lies outside the measured range{measured}; friction there rests on the "
+            "extrapolated spectrum. The tables mark these cases."
+        )
+    else:
+        words = f"Everywhere {meaning} lies within the measured range{measured}."
+    yield Check.of("Measured frequency range", outside == 0, words)
+
+
+def _measurement(tree: xr.DataTree) -> Iterator[Check]:
+    measurement = group(tree, "measurement")
+    if measurement is None:
+        return
+    left_over, error = values(measurement, "consistency"), values(measurement, "consistency_error")
+    told = consistency_words(left_over, error)
+    if told is None:
+        return
+    known = np.isfinite(left_over) & np.isfinite(error)
+    sound = np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]
+    yield Check.of(
+        "Consistency of the four configurations",
+        bool(np.mean(sound) >= _CONSISTENT),
+        f"The combination of the four sign configurations that should vanish is {told}.",
+    )
+
+
+def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:
+    found = group(tree, "friction_shift_factors")
+    if found is not None:
+        likely = number(found.attrs, "p_value") >= _LIKELY
+        yield Check.of("Shift factors from friction", likely, str(found.attrs.get("sentence", "")))
+
+
+def _cases(tree: xr.DataTree) -> Iterator[Check]:
+    if group(tree, "prediction") is None:
+        return
+    failures = sentences(tree.attrs, "failures")
+    if failures:
+        many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
+        yield Check("All cases solved", "failed", f"{many} could not be solved: see above.")
+    else:
+        yield Check(
+            "All cases solved",
+            "passed",
+            "Every case was solved to the accuracy asked for.",
+        )

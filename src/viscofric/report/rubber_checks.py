@@ -1,0 +1,112 @@
+"""What was checked of a rubber: which isotherms were used, whether they belong together, how well they are fitted."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.report.check import Check
+from viscofric.report.house_style import degrees
+from viscofric.report.numbers import percent, several, significant
+from viscofric.report.results import SAME_TEMPERATURE, group, number, numbers, sentences, values
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import xarray as xr
+
+# What still counts as sound
+_OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
+_FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
+_LAW = 0.1  # decades of α, rms
+
+
+def rubber_checks(tree: xr.DataTree) -> Iterator[Check]:
+    """Yield every check of the rubber that the results allow."""
+    for part in (_isotherms, _superposition, _spectrum):
+        yield from part(tree)
+
+
+def _decades(rms: float) -> str:
+    """Say an rms of log10 as a percentage."""
+    return percent(10.0**rms - 1.0)
+
+
+def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
+    if not (math.isfinite(given) and math.isfinite(used)):
+        return  # results of an older viscofric
+    if used >= given:
+        yield Check("Isotherms used", "passed", f"All {given:.0f} isotherms are joined into the master curve.")
+        return
+    kept = values(factors, "temperature")
+    left = [
+        degrees(kelvin)
+        for kelvin in numbers(factors.attrs, "temperatures_given")
+        if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE
+    ]
+    which = f", those at {several(left)} are not" if len(left) > 1 else f", the one at {''.join(left)} is not"
+    known = len(left) == given - used
+    yield Check(
+        "Isotherms used",
+        "look at this",
+        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve{which if known else ''}; the notes "
+        "on the input say why.",
+    )
+
+
+def _superposition(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
+    pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield Check.of(
+            "Overlap of the isotherms",
+            max(storage, loss) <= _OVERLAP and not apart > 0,
+            f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
+            f"{_decades(loss)} in the loss modulus (rms; up to {_decades(_OVERLAP)} counts as sound)."
+            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
+        )
+    yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
+    whole = group(tree, "superposition")
+    if whole is not None:
+        words = " ".join(sentences(whole.attrs, "sentences"))
+        holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
+        yield Check("Superposition", "passed" if holds else "look at this" if roughly else "failed", words)
+        if whole.attrs.get("causality"):
+            belong = number(whole.attrs, "consistent") == 1.0
+            yield Check.of("Storage against loss modulus", belong, str(whole.attrs["causality"]))
+
+
+def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
+    law = group(tree, "shift_law")
+    rms = math.nan if law is None else number(law.attrs, "rms")
+    if law is None or not math.isfinite(rms):
+        return
+    far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
+    if measured_used:
+        words = f"{far}; the measured shift factors are used, not this law."
+        yield Check("Shift law", "noted", words)
+    else:
+        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (up to {_LAW:g} counts as sound).")
+
+
+def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
+    curve = group(tree, "master_curve")
+    if curve is None:
+        return
+    storage, loss = (number(curve.attrs, f"rms_log10_{name}") for name in ("storage", "loss"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield Check.of(
+            "Fit of the spectrum",
+            max(storage, loss) <= _FIT,
+            f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
+            f"measured loss modulus (rms; up to {_decades(_FIT)} counts as sound).",
+        )

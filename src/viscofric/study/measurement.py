@@ -1,0 +1,151 @@
+"""A study's measurement: friction separated, laid beside the prediction, and asked for its own shift factors."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.agreement import compare
+from viscofric.friction.curve_files import read_friction_curves
+from viscofric.friction.measurement.tribometry import separate
+from viscofric.friction.shifting.shift import shift_friction
+from viscofric.friction.shifting.shift_agreement import compare_shift_factors
+from viscofric.readers import read_mtm
+from viscofric.study import labels
+from viscofric.study.cases import kept
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import NDArray
+
+    from viscofric.contact.indenters.indenter import Ball
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+    from viscofric.rheology.material import Material
+    from viscofric.study.bands import FrictionBands
+    from viscofric.study.measurement_table import MeasurementTable
+    from viscofric.study.store import CaseRecord
+
+    Array = NDArray[np.float64]
+    Groups = dict[str, xarray.Dataset]
+
+
+def read_measurement(table: MeasurementTable) -> FrictionCurves:
+    """Return the friction curves of [measurement]: those of a table, or separated from the runs of a tribometer.
+
+    Raises
+    ------
+    DataFileError, InputError
+        If a file cannot be used, or its runs cannot be separated.
+    """
+    if table.curves is not None:
+        return read_friction_curves(table.curves)
+    return separate(read_mtm(*table.mtm), **table.settings)
+
+
+class Measurement:
+    """Measured friction beside a rubber's modulus.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+        Measured.
+    material : Material
+        With a shift.
+    ball : Ball
+    load : float
+        Of the friction master curve, N.
+
+    Attributes
+    ----------
+    notes : list of str
+        What is to be said of it: one sentence each.
+    """
+
+    def __init__(self, curves: FrictionCurves, material: Material, ball: Ball, load: float) -> None:
+        self.curves, self.material = curves, material
+        self.notes = [*([curves.assumption] if curves.assumption else []), *curves.notes]
+        self._rule: dict[str, Any] = {"indenter": ball, "load": load, "vertical_shift": material.vertical_shift}
+        self._master = shift_friction(curves, shift=material.shift, **self._rule)
+        self.notes.append(self._master.overlap_sentence)
+        self._found = self._shifted_by_itself()
+
+    @property
+    def reduced_speed(self) -> Array:
+        """Reduced speeds at the load of the master curve, ascending, m/s."""
+        return self._master.reduced_speed
+
+    def _shifted_by_itself(self) -> FrictionMasterCurve | None:
+        """Find α(T) from friction alone, about the modulus's reference where friction reaches it."""
+        assert self.material.shift is not None
+        for reference in (self.material.shift.reference, None):
+            try:
+                return shift_friction(self.curves, reference=reference, **self._rule)
+            except SuperpositionError as error:
+                self.notes.append(f"Friction alone tells no shift factors: {error}")
+                return None
+            except InputError:
+                continue  # the reference lies outside the temperatures of friction
+        return None
+
+    def groups(
+        self,
+        at_points: list[CaseRecord | None],
+        within: list[bool] | None,
+        at_reference: FrictionCurves,
+        bands: FrictionBands,
+    ) -> Groups:
+        """Lay beside the prediction, and friction's shift factors beside the modulus's.
+
+        Parameters
+        ----------
+        at_points : list of CaseRecord or None
+            Solved at each measured point; None where that failed.
+        within : list of bool or None
+            Whether each of these lies within the measured frequencies, where those are known.
+        at_reference : FrictionCurves
+            Predicted along the master curve.
+        bands : FrictionBands
+        """
+        predicted = bands.curves(kept(at_points))
+        alpha = np.asarray(self._master.shift(self.curves.temperature))
+        return {
+            "/measurement": labels.measurement_data(
+                self.curves, self.curves.speed * alpha, at_points, within, predicted
+            ),
+            "/measurement_master": labels.measured_master_data(self._master),
+            **self._agreement(at_points, predicted, at_reference),
+            **self._shift_factors(),
+        }
+
+    def _agreement(
+        self, at_points: list[CaseRecord | None], predicted: FrictionCurves, at_reference: FrictionCurves
+    ) -> Groups:
+        """Compare where there is a prediction, and a friction above zero to relate the difference to."""
+        solved = np.array([record is not None for record in at_points])
+        comparable = solved & (self.curves.viscoelastic > 0.0)
+        if not comparable.any():
+            return {}
+        measured = self.curves.select(comparable)
+        found = compare(measured, predicted.select(comparable[solved]))
+        sentences = [str(found)]
+        try:
+            shift = self.material.shift
+            line = shift_friction(at_reference, shift=shift, **self._rule)
+            sentences.append(str(compare(shift_friction(measured, shift=shift, **self._rule), line)))
+        except InputError as error:
+            self.notes.append(f"The master curves of prediction and measurement were not compared: {error}")
+        return {"/agreement": labels.agreement_data(found, sentences, int(np.count_nonzero(~comparable)))}
+
+    def _shift_factors(self) -> Groups:
+        if self._found is None or self.material.shift is None:
+            return {}
+        try:
+            agreement = compare_shift_factors(self._found, self.material.shift)
+        except InputError as error:
+            self.notes.append(f"Shift factors from friction were not compared with the modulus's: {error}")
+            return {}
+        self.notes += self._found.notes
+        return {"/friction_shift_factors": labels.friction_shift_data(self._found, self.material.shift, agreement)}

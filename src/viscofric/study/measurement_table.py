@@ -1,0 +1,81 @@
+"""[measurement] of a run file: traction runs or friction curves to lay beside the prediction."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path  # noqa: TC003 - pydantic looks at it
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from viscofric.study.material_table import files_of, listed
+from viscofric.study.quantities import Force, SignedForce, Table, TemperatureStep
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+def _number_or_word(value: object) -> object:
+    """Let a Coulomb friction coefficient be a number, or said to be the same at all speeds."""
+    if value is None or value == "constant":
+        return value
+    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+        return float(value)
+    raise ValueError(f"{value!r} is neither a friction coefficient, such as 0.05, nor the word 'constant'")
+
+
+class MeasurementTable(Table):
+    """[measurement]: the files of a tribometer and how they are separated, or friction curves that are ready."""
+
+    mtm: Annotated[tuple[Path, ...], BeforeValidator(listed)] = ()
+    curves: Path | None = None
+    zero: SignedForce | None = None
+    zero_error: Force | None = None
+    coulomb: Annotated[Any, BeforeValidator(_number_or_word)] = None
+    coulomb_error: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] | None = None
+    outliers: Literal["keep", "leave out"] = "keep"
+    speed_tolerance: float = Field(default=0.05, gt=0.0, lt=1.0)
+    temperature_tolerance: TemperatureStep = 1.0
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        problems = list(self._problems())
+        if problems:
+            raise ValueError("; ".join(problems))
+        return self
+
+    def _problems(self) -> Iterator[str]:
+        if not self.mtm and self.curves is None:
+            yield 'nothing says what was measured; give mtm = "runs.txt" (or friction curves, curves = "curves.csv")'
+        if self.mtm and self.curves is not None:
+            yield "mtm and curves are both given; the friction comes from one of them"
+        useless = sorted(self.model_fields_set - {"mtm", "curves"})
+        if self.curves is not None and useless:
+            yield f"{' and '.join(useless)} cannot be chosen for friction curves, which are separated already"
+        if self.zero_error is not None and self.zero is None:
+            yield "zero_error is the standard error of zero, which is not given"
+        if self.coulomb_error is not None and not isinstance(self.coulomb, float):
+            yield "coulomb_error is the standard error of a coulomb number, which is not given"
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Settings of `viscofric.friction.measurement.tribometry.separate`."""
+        return {
+            "zero": self.zero if self.zero_error is None else (self.zero, self.zero_error),
+            "coulomb": self.coulomb if self.coulomb_error is None else (self.coulomb, self.coulomb_error),
+            "outliers": self.outliers,
+            "speed_tolerance": self.speed_tolerance,
+            "temperature_tolerance": self.temperature_tolerance,
+        }
+
+    def beside(self, folder: Path) -> MeasurementTable:
+        """Return the table with its paths relative to a folder, and patterns such as ``*.txt`` written out."""
+        changes: dict[str, Any] = {"mtm": tuple(path for one in self.mtm for path in files_of(folder, one))}
+        if self.curves is not None:
+            changes["curves"] = folder / self.curves
+        return self.model_copy(update=changes)
+
+    @property
+    def inputs(self) -> tuple[Path, ...]:
+        """All files that the measurement comes from."""
+        return self.mtm if self.curves is None else (self.curves,)

@@ -1,0 +1,132 @@
+"""What the report says of bands, of assumptions, and of the shift factors that friction tells."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from viscofric.report import drawing
+from viscofric.report.checks import all_checks
+from viscofric.report.friction_tables import agreement_table
+from viscofric.report.tables import detail_tables
+from viscofric.report.words import captions, key_numbers
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+ZERO = 273.15
+
+
+def column(values: object, dimension: str) -> tuple[str, object, dict[str, str]]:
+    return dimension, values, {"units": "1", "long_name": "a number"}
+
+
+def with_friction_shifts(tree: xr.DataTree, p_value: float = 0.6) -> xr.DataTree:
+    """Add shift factors from friction, the hottest beyond the sweeps."""
+    numbers = {
+        "log10_shift_factor": [0.0, -0.8, -2.1],
+        "standard_error": [0.0, 0.02, 0.03],
+        "known_log10_shift_factor": [0.0, -0.82, np.nan],
+        "known_standard_error": [0.0, 0.01, np.nan],
+    }
+    found = xr.Dataset(
+        {name: column(values, "temperature") for name, values in numbers.items()},
+        coords={"temperature": np.array([30.0, 40.0, 60.0]) + ZERO},
+        attrs={
+            "reference_temperature": 30.0 + ZERO,
+            "sentence": "The shift factors agree within their errors.",
+            "slope": 0.9761,
+            "slope_error": 0.0274,
+            "p_value": p_value,
+        },
+    )
+    tree["friction_shift_factors"] = xr.DataTree(found)
+    return tree
+
+
+def check(tree: xr.DataTree, name: str) -> tuple[str, str]:
+    (found,) = [check for check in all_checks(tree) if check.name == name]
+    return found.verdict, found.words
+
+
+@pytest.mark.parametrize(("p_value", "verdict"), [(0.6, "passed"), (0.001, "look at this")])
+def test_shift_factors_of_friction_are_judged_by_their_probability(
+    tree: xr.DataTree, p_value: float, verdict: str
+) -> None:
+    told = check(with_friction_shifts(tree, p_value), "Shift factors from friction")
+    assert told == (verdict, "The shift factors agree within their errors.")
+
+
+def test_shift_factors_of_friction_are_a_key_number_and_a_table(tree: xr.DataTree) -> None:
+    with_friction_shifts(tree)
+    (number,) = [item for item in key_numbers(tree) if item.name == "Shift factors from friction"]
+    assert number.value == "0.976 ± 0.027"
+    (table,) = [table for table in detail_tables(tree) if table.key == "friction-shift-factors"]
+    assert table.rows[1] == ["40 °C", "−0.8000", "0.020", "−0.8200", "0.010", "0.020"]
+    assert table.rows[2][3:] == ["–", "–", "–"]
+
+
+def test_shift_factors_of_friction_are_drawn_beside_those_that_are_known(
+    tree: xr.DataTree, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: dict[str, int] = {}
+
+    def points(figure: Figure, form: str) -> bytes:
+        axes = figure.axes[0]
+        drawn.update({str(container.get_label()): len(container.lines[0].get_xdata()) for container in axes.containers})
+        return b""
+
+    monkeypatch.setattr(drawing, "_image", points)
+    monkeypatch.setattr(drawing, "FIGURES", {"friction_shift_factors": drawing.FIGURES["friction_shift_factors"]})
+    drawing.figure_images(with_friction_shifts(tree), ("svg",))
+    assert sorted(drawn.values()) == [2, 3]
+
+
+def test_assumptions_are_plain_checks(tree: xr.DataTree) -> None:
+    names = ["half-space", "small contact", "linearity", "one temperature"]
+    words = {
+        "assumption_name": names,
+        "holds": [-1, 0, 0, 1],
+        "sentence": [f"A sentence about {name}." for name in names],
+    }
+    tree["assumptions"] = xr.DataTree(xr.Dataset({key: column(values, "a") for key, values in words.items()}))
+    assert check(tree, "Half-space") == ("noted", "A sentence about half-space.")
+    assert check(tree, "Linear rubber")[0] == "look at this"
+    assert check(tree, "Isothermal")[0] == "passed"
+    # Small contacts are counted case by case, from the contacts themselves.
+    assert not any("small contact" in one.words for one in all_checks(tree))
+
+
+def test_bands_are_in_the_tables_and_the_captions_say_what_they_are(tree: xr.DataTree) -> None:
+    assert "95 % band" not in captions(tree)["friction_against_speed"]
+    for name in ("prediction", "prediction_master"):
+        found = tree[name].to_dataset()
+        friction = found["friction_coefficient"]
+        tree[name] = xr.DataTree(found.assign(friction_lower=0.98 * friction, friction_upper=1.02 * friction))
+    for name in ("friction_against_speed", "friction_master_curve"):
+        assert "95 % band that the uncertainty of the rubber" in captions(tree)[name]
+    (table,) = [table for table in detail_tables(tree) if table.key == "prediction"]
+    row = dict(zip(table.headings, table.rows[0], strict=True))
+    assert float(row["95 % from"]) == pytest.approx(0.98 * float(row["friction coefficient"]), rel=1e-3)
+    assert float(row["to"]) == pytest.approx(1.02 * float(row["friction coefficient"]), rel=1e-3)
+
+
+def test_agreement_says_whether_the_material_is_counted(tree: xr.DataTree) -> None:
+    found = tree["agreement"].to_dataset()
+    more = {"bias_error": [0.004, 0.005, 0.006], "share_within_scatter": [1.0, np.nan, 0.5]}
+    full = found.assign({name: column(values, "temperature") for name, values in more.items()})
+    attributes = {"material_counted": 1, "bias_error": 0.0037, "sentences": json.dumps(["Over 18 points it agrees."])}
+    tree["agreement"] = xr.DataTree(full.assign_attrs(attributes))
+    table = agreement_table(tree)
+    assert table is not None
+    assert "and the material's own" in table.note
+    row = dict(zip(table.headings, table.rows[1], strict=True))
+    assert row["its standard error"] == "0.50\N{NO-BREAK SPACE}%"
+    assert row["within the scatter"] == "–"
+    (number,) = [item for item in key_numbers(tree) if item.name == "Prediction less measurement"]
+    assert "+0.4\N{NO-BREAK SPACE}% ± 0.37\N{NO-BREAK SPACE}%" in number.remark
+    assert "with the material's own" in number.remark

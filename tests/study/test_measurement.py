@@ -1,0 +1,104 @@
+"""A study's measurement: its own shift factors beside the modulus's, assumptions, friction curves that are ready."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.study import StudyResults, run_study
+
+ROOT = Path(__file__).resolve().parents[2]
+STUDY = """
+[material]
+catalogue = "synthetic fluoroelastomer"
+[indenter]
+radius = "9.525 mm"
+[conditions]
+load = "25 N"
+speed = "100 mm/s"
+temperature = "35 degC"
+thickness = "5 mm"
+[measurement]
+curves = "curves.csv"
+[solver]
+accuracy = 1e-2
+master_curve_points = 11
+"""
+
+
+def curves() -> vf.FrictionCurves:
+    """Return friction of the synthetic rubber, solved beforehand, at three temperatures whose curves overlap."""
+    kelvin, speed, friction, _ = np.loadtxt(
+        ROOT / "tests" / "data" / "synthetic_friction_curves.csv", delimiter=",", skiprows=3, unpack=True
+    )
+    keep = kelvin < 313.5
+    kelvin, speed, friction = kelvin[keep], speed[keep], friction[keep]
+    error = 0.01 * friction
+    moved = friction + error * np.random.default_rng(4).standard_normal(friction.size)
+    load, count = np.full(friction.size, 25.0), np.full(friction.size, 4)
+    found = vf.FrictionCurves(speed, kelvin, load, moved, error, 2.0 * error, count)
+    return found.select(np.arange(0, len(found), 2))
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> StudyResults:
+    folder = tmp_path_factory.mktemp("measured")
+    vf.write_friction_curves(curves(), folder / "curves.csv")
+    (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+    return run_study(folder / "study.toml")
+
+
+def test_friction_curves_that_are_ready_are_the_measurement(results: StudyResults) -> None:
+    measured, given = results.tree["measurement"], curves()
+    np.testing.assert_array_equal(measured["viscoelastic"].values, given.viscoelastic)
+    # Noise of 1 % in the mean; the contacts are solved to 1 %.
+    assert np.abs(measured["predicted"].values / given.viscoelastic - 1.0).max() < 0.05
+
+
+def test_shift_factors_of_friction_stand_beside_those_of_the_modulus(results: StudyResults) -> None:
+    found, law = results.tree["friction_shift_factors"], vf.synthetic_fluoroelastomer().shift
+    assert law is not None
+    np.testing.assert_allclose(
+        found["known_log10_shift_factor"].values, law.log10(found["temperature"].values), atol=1e-12
+    )
+    apart = found["log10_shift_factor"].values - found["known_log10_shift_factor"].values
+    # Of two factors, four standard errors; the reference's own is zero but for rounding.
+    assert np.all(np.abs(apart) <= 4.0 * found["standard_error"].values + 1e-12)
+    assert found.attrs["slope"] == pytest.approx(1.0, abs=4.0 * found.attrs["slope_error"])
+
+
+def test_agreement_is_told_point_by_point_and_on_the_master_curve(results: StudyResults) -> None:
+    over, along = json.loads(results.tree["agreement"].attrs["sentences"])
+    assert over.startswith("Over 15 points")
+    assert along.startswith("On the master curve, over 15 points")  # none lies outside
+    assert results.tree["agreement"].attrs["material_counted"] == 0  # a ready rubber has no bands
+
+
+def test_points_of_the_master_curve_are_at_its_load(results: StudyResults) -> None:
+    master, law = results.tree["measurement_master"], vf.synthetic_fluoroelastomer().shift
+    assert law is not None
+    given = curves()
+    reduced = np.sort(law(given.temperature) * given.speed)
+    np.testing.assert_allclose(master["reduced_speed"].values, reduced, rtol=1e-12)
+    assert master.attrs["load"] == 25.0
+
+
+def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:
+    checked = results.tree["assumptions"].to_dataset()
+    verdict = dict(zip(checked["assumption_name"].values.tolist(), checked["holds"].values.tolist(), strict=True))
+    assert verdict["half-space"] == 0  # contacts of 4 mm across on 5 mm of rubber
+    assert verdict["one temperature"] == 1
+    (sentence,) = checked["sentence"].values[checked["assumption_name"].values == "half-space"]
+    assert "do not pass for a half-space" in sentence
+
+
+def test_the_report_says_so(results: StudyResults) -> None:
+    from viscofric.report.checks import all_checks
+
+    told = {check.name: check.verdict for check in all_checks(results.tree)}
+    assert told["Half-space"] == "look at this"
+    assert told["Shift factors from friction"] == "passed"
