@@ -103,6 +103,15 @@ def test_page_loads_nothing_from_elsewhere(tree: xr.DataTree, tmp_path: Path) ->
         assert b"<script" not in svg
 
 
+@pytest.mark.usefixtures("unrendered")
+def test_figures_drawn_once_are_those_of_the_files_and_of_the_report(tree: xr.DataTree, tmp_path: Path) -> None:
+    paths, page = report.write_figures_and_report(tree, tmp_path / "once")
+    apart = report.draw_figures(tree, tmp_path / "apart" / "figures")
+    assert [path.name for path in paths] == [path.name for path in apart]
+    assert all(one.read_bytes() == other.read_bytes() for one, other in zip(paths, apart, strict=True))
+    assert page.read_bytes() == report.write_report(tree, tmp_path / "apart").read_bytes()
+
+
 @pytest.mark.usefixtures("undrawn")
 def test_tables_hold_every_number(tree: xr.DataTree, tmp_path: Path) -> None:
     _, page = write(tree, tmp_path)

@@ -12,13 +12,14 @@ import click
 def command(results: Path) -> None:
     """Write figures and report of a finished study again, from its RESULTS folder."""
     from viscofric.errors import ViscofricError
-    from viscofric.report import draw_figures, write_report
+    from viscofric.report import write_figures_and_report
     from viscofric.study import open_results
 
     try:
         found = open_results(results)
-        for figure in draw_figures(found.tree, found.folder / "figures"):
+        figures, report = write_figures_and_report(found.tree, found.folder)
+        for figure in figures:
             click.echo(f"figure   {figure}")
-        click.echo(f"report   {write_report(found.tree, found.folder)}")
+        click.echo(f"report   {report}")
     except ViscofricError as error:
         raise click.ClickException(str(error)) from error

@@ -43,15 +43,14 @@ def run_and_report(study: Path, output: Path) -> None:
     try:
         from viscofric.cli.progress import TerminalProgress
         from viscofric.errors import ViscofricError
-        from viscofric.report import draw_figures, write_report
+        from viscofric.report import write_figures_and_report
         from viscofric.study import run_study
 
         try:
             with TerminalProgress() as progress:
                 results = run_study(study, output=output, progress=progress)
                 progress("report", 0, 1)
-                figures = draw_figures(results.tree, results.folder / "figures")
-                report = write_report(results.tree, results.folder)
+                figures, report = write_figures_and_report(results.tree, results.folder)
                 progress("report", 1, 1)
         except ViscofricError as error:
             raise click.ClickException(str(error)) from error

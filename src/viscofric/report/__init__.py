@@ -22,7 +22,7 @@ if TYPE_CHECKING:
         plot_friction_curves,
         plot_friction_master_curve,
     )
-    from viscofric.report.html import write_report
+    from viscofric.report.html import write_figures_and_report, write_report
     from viscofric.report.inverse_figures import plot_identified_modulus, plot_shift_comparison
     from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_residuals
     from viscofric.report.shift_figures import plot_law_residuals, plot_shift_factors, plot_vertical_shift
@@ -49,6 +49,7 @@ _HOME = {
     "plot_van_gurp_palmen": "viscofric.report.consistency_figures",
     "plot_vertical_shift": "viscofric.report.shift_figures",
     "plot_wicket": "viscofric.report.consistency_figures",
+    "write_figures_and_report": "viscofric.report.html",
     "write_report": "viscofric.report.html",
 }
 
@@ -72,6 +73,7 @@ __all__ = [
     "plot_van_gurp_palmen",
     "plot_vertical_shift",
     "plot_wicket",
+    "write_figures_and_report",
     "write_report",
 ]
 

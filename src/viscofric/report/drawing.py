@@ -210,10 +210,14 @@ def draw_figures(tree: xr.DataTree, folder: str | Path) -> list[Path]:
     DataFileError
         If the folder or a file cannot be written.
     """
-    folder = Path(folder)
+    return save_images(figure_images(tree), Path(folder))
+
+
+def save_images(images: dict[str, dict[str, bytes]], folder: Path) -> list[Path]:
+    """Write what `figure_images` returned into a folder; see `draw_figures`."""
     written = []
-    for name, images in figure_images(tree).items():
-        for form, content in images.items():
+    for name, forms in images.items():
+        for form, content in forms.items():
             path = folder / f"{name}.{form}"
             write_atomically(path, content)
             written.append(path)

@@ -144,6 +144,9 @@ def _pairs(values: Array, errors: Array | None) -> list[str]:
     decimals = int(np.clip(1 - math.floor(math.log10(float(np.median(known)))), 0, 9))
     written = []
     for value, error in zip(values, errors, strict=True):
+        if value == 0.0 and math.isinf(error):  # not found at all
+            written.append(ABSENT)
+            continue
         doubt = f" ± {error:.{decimals}f}" if math.isfinite(error) else " ± ?"
         written.append(f"{value:z.{decimals}f}{doubt}".replace("-", "−"))
     return written

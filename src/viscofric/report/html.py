@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.files import write_atomically
 from viscofric.report.checks import all_checks
-from viscofric.report.drawing import figure_images
+from viscofric.report.drawing import figure_images, save_images
 from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
 from viscofric.report.messages import grouped_failures, readable
 from viscofric.report.results import group, is_synthetic, sentences, table
@@ -25,7 +25,31 @@ _HERE = Path(__file__).parent
 _MOST_KINDS_OF_FAILURE = 20
 
 
-def write_report(tree: xr.DataTree, folder: str | Path) -> Path:
+def write_figures_and_report(tree: xr.DataTree, folder: str | Path) -> tuple[list[Path], Path]:
+    """Draw a study's figures once, for files of their own and for the report.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Results of a study.
+    folder : str or Path
+        Where ``report.html`` goes, and ``figures`` with the figures; see `draw_figures` and `write_report`.
+
+    Returns
+    -------
+    figures : list of Path
+    report : Path
+
+    Raises
+    ------
+    DataFileError
+        If a file cannot be written.
+    """
+    images = figure_images(tree)
+    return save_images(images, Path(folder) / "figures"), write_report(tree, folder, images=images)
+
+
+def write_report(tree: xr.DataTree, folder: str | Path, *, images: dict[str, dict[str, bytes]] | None = None) -> Path:
     """Write the report of a study as one HTML file that loads nothing from elsewhere.
 
     Parameters
@@ -34,6 +58,8 @@ def write_report(tree: xr.DataTree, folder: str | Path) -> Path:
         Results of a study; the same results give the same bytes.
     folder : str or Path
         Where ``report.html`` goes; made if need be.  A report that is there is replaced.
+    images : dict, optional
+        The figures, as `viscofric.report.drawing.figure_images` returns them; drawn here if not given.
 
     Returns
     -------
@@ -55,17 +81,16 @@ def write_report(tree: xr.DataTree, folder: str | Path) -> Path:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    page = environment.get_template("report.html").render(_content(tree))
+    page = environment.get_template("report.html").render(_content(tree, images or figure_images(tree, ("svg",))))
     path = Path(folder) / "report.html"
     write_atomically(path, page.encode("utf-8", errors="replace"))
     return path
 
 
-def _content(tree: xr.DataTree) -> dict[str, Any]:
+def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, Any]:
     """Gather what the page shows, as texts."""
     attrs = {name: str(value) for name, value in tree.attrs.items()}
     said = captions(tree)
-    images = figure_images(tree, ("svg",))
     spectrum, agreement = group(tree, "spectrum"), group(tree, "agreement")
     return {
         "title": attrs.get("title") or "Viscoelastic friction",

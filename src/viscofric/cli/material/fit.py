@@ -84,7 +84,7 @@ def command(
     if asked["master_curve"] and len(files) > 1:
         raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
     with told():
-        from viscofric.report import draw_figures, write_report
+        from viscofric.report import write_figures_and_report
         from viscofric.study.rubber_results import run_material
 
         folder = files[0].with_suffix(".material") if output is None else output
@@ -98,8 +98,7 @@ def command(
             samples=samples,
             synthetic=synthetic,
         )
-        figures = draw_figures(results.tree, results.folder / "figures")
-        report = write_report(results.tree, results.folder)
+        figures, report = write_figures_and_report(results.tree, results.folder)
     _tell(results)
     for path in written:
         click.echo(f"file     {path}")
