@@ -12,10 +12,12 @@ from friction.identification.planted import BALL, LOAD, RUBBER
 from friction.synthetic_curves import curves_of
 from viscofric.errors import InputError
 from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.known_moduli import known_part
 from viscofric.friction.identification.moduli import compliance, log_modulus
 from viscofric.friction.identification.points import moderated_variances, usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
 from viscofric.friction.identification.smoothness import Smoothness
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 SPECTRUM = RUBBER.modes_at()
 COMPLIANCES = np.log([1.0 / SPECTRUM.E_inf, *SPECTRUM.C])
@@ -108,6 +110,26 @@ def test_draws_follow_a_density_that_is_not_normal() -> None:
     assert np.var(drawn[:, 0]) == pytest.approx(1.0, abs=0.2)
     assert np.mean(drawn[:, 1]) == pytest.approx(0.5, abs=0.16)
     assert np.var(drawn[:, 1]) == pytest.approx(1.5, abs=0.4)
+
+
+def test_a_known_modulus_is_the_same_from_a_material_and_from_its_samples() -> None:
+    """A material's errors are those stated; samples bring their own, with their correlation."""
+    levels = 1.0 + 0.05 * np.random.default_rng(4).normal(size=80)
+    materials = tuple(vf.Material(SPECTRUM.shifted(1.0, float(level)), RUBBER.shift) for level in levels)
+    C = np.array([one.modes_at().C for one in materials])
+    samples = MaterialSamples(materials, C, np.tile(SPECTRUM.tau, (80, 1)), (0.1, 10.0))
+    (storage, loss), whitening = known_part(samples, None, 0.02, 300.0)
+    assert storage.temperature == RUBBER.reference
+    assert len(storage.log_frequency) == 9  # four per decade
+    E = RUBBER.complex_modulus(np.exp(storage.log_frequency))
+    # The mean of 80 levels that scatter by 5 %: 0.6 %.
+    np.testing.assert_allclose(storage.log_modulus, np.log(E.real), atol=0.025)
+    np.testing.assert_allclose(loss.log_modulus, np.log(E.imag), atol=0.025)
+    # All moduli move together: a change of level is one standard deviation, of shape many.
+    assert np.linalg.norm(whitening @ np.full(18, 0.05)) == pytest.approx(1.0, rel=0.25)
+    assert np.linalg.norm(whitening @ np.tile([0.05, -0.05], 9)) > 10.0
+    _, alone = known_part(RUBBER, (0.1, 10.0), 0.02, 300.0)
+    np.testing.assert_allclose(alone, np.eye(18) / 0.02)
 
 
 def test_evidence_of_a_linear_problem_is_its_marginal_likelihood() -> None:
