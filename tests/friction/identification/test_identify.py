@@ -134,7 +134,7 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
     with pytest.raises(InputError, match="shift must be a law"):
         vf.identify_material(curves, shift=1.0, **SETTINGS)
     with pytest.raises(InputError, match="modes = 3"):
-        vf.identify_material(curves, modes=3, **SETTINGS)
+        vf.identify_material(curves, **(SETTINGS | {"modes": 3}))
     with pytest.raises(InputError, match="sits on its edges"):
         vf.identify_material(curves, indenter=vf.FlatPunch(radius="1 mm"))
     with pytest.raises(InputError, match="indentation and half_width"):
