@@ -221,7 +221,7 @@ def test_instant_displacement_joins_the_memory() -> None:
 @pytest.mark.parametrize("order", [7, 12, 16])
 def test_product_rule_integrates_fading_polynomials(order: int) -> None:
     """∫_0^1 ε e^(−ε s) s^k ds = k!/ε^k P(k + 1, ε), on both sides of where the moments' formula changes."""
-    rates = np.array([1e-12, 1e-3, 0.7, 5.0, 31.9, 32.1, 1e3, 1e10])
+    rates = np.array([1e-12, 1e-3, 0.11, 0.12, 0.7, 1.11, 1.12, 2.87, 2.88, 5.0, 31.9, 32.1, 1e3, 1e10])
     points = 0.5 * (np.polynomial.legendre.leggauss(order)[0] + 1.0)
     for k in range(order):
         found = product_weights(order, rates) @ points**k

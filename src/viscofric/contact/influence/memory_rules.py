@@ -7,6 +7,7 @@ complex, with small imaginary parts: everything is analytic in them.
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 # recurrence of the moments loses no more than three.
 _STEEP = 32.0
 _FINE = 40
+_ROUNDING = 1e-17
 
 
 def faded(exponent: Inexact) -> Inexact:
@@ -43,12 +45,12 @@ def applied(weights: Inexact, values: Array) -> Inexact:
 
 
 @lru_cache(maxsize=16)
-def gauss_points(order: int) -> tuple[Array, Array]:
-    """Gauss points on [0, 1] and the matrix that turns values there into Legendre coefficients."""
+def gauss_points(order: int) -> tuple[Array, Array, Array]:
+    """Gauss points on [0, 1], the matrix that turns values there into Legendre coefficients, and the weights."""
     t, weight = np.polynomial.legendre.leggauss(order)
     degree = np.arange(order)[:, None]
     to_legendre = (degree + 0.5) * weight * eval_legendre(degree, t)
-    return 0.5 * (t + 1.0), to_legendre
+    return 0.5 * (t + 1.0), to_legendre, 0.5 * weight
 
 
 @lru_cache(maxsize=16)
@@ -78,24 +80,41 @@ def product_weights(order: int, rate: Inexact) -> Inexact:
     (DLMF 10.47.7), with M_{n+1} = M_{n−1} + (4n + 2)/ε M_n.
     """
     fading = rate.reshape(-1, 1)
-    return applied(_moments(order, fading), gauss_points(order)[1]).reshape(*rate.shape, order)
+    size = fading[:, 0].real
+    flat, steep = size <= _flat(order), size > _STEEP
+    between = ~(flat | steep)
+    weights = np.empty((len(fading), order), rate.dtype)
+    # So flat an exponential is itself a polynomial that the points' own rule integrates along with the function.
+    points, to_legendre, rule = gauss_points(order)
+    if flat.any():
+        weights[flat] = _exponential(fading[flat], points) * rule
+    for which, moments in ((between, _gentle_moments), (steep, _steep_moments)):
+        if which.any():
+            weights[which] = applied(moments(order, fading[which]), to_legendre)
+    return weights.reshape(*rate.shape, order)
 
 
-def _moments(order: int, rate: Inexact) -> Inexact:
+def _flat(order: int) -> float:
+    """Rate up to which Chebyshev's series of e^(−ε s), with coefficients below (ε/4)^n/n!, ends with the degree n."""
+    return float(4.0 * (_ROUNDING * math.factorial(order + 1)) ** (1.0 / (order + 1)))
+
+
+def _exponential(rate: Inexact, points: Array) -> Inexact:
+    """Return ε e^(−ε s), to first order in an imaginary part: (k, 1) rates, (k, points)."""
+    exponent = rate.real * points
+    fading = np.asarray(rate.real * np.exp(-exponent))
+    if not np.iscomplexobj(rate):
+        return fading
+    result = np.empty(exponent.shape, complex)
+    # By the derivative with ln ε.
+    result.real, result.imag = fading, rate.imag / rate.real * (fading * (1.0 - exponent))
+    return result
+
+
+def _gentle_moments(order: int, rate: Inexact) -> Inexact:
     """Return ∫_0^1 ε e^(−ε s) P_n(2 s − 1) ds of the Legendre polynomials below a degree: (k, 1) rates, (k, order)."""
-    steep = rate[:, 0].real > _STEEP
     points, polynomials = _fine_rule(order)
-    gentle = np.where(steep[:, None], _STEEP, rate.real)
-    exponent = gentle * points
-    exponential = gentle * np.exp(-exponent)
-    moments: Inexact = exponential @ polynomials
-    if np.iscomplexobj(rate):
-        # To first order in the imaginary part, by the derivative with ln ε.
-        exponential *= exponent - 1.0
-        moments = moments - 1j * (rate.imag / rate.real * (exponential @ polynomials))
-    if steep.any():
-        moments[steep] = _steep_moments(order, rate[steep])
-    return moments
+    return applied(_exponential(rate, points), polynomials)
 
 
 def _steep_moments(order: int, rate: Inexact) -> Inexact:
