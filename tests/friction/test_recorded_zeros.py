@@ -13,8 +13,10 @@ from scipy.stats import binom
 
 from friction.made_runs import FOUR, exported_runs, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
+from viscofric.friction.measurement.conditions import Condition
 from viscofric.friction.measurement.entry import Entry
 from viscofric.friction.measurement.tribometry import separate
+from viscofric.friction.measurement.zeros import Zeros
 
 if TYPE_CHECKING:
     from viscofric.data import TractionRuns
@@ -120,6 +122,26 @@ def test_the_error_of_a_zero_that_all_replicates_share_is_told_by_the_other_reco
     low_count, high_count = binom.interval(1 - 1e-6, 480, 0.95)
     for name, count in held.items():
         assert low_count <= count <= high_count, (name, count)
+
+
+@pytest.mark.parametrize("sharing", [[0, 1, 2, 3], [0, 0, 1, 1], [0, 0, 0, 1], [0, 0, 0, 0]])
+def test_replicates_that_share_recordings_do_not_count_their_errors_twice(sharing: list[int]) -> None:
+    """What scatter shows of the zeros' errors and what is added make up the variance of the mean."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03, configurations=FOUR[2:], speeds=[0.1], temperatures=[303.15], replicates=4
+    )
+    recording = np.array(sharing)[runs.replicate - 1]
+    rows = np.arange(len(runs))
+    group = Condition(rows, 303.15, 0.1, 25.0, 0.02, np.sign(runs.disc_speed), np.sign(runs.disc_speed))
+    zeros = Zeros(np.zeros(len(runs)), recording, 0.1, 5.0, False, np.zeros(4))
+    # The mean of two readings in each of four replicates.
+    operator = np.full((4, len(runs)), 1.0 / len(runs))
+    added = zeros.variance(group, operator, runs.replicate - 1)
+    drawn = 0.1 * np.random.default_rng(4).standard_normal((20000, 4))[:, sharing]
+    shown, true = drawn.var(axis=1, ddof=1).mean() / 4.0, drawn.mean(axis=1).var()
+    # Variances of 20000 draws are known to 1 %; five of that.
+    np.testing.assert_allclose(shown + added, true, rtol=0.05)
+    np.testing.assert_allclose(zeros.variance(group, operator, None), true, rtol=0.05)
 
 
 @pytest.mark.slow
@@ -248,6 +270,16 @@ def test_conditions_that_cannot_be_separated_are_left_out_and_said() -> None:
     (note,) = curves.notes
     assert "At 3 of 9 conditions" in note
     assert "these readings are left out" in note
+
+
+def test_a_wrong_zero_is_named_where_it_alone_can_make_viscoelastic_friction_negative() -> None:
+    """Coulomb friction, the half-difference, is positive, so that the sign of the force is right."""
+    curves = separate(replace(exported_runs(noise=0.01), zero_force=np.full(96, 2.0)))
+    assert np.all(curves.viscoelastic < 0.0)
+    (note,) = [note for note in curves.notes if "is negative" in note]
+    assert "Coulomb friction is positive as it should be" in note
+    assert "the zero of the force cell is another one at these readings" in note
+    assert "sign of the force" not in note
 
 
 def test_a_wrong_recorded_zero_does_no_harm_to_four_configurations_and_is_found() -> None:

@@ -134,6 +134,7 @@ class Fit:
         residual, checked = residuals(design, fourth, operator * scale[:, None], target)
         unknowns = int(np.count_nonzero(np.any(design != 0.0, axis=0)))
         operator /= len(parts)
+        independent = replicate if len(parts) > 1 else step if step.max() > _FEWEST_STEPS else None
         return cls(
             group=group,
             each=each,
@@ -149,9 +150,7 @@ class Fit:
             operator=operator,
             step=step,
             freedom=(load.size - unknowns, load.size - unknowns - 1 if checks else 0),
-            zero_variance=np.zeros(4)
-            if offset
-            else zeros.variance(group, operator, *((replicate, True) if len(parts) > 1 else (step, step.max() > 3))),
+            zero_variance=np.zeros(4) if offset else zeros.variance(group, operator, independent),
             coulomb_variance=np.zeros(4) if coulomb is None else (coulomb[1] * (operator @ pattern)) ** 2,
         )
 

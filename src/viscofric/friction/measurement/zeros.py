@@ -103,16 +103,22 @@ class Zeros:
         """Whether the zero is known behind every reading of a condition."""
         return bool(np.all(np.isfinite(self.of(group))))
 
-    def variance(self, group: Condition, operator: Array, replicate: NDArray[np.intp], by_replicate: bool) -> Array:
+    def variance(self, group: Condition, operator: Array, part: NDArray[np.intp] | None) -> Array:
         """Return what the errors of the recordings leave in coefficients (4,) that `operator` makes of readings.
 
-        Zero where replicates are fitted by themselves and share no recording: their scatter shows it then.
+        Parts of the readings whose scatter tells errors (`part` numbers them) show it as far as their recordings
+        differ: all of it where each has its own, nothing where they share one.  What they show is taken off.
         """
         _, which = np.unique(self.recording[group.rows], return_inverse=True)
-        pairs = np.unique(which * (replicate.max() + 1) + replicate)
-        if by_replicate and pairs.size == which.max() + 1:
-            return np.zeros(4)
-        return self.error**2 * np.array([np.sum(np.bincount(which, row) ** 2) for row in operator])
+        recordings = int(which.max()) + 1
+        left = np.array([np.sum(np.bincount(which, row) ** 2) for row in operator])
+        if part is not None:
+            parts = int(part.max()) + 1
+            among = part * recordings + which
+            squares = np.array([np.sum(np.bincount(among, row) ** 2) for row in operator])
+            # The variance of a mean that the scatter of its terms is expected to show, less that of what they share.
+            left = np.maximum(left - (parts * squares - left) / (parts - 1), 0.0)
+        return self.error**2 * left
 
     def fitted(self, group: Condition, *, coulomb: bool) -> bool:
         """Whether a condition's zero is fitted: where nobody gives it and the signs tell it."""
