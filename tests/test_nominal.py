@@ -9,23 +9,23 @@ from viscofric.errors import InputError
 from viscofric.nominal import clusters, numbered
 
 
-def shown(low, high):
-    return f"speed from {low:g} to {high:g}"
+def refusal(low, high):
+    return f"speed from {low:g} to {high:g} has no gap."
 
 
 def test_a_gap_starts_the_next_nominal_value():
     values = np.array([2.01, 1.0, 1.99, 1.01, 0.99])
     assert list(numbered(values, 0.05 * values)) == [1, 0, 1, 0, 0]
-    assert list(clusters(values, 0.05 * values, shown)) == [1, 0, 1, 0, 0]
+    assert list(clusters(values, 0.05 * values, refusal)) == [1, 0, 1, 0, 0]
 
 
 def test_scatter_that_stretches_on_and_on_is_refused_by_name():
     values = np.linspace(1.0, 2.0, 101)
     assert not numbered(values, np.full(values.shape, 0.05)).any()
     with pytest.raises(InputError, match=r"speed from 1 to 2 has no gap"):
-        clusters(values, np.full(values.shape, 0.05), shown)
+        clusters(values, np.full(values.shape, 0.05), refusal)
 
 
 def test_no_values_have_no_nominal_values():
     assert numbered(np.empty(0), np.empty(0)).size == 0
-    assert clusters(np.empty(0), np.empty(0), shown).size == 0
+    assert clusters(np.empty(0), np.empty(0), refusal).size == 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from viscofric.steps import TractionStep, summarised
 from viscofric.units import positive
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     Array: TypeAlias = NDArray[np.float64]
@@ -252,13 +254,21 @@ class TractionRuns:
     def __len__(self) -> int:
         return len(self.disc_speed)
 
-    def select(self, rows: ArrayLike) -> TractionRuns:
-        """Return some of the readings, such as ``runs.select(runs.temperature > 330)``.
+    def select(
+        self,
+        rows: ArrayLike | None = None,
+        *,
+        steps: int | Sequence[int] | None = None,
+        except_steps: int | Sequence[int] | None = None,
+    ) -> TractionRuns:
+        """Return some of the readings: ``runs.select(runs.temperature > 330)``, ``runs.select(steps=[2, 4])``.
 
         Parameters
         ----------
-        rows : (n,) array of bool, or array of int
-            Which readings to keep, or their places.
+        rows : (n,) array of bool, or array of int, optional
+            Which readings to keep, or their places; if left out, all.
+        steps, except_steps : int or sequence of int, optional
+            Numbers of the steps to keep, or to leave out, of these readings.
 
         Returns
         -------
@@ -268,21 +278,37 @@ class TractionRuns:
         Raises
         ------
         InputError
-            If nothing is selected, or `rows` does not fit the readings.
+            If nothing is selected, `rows` does not fit the readings, or there are no such steps.
         """
-        chosen = np.asarray(rows)
+        chosen = np.arange(len(self)) if rows is None else np.asarray(rows)
         if chosen.dtype == bool and chosen.shape == (len(self),):
             chosen = np.flatnonzero(chosen)
         elif chosen.ndim != 1 or not np.issubdtype(chosen.dtype, np.integer):
             raise InputError(f"select needs true or false for each of the {len(self)} readings, or their places.")
+        if chosen.size and (chosen.min() < -len(self) or chosen.max() >= len(self)):
+            raise InputError(f"select names a reading beyond the {len(self)} that there are.")
+        for name, wanted, keep in (("steps", steps, True), ("except_steps", except_steps, False)):
+            if wanted is not None:
+                chosen = chosen[self._in_steps(name, wanted)[chosen] == keep]
         if not chosen.size:
             raise InputError("select would leave no reading; see steps for what there is.")
-        if chosen.min() < -len(self) or chosen.max() >= len(self):
-            raise InputError(f"select names a reading beyond the {len(self)} that there are.")
-        columns = {
+        columns: dict[str, Any] = {
             column.name: value[chosen]
             for column in fields(self)
             if isinstance(value := getattr(self, column.name), np.ndarray)
         }
         note = f"{chosen.size} of {len(self)} readings are selected."
         return replace(self, **columns, notes=(*self.notes, note))
+
+    def _in_steps(self, name: str, wanted: int | Sequence[int]) -> NDArray[np.bool_]:
+        """Tell which readings belong to some steps, all of which there must be."""
+        if self.step is None:
+            raise InputError(f"{name} = {wanted!r}: these traction runs do not say what steps they are of.")
+        numbers = np.atleast_1d(np.asarray(wanted))
+        known = np.isin(numbers, self.step)
+        if not np.all(known):
+            raise InputError(
+                f"{name} = {wanted!r}: there is no step {numbers[~known][0]}; steps go from {self.step.min()} to "
+                f"{self.step.max()}."
+            )
+        return np.isin(self.step, numbers)

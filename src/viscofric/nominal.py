@@ -21,9 +21,8 @@ SAME_TEMPERATURE = 1.0  # K
 SAME_SPEED = 0.05  # relative
 SAME_LOAD = 0.05  # relative
 
-# Readings that follow each other so closely that they stretch over this many tolerances are not one
-# condition.
-_LONGEST_CHAIN = 4.0
+#: Readings that follow each other so closely that they stretch over more tolerances are not one condition.
+LONGEST_CHAIN = 4.0
 
 
 def numbered(values: Array, allowed: Array) -> Labels:
@@ -47,7 +46,7 @@ def numbered(values: Array, allowed: Array) -> Labels:
     return labels
 
 
-def clusters(values: Array, allowed: Array, shown: Callable[[float, float], str]) -> Labels:
+def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str]) -> Labels:
     """Give nominal values numbers as `numbered` does, and insist that they can be told from scatter.
 
     Parameters
@@ -55,8 +54,8 @@ def clusters(values: Array, allowed: Array, shown: Callable[[float, float], str]
     values : (n,) array
     allowed : (n,) array
         The widest gap that each value may have to its neighbour of the same nominal value.
-    shown : callable
-        Puts the field and a range of its values into words, for the error message.
+    refusal : callable
+        The sentence that refuses readings without gaps, from their lowest and highest value.
 
     Raises
     ------
@@ -70,9 +69,6 @@ def clusters(values: Array, allowed: Array, shown: Callable[[float, float], str]
         if not values.size:
             break
         low, high = float(values[order[first]]), float(values[order[last]])
-        if high - low > _LONGEST_CHAIN * max(allowed[order[first]], allowed[order[last]]):
-            raise InputError(
-                f"{shown(low, high)} has no gap that would tell nominal values from scatter; give a smaller "
-                "tolerance or leave out the readings in between."
-            )
+        if high - low > LONGEST_CHAIN * max(allowed[order[first]], allowed[order[last]]):
+            raise InputError(refusal(low, high))
     return labels

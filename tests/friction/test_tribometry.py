@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from dataclasses import replace
 from time import process_time
 
@@ -327,13 +329,55 @@ def test_a_broken_test_is_noted_by_its_consistency() -> None:
     assert separate(runs).notes == ()
 
 
-def test_reversed_signs_are_noted() -> None:
-    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=3, noise=0.01)
-    reversed_force = runs_from(rows_of(runs) * [1, 1, -1, 1, 1, 1])
-    notes = separate(reversed_force).notes
-    assert sum("friction coefficient is negative" in note for note in notes) == 2
-    assert "viscoelastic" in notes[0]
-    assert "probably reversed" in notes[0]
+@pytest.mark.parametrize(
+    ("signs", "names", "reason"),
+    [
+        ([1, 1, -1], {"viscoelastic", "Coulomb"}, "sign of the force, or of the velocities, is reversed"),
+        ([-1, -1, 1], {"viscoelastic", "Coulomb"}, "sign of the force, or of the velocities, is reversed"),
+        # The sense of slip alone, as where disc and ball are exchanged at a constant mean speed.
+        ([1, 1, 1], {"Coulomb"}, "speeds of disc and ball are exchanged"),
+        # And the force reversed.
+        ([1, 1, -1], {"viscoelastic"}, "disc turns against the sign of its speed"),
+    ],
+)
+def test_negative_friction_is_noted_with_what_can_be_its_reason(signs: list[int], names: set[str], reason: str) -> None:
+    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=3, noise=0.01)) * [*signs, 1, 1, 1]
+    if len(names) == 1:
+        rows[:, 1] = 2.0 * rows[:, 0] - rows[:, 1]
+    notes = [note for note in separate(runs_from(rows)).notes if "is negative" in note]
+    assert {note.split(" friction coefficient")[0].split()[-1] for note in notes} == names
+    assert all(reason in note for note in notes)
+
+
+@pytest.mark.parametrize("field", ["load", "temperature", "disc_speed"])
+def test_values_without_gaps_are_refused_with_what_helps(field: str) -> None:
+    """The steps that were not steady are named; what the sentence tells to do is done here, and helps."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, speeds=[0.1], temperatures=[303.15], replicates=24)
+    step = np.digitize(runs.replicate, [3, 5, 23]) + 1
+    ramp = np.where(step == 3, 0.02 * (runs.replicate - 5), 0.0)
+    changed = {
+        "load": {"load": runs.load * (1.0 - ramp), "traction_force": 0.3 + (runs.traction_force - 0.3) * (1.0 - ramp)},
+        "temperature": {"temperature": runs.temperature + 20.0 * ramp},
+        "disc_speed": {"disc_speed": runs.disc_speed * (1.0 - ramp), "ball_speed": runs.ball_speed * (1.0 - ramp)},
+    }[field]
+    runs = replace(runs, step=step, **changed)
+    with pytest.raises(InputError, match=rf"{field} from .* step 3 is not steady") as refused:
+        separate(runs)
+    (numbers,) = re.findall(r"runs\.select\(except_steps=(\[.*?\])\)", str(refused.value))
+    curves = separate(runs.select(except_steps=ast.literal_eval(numbers)))
+    assert curves.viscoelastic == pytest.approx([0.03], rel=ROUNDING)
+
+
+def test_a_drift_of_the_temperature_is_separated_with_the_tolerance_that_is_told() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, speeds=[0.1], temperatures=[303.15], replicates=30)
+    runs = replace(runs, temperature=303.15 + 0.15 * runs.replicate)
+    with pytest.raises(InputError, match="has no gap") as refused:
+        separate(runs)
+    (told,) = re.findall(r"give temperature_tolerance = (\S+) K", str(refused.value))
+    assert separate(runs, temperature_tolerance=float(told)).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
+    ((middle, half),) = re.findall(r"runs\.select\(abs\(runs\.temperature - (\S+)\) < (\S+)\)", str(refused.value))
+    steady = runs.select(abs(runs.temperature - float(middle)) < float(half))
+    assert separate(steady).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
 
 
 def test_an_outlier_is_noted_and_kept() -> None:

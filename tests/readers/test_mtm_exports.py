@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -301,6 +303,15 @@ def test_readings_can_be_selected(mtm):
     ):
         with pytest.raises(InputError, match=says):
             mtm.select(wrong)
+    numbers = [step.number for step in mtm.steps]
+    assert [step.number for step in mtm.select(steps=numbers[:2]).steps] == numbers[:2]
+    assert [step.number for step in mtm.select(except_steps=numbers[0]).steps] == numbers[1:]
+    slow = mtm.select(mtm.step < numbers[2], steps=numbers[1:])
+    assert [step.number for step in slow.steps] == numbers[1:2]
+    with pytest.raises(InputError, match="there is no step 77; steps go from 2 to 5"):
+        mtm.select(steps=[2, 77])
+    with pytest.raises(InputError, match="do not say what steps"):
+        replace(mtm, step=None, steps=()).select(except_steps=2)
 
 
 # Real exports ------------------------------------------------------------------------------------------------------

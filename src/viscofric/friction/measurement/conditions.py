@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.measurement.gapless import Gapless
 from viscofric.nominal import SAME_LOAD, clusters
 from viscofric.units import celsius
 
@@ -101,7 +102,7 @@ def conditions(
         If neighbouring values are too close to tell nominal values from each other.
     """
     moving = np.flatnonzero((runs.disc_speed != 0.0) & (course.speed > 0.0))
-    notes = []
+    notes = list(course.notes)
     if moving.size < len(runs):
         notes.append(
             f"{len(runs) - moving.size} of {len(runs)} readings were taken with the disc at rest and left out."
@@ -112,13 +113,33 @@ def conditions(
     isotherm = clusters(
         temperature,
         np.full(temperature.size, temperature_tolerance),
-        lambda low, high: f"temperature from {celsius(low):z.1f} to {celsius(high):z.1f} °C",
+        Gapless(
+            runs,
+            runs.temperature,
+            "runs.temperature",
+            lambda low, high: f"temperature from {celsius(low):z.1f} to {celsius(high):z.1f} °C",
+            temperature_tolerance,
+            relative=False,
+            option="temperature_tolerance",
+            unit=" K",
+        ),
     )
-    loading = clusters(load, SAME_LOAD * load, lambda low, high: f"load from {low:.4g} to {high:.4g} N")
+    loading = clusters(
+        load,
+        SAME_LOAD * load,
+        Gapless(runs, runs.load, "runs.load", lambda low, high: f"load from {low:.4g} to {high:.4g} N", gap=SAME_LOAD),
+    )
     pace = clusters(
         speed,
         speed_tolerance * speed,
-        lambda low, high: f"disc_speed from {1e3 * low:.4g} to {1e3 * high:.4g} mm/s",
+        Gapless(
+            runs,
+            course.speed,
+            "abs(runs.disc_speed)",
+            lambda low, high: f"disc_speed from {1e3 * low:.4g} to {1e3 * high:.4g} mm/s",
+            speed_tolerance,
+            option="speed_tolerance",
+        ),
     )
     mean_speed = np.bincount(pace, speed) / np.bincount(pace)
     mean_temperature = np.bincount(isotherm, temperature) / np.bincount(isotherm)
@@ -147,7 +168,7 @@ def conditions(
     if rolling:
         notes.append(
             f"{where(rolling, len(found))} the slip ({1e3 * rolling[0].slip:.2g} mm/s) cannot be told from "
-            "none and is taken for pure rolling."
+            "none and is taken for pure rolling; Coulomb friction of such slip is in viscoelastic friction."
         )
     if swept:
         notes.append(
@@ -179,7 +200,8 @@ def _slips(ratio: Array, tolerance: float, resolution: float) -> tuple[Array, La
         return clusters(
             values,
             np.maximum(tolerance * np.abs(values), resolution),
-            lambda low, high: f"slip from {100 * low:.3g} to {100 * high:.3g} % of the disc's speed",
+            # Not seen by users: slip without gaps is cut into intervals.
+            lambda low, high: f"slip from {low:.3g} to {high:.3g} of the disc's speed has no gap.",
         )
 
     try:
@@ -189,7 +211,7 @@ def _slips(ratio: Array, tolerance: float, resolution: float) -> tuple[Array, La
         low, high = np.full(count.size, np.inf), np.full(count.size, -np.inf)
         np.minimum.at(low, signed, ratio)
         np.maximum.at(high, signed, ratio)
-        rolls = ((low < 0.0) & (high > 0.0)) | (np.abs(mean) < _PURE_ROLLING)
+        rolls = ((low <= 0.0) & (high >= 0.0)) | (np.abs(mean) < _PURE_ROLLING)
         direction = np.where(rolls, 0.0, np.sign(mean))[signed]
         magnitude = np.where(rolls, 0.0, np.abs(mean))[signed]
         # Rolling stays apart from sliding, however slow.

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from viscofric.data import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
+    Labels: TypeAlias = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,31 +26,59 @@ class Course:
         Magnitude, m/s: one for all readings that belong together.
     slip : (n,) array
         Slip over that speed, above zero where the disc is faster than the ball.
+    notes : tuple of str
     """
 
     speed: Array
     slip: Array
+    notes: tuple[str, ...] = ()
 
 
 def of_the_disc(runs: TractionRuns) -> Course:
     """Take each reading at the disc's speed; those of one point of a test at their mean.
 
     A machine that reverses slip at a constant mean speed of disc and ball moves its disc faster with one
-    direction of slip than with the other; readings of one step and time are nevertheless one point.
+    direction of slip than with the other; readings of one step and time are nevertheless one point.  Where such a
+    machine fails to reverse the slip, this is smaller than its own error and counts as none.
     """
     speed = np.abs(runs.disc_speed)
     sense = np.sign(runs.disc_speed)
     slip = sense * (runs.disc_speed - runs.ball_speed)
+    notes: tuple[str, ...] = ()
     if runs.step is not None and runs.time is not None:
         timed = np.flatnonzero(np.isfinite(runs.time) & (sense != 0.0))
         _, point = np.unique(np.stack([runs.step[timed], runs.time[timed]], axis=1), axis=0, return_inverse=True)
         point = point.reshape(-1)
         opposed = np.bincount(point, slip[timed] > 0.0) * np.bincount(point, slip[timed] < 0.0) > 0.0
+        unclear = timed[_unreversed(runs.step[timed], point, opposed, slip[timed] / speed[timed])]
+        if unclear.size:
+            largest = 1e3 * float(np.abs(slip[unclear]).max())
+            told = (
+                f"In {unclear.size} of {len(runs)} readings the slip, at most {largest:.2g} mm/s, is not reversed "
+                "within the point of the test as in the other points of the step: it is below its error there and "
+                "counts as none."
+            )
+            notes = (told,)
+            slip[unclear] = 0.0
         for values in (speed, slip):
             size = np.abs(values[timed])
             mean = (np.bincount(point, size) / np.bincount(point))[point]
             values[timed] = np.where(opposed[point], np.copysign(mean, values[timed]), values[timed])
-    return Course(speed, slip / np.where(speed > 0.0, speed, 1.0))
+    return Course(speed, slip / np.where(speed > 0.0, speed, 1.0), notes)
+
+
+def _unreversed(step: Labels, point: Labels, opposed: NDArray[np.bool_], slip: Array) -> NDArray[np.bool_]:
+    """Find the readings of points where small slip is not reversed though most points of the step reverse theirs."""
+    several = np.bincount(point) > 1
+    _, number = np.unique(step, return_inverse=True)
+    step_of = np.zeros(opposed.size, dtype=np.intp)
+    step_of[point] = number.reshape(-1)
+    reverses = 2 * np.bincount(step_of, opposed & several) > np.bincount(step_of, several)
+    size = np.abs(slip)
+    largest = np.zeros(opposed.size)
+    np.maximum.at(largest, point, size)
+    usual = float(np.median(size[opposed[point]])) if np.any(opposed) else 0.0
+    return np.asarray((several & ~opposed & reverses[step_of] & (largest < usual))[point])
 
 
 def of_both(runs: TractionRuns) -> Course:

@@ -46,18 +46,45 @@ def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[str]:
 
 
 def _negative(fits: list[Fit], entries: list[Entry]) -> list[str]:
-    notes, groups = [], [fit.group for fit in fits]
-    for number, name in ((1, "viscoelastic"), (2, "Coulomb")):
+    """Note negative coefficients, by what can be the reason for each."""
+    groups = [fit.group for fit in fits]
+    notes = []
+    for number, name, reason in ((1, "viscoelastic", _why_viscoelastic), (2, "Coulomb", _why_coulomb)):
         deviation = np.array([-entry.value[number] for entry in entries])
-        negative = _significant(groups, entries, number, deviation)
-        if negative:
-            or_zero = "" if number == 2 or fits[negative[0]].fits_offset else ", or the zero of the force cell is wrong"
-            notes.append(
-                f"{where([groups[one] for one in negative], len(groups))} the {name} friction coefficient is negative "
-                f"({_shown(entries[negative[0]], number)}): the sign of the force or of a velocity is probably "
-                f"reversed{or_zero}."
-            )
+        reasons = defaultdict(list)
+        for place in _significant(groups, entries, number, deviation):
+            reasons[reason(fits[place], entries[place])].append(place)
+        notes += [
+            f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is negative "
+            f"({_shown(entries[places[0]], number)}): {why}."
+            for why, places in reasons.items()
+        ]
     return notes
+
+
+def _why_viscoelastic(fit: Fit, entry: Entry) -> str:
+    """Say what can make viscoelastic friction negative: not the sign of a force with positive Coulomb friction."""
+    measured = entry.slides and fit.coulomb is None
+    reasons = []
+    if not measured or entry.value[2] <= 0.0:
+        reasons.append("the sign of the force, or of the velocities, is reversed")
+    elif fit.fits_offset:
+        reasons.append("the zero of the force cell differs between the directions of the disc")
+    if not fit.fits_offset:
+        reasons.append("the zero of the force cell is another one at these readings than the one that is used")
+    if fit.coulomb is not None and entry.slides:
+        reasons.append("Coulomb friction is not the one assumed")
+    if measured and entry.value[2] > 0.0:
+        reasons.append("the disc turns against the sign of its speed")
+    sound = "Coulomb friction is positive as it should be, so that probably " if len(reasons) > 1 and measured else ""
+    return f"{sound or 'probably '}{', or '.join(reasons)}"
+
+
+def _why_coulomb(fit: Fit, entry: Entry) -> str:
+    """Say what can make Coulomb friction negative."""
+    if entry.value[1] > 0.0 and fit.fits_offset:
+        return "probably the speeds of disc and ball are exchanged"
+    return "probably the sign of the force, or of the velocities, is reversed"
 
 
 def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[str]:

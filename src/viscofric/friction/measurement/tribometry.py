@@ -17,6 +17,7 @@ from viscofric.friction.measurement.outliers import outliers as far_readings
 from viscofric.friction.measurement.outliers import told_of
 from viscofric.friction.measurement.separation import Fit
 from viscofric.friction.measurement.uneven import Uneven
+from viscofric.friction.measurement.unnoticed_slip import unnoticed_slip
 from viscofric.friction.measurement.zeros import Zeros
 from viscofric.units import Quantity, positive
 
@@ -101,8 +102,12 @@ def separate(
     One direction of the disc with slip reversed gives O + F_v, half the sum of the two forces, and F_c, half their
     difference, so that viscoelastic friction is no better known than O.  Each reading is then taken above the zero
     recorded with it.  The standard error of one recording, √(½ mean (z_{k+1} − z_k)²) over the recordings of the
-    test, enters those of friction, unless each replicate has recordings of its own, whose errors its scatter shows.
-    Degrees of freedom are put together after Welch and Satterthwaite.
+    test, enters those of friction as far as the scatter of the replicates does not show it: not where each has
+    recordings of its own, in full where they share one.  Degrees of freedom are put together after Welch and
+    Satterthwaite.
+
+    Slip that cannot be told from none is taken for pure rolling, though it may hold much of Coulomb friction.  Where
+    readings with slip at the same temperature, load and speed contradict it, it is left out.
 
     A zero that moves evenly with time is found in the zeros of repeated conditions by a line of one slope through
     each, and taken out before configurations measured one after the other are compared; zeros that were recorded
@@ -188,12 +193,17 @@ class _Separation:
         for _ in range(_ROUNDS if uneven else 0):
             uneven = uneven.with_slopes(groups, entries)
             fits, drift, entries = separated()
+        slipping, told = unnoticed_slip(fits, entries)
+        fits = [fit for place, fit in enumerate(fits) if place not in slipping]
+        entries = [entry for place, entry in enumerate(entries) if place not in slipping]
+        groups = [fit.group for fit in fits]
         entries, places = assumed.completed(fits, entries)
         resting = [fit.group for fit in fits if not fit.fits_offset]
         load = float(np.mean([fit.group.load for fit in fits]))
         notes = [
             *grouping.notes,
-            *uneven.notes(groups),
+            *uneven.notes(grouping.groups),
+            *told,
             *zeros.notes(groups, resting),
             *zeros.drift(load),
             *drift.notes(fits),
