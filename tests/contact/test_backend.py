@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 import sys
 from functools import cache
@@ -111,8 +112,9 @@ def test_accelerated_splitting_is_the_same_with_any_arrays_and_ffts(precision: t
         operator = PeriodicOperator(transfer, (32, 32), precision, where)
         guess = np.ones((32, 32))
         found = split_steps(
-            operator, height, guess, load=10.0, indentation=None, steps=12, stiffness=0.5, accelerated=True
-        )
+            operator, height, guess, load=10.0, indentation=None, steps=12, accelerated=True,
+            rho=0.5 * math.sqrt(math.prod(operator.compliance_range)),
+        )  # fmt: skip
         return where.to_numpy(found)
 
     expected = pressures(Backend())

@@ -14,7 +14,7 @@ from contact.dense_reference import solve_dense_contact
 from contact.made_surfaces import self_affine
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.layers import Layer
-from viscofric.contact.periodic.blocks import Blocks, block_size
+from viscofric.contact.periodic.blocks import Blocks, block_sizes
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.splitting import split_steps
@@ -448,8 +448,8 @@ def test_splitting_converges_alone_and_from_anywhere(accelerated: bool, control:
     spike[3, 29] = 1.0
     load, indentation = (0.1 * 32**2 * unit, None) if control == "load" else (None, solution.indentation)
     found = split_steps(
-        operator, surface.z.max() - surface.z, spike, load=load, indentation=indentation, steps=1500, stiffness=1.0,
-        accelerated=accelerated,
+        operator, surface.z.max() - surface.z, spike, load=load, indentation=indentation, steps=1500,
+        rho=math.sqrt(math.prod(operator.compliance_range)), accelerated=accelerated,
     )  # fmt: skip
     # Linear convergence: 1500 steps were seen to reach 1e-7 of the largest pressure or better.
     np.testing.assert_allclose(found / unit, solution.pressure, atol=1e-6 * solution.max_pressure)
@@ -503,7 +503,7 @@ def test_blocks_spare_ffts(fixed_load: bool) -> None:
     contact = operator.backend.cells(ndimage.grey_dilation(centres, size=(5, 5), mode="wrap") > 0.0)
     gap = contact.gathered(operator(contact.scattered(random.random(len(contact))).copy()))
     ffts, found = [], []
-    for coarse in (None, Blocks(operator, (8, 8))):
+    for coarse in ((), (Blocks(operator, (8, 8)),), (Blocks(operator, (8, 8)), Blocks(operator, (4, 4)))):
         before = operator.ffts
         correction, _, residual = solve_on_contact(
             operator, gap, contact, reduction=1e-9, floor=0.0, directions=40, fixed_load=fixed_load, coarse=coarse
@@ -518,10 +518,11 @@ def test_blocks_spare_ffts(fixed_load: bool) -> None:
 
 
 def test_blocks_divide_the_grid() -> None:
-    assert block_size((1024, 1000)) == (8, 8)
-    assert block_size((150, 128)) == (6, 8)
-    assert block_size((127, 128)) is None  # a prime number
-    assert block_size((64, 1024)) is None  # too few blocks
+    assert block_sizes((1024, 1000)) == [(8, 8), (4, 4)]
+    assert block_sizes((150, 128)) == [(6, 8), (3, 4)]
+    assert block_sizes((119, 128)) == [(7, 8)]  # an odd number has no half
+    assert block_sizes((127, 128)) == []  # a prime number
+    assert block_sizes((64, 1024)) == []  # too few blocks
 
 
 def test_failure_is_an_error() -> None:

@@ -26,7 +26,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
 
@@ -113,7 +113,8 @@ def solve_complementarity(
     patience: int | None = None,
     tighten: Literal["without headway", "near the end"] = "without headway",
     directions: int = _DIRECTIONS,
-    coarse: CoarseCorrection | None = None,
+    coarse: Sequence[CoarseCorrection] = (),
+    doubt: float = 0.0,
 ) -> ComplementaritySolution:
     """Solve the contact problem for a given load, or for a given indentation.
 
@@ -144,8 +145,12 @@ def solve_complementarity(
         When linear problems are solved more tightly; see above.
     directions : int
         Search directions that are kept while a linear problem is solved: two numbers each for every cell in contact.
-    coarse : CoarseCorrection, optional
-        Gives every other search direction, in turn with the operator's preconditioner.
+    coarse : sequence of CoarseCorrection, optional
+        Give search directions, each in turn and then the operator's preconditioner.  Loosely solved problems get the
+        first one only.
+    doubt : float
+        Overlap below so many root mean square gaps under pressure does not make contact yet: where linear problems are
+        not solved better than that, it says nothing about the set.
 
     Returns
     -------
@@ -169,7 +174,7 @@ def solve_complementarity(
     while True:
         set_changes += 1
         products = operator.products - start + (0 if inner is operator else inner.products - inner_start)
-        state, gap, overlapping = _look(backend, pressure, displacement + height, load, indentation, depth)
+        state, gap, overlapping = _look(backend, pressure, displacement + height, load, indentation, depth, doubt)
         state_now = ComplementaritySolution(
             **state,
             pressure=pressure,
@@ -191,7 +196,7 @@ def solve_complementarity(
         gap = contact.gathered(gap)  # the rest of it is not needed, and large
         correction, steps, linear = solve_on_contact(
             inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=directions,
-            fixed_load=load is not None, coarse=coarse,
+            fixed_load=load is not None, coarse=coarse if reduction < _REDUCTIONS[0][1] else coarse[:1],
         )  # fmt: skip
         linear_iterations += steps
         pressure = contact.added(pressure, correction)
@@ -221,6 +226,7 @@ def _look(
     load: float | None,
     indentation: float | None,
     depth: float | None,
+    doubt: float,
 ) -> tuple[dict[str, float], AnyArray, AnyArray]:
     """Return what a pressure comes to, its gap, and the free cells that overlap.
 
@@ -232,11 +238,13 @@ def _look(
     if indentation is None:
         indentation = float(xp.mean(under))
     gap -= indentation
-    overlapping = ~loaded & (gap < 0.0)
+    under -= indentation
+    level = doubt * math.sqrt(float(under @ under) / max(under.shape[0], 1))
+    overlapping = ~loaded & (gap < -level)
     least, total = backend.floats(xp.min(gap), xp.sum(pressure))
     worst = -least
     if under.shape[0]:
-        worst = max(worst, float(xp.max(xp.abs(under - indentation))))
+        worst = max(worst, float(xp.max(xp.abs(under))))
     state = {
         "indentation": indentation,
         "complementarity": worst / (abs(indentation) if depth is None else depth),
@@ -254,7 +262,7 @@ def solve_on_contact(
     floor: float,
     directions: int,
     fixed_load: bool,
-    coarse: CoarseCorrection | None = None,
+    coarse: Sequence[CoarseCorrection] = (),
     most_steps: int = _LINEAR_ITERATIONS,
 ) -> tuple[AnyArray, int, float]:
     """Correct the pressures on a fixed contact set until its gap is closed, or level for a fixed load.
@@ -271,7 +279,7 @@ def solve_on_contact(
         Search directions that are kept.
     fixed_load : bool
         Whether the corrections must sum to zero, and the gap need be level only.
-    coarse : CoarseCorrection, optional
+    coarse : sequence of CoarseCorrection, optional
     most_steps : int
 
     Returns
@@ -303,10 +311,8 @@ def solve_on_contact(
     # Directions z and their images A z, orthonormal among themselves, in a ring that forgets the oldest.
     kept: list[AnyArray] = []
     images: list[AnyArray] = []
-    # A coarse correction comes first, since it leaves steps at the edges of blocks, which the other smooths.
-    turns: list[Callable[[AnyArray], AnyArray]] = [operator.precondition]
-    if coarse is not None:
-        turns.insert(0, coarse.on(contact.chosen, fixed_load=fixed_load))
+    # Coarse corrections come first, since they leave steps at the edges of blocks, which the last one smooths.
+    turns = [*(each.on(contact.chosen, fixed_load=fixed_load) for each in coarse), operator.precondition]
     steps = 0
     while steps == 0 or steps % len(turns) or (steps < most_steps and left > target and largest > floor):
         direction = projected(turns[steps % len(turns)](contact.scattered(residual)))

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 _SIZES = range(8, 3, -1)  # cells along an edge of a block, the first that divides the grid
 _FEWEST = 16  # blocks along an edge
 _REDUCTION = 1e-2  # of the residual of the problem of the blocks
-_STEPS = 12  # at most, for it
+_STEPS = 16  # at most, for it
 
 
 class Blocks:
@@ -38,7 +38,7 @@ class Blocks:
     operator : PeriodicOperator
         Of the grid.
     size : (int, int)
-        Cells of a block along x and y, see `block_size`.
+        Cells of a block along x and y, see `block_sizes`.
     """
 
     def __init__(self, operator: PeriodicOperator, size: tuple[int, int]) -> None:
@@ -99,12 +99,12 @@ class Blocks:
         return xp.reshape(xp.broadcast_to(values[:, None, :, None], (nx, bx, ny, by)), (nx * bx, ny * by))
 
 
-def block_size(shape: tuple[int, int]) -> tuple[int, int] | None:
-    """Return how many cells along x and y make a block, or None for a grid that is too small or does not divide."""
-    found = tuple(next((size for size in _SIZES if points % size == 0), 0) for points in shape)
-    if not all(found) or any(points // size < _FEWEST for points, size in zip(shape, found, strict=True)):
-        return None
-    return found[0], found[1]
+def block_sizes(shape: tuple[int, int]) -> list[tuple[int, int]]:
+    """Return how many cells along x and y make a block, largest first; none if the grid is small or does not divide."""
+    bx, by = (next((size for size in _SIZES if points % size == 0), 0) for points in shape)
+    if not (bx and by) or shape[0] // bx < _FEWEST or shape[1] // by < _FEWEST:
+        return []
+    return [(bx, by)] if bx % 2 or by % 2 else [(bx, by), (bx // 2, by // 2)]
 
 
 class _PartialBlocks:

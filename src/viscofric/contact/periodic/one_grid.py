@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.periodic.blocks import Blocks, block_size
+from viscofric.contact.periodic.blocks import Blocks, block_sizes
 from viscofric.contact.periodic.continuation import continued
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
@@ -31,9 +31,12 @@ _PATIENCE = 3  # looks at the contact set without a smaller residual before spli
 _FEW_DIRECTIONS = (4, 6)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
 _FEW_PRODUCTS = 300  # enough for most contacts, where what follows is not needed
-_FIRST_STEPS = (5, 10)  # of the splitting on each grid, likewise
+_FIRST_STEPS = (5, 7)  # of the splitting on each grid, likewise
+_DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
-_STIFFNESSES = (0.2, 1.0)  # ρ of the splitting, in turn; the first suits most contacts
+# ρ of the splitting over the smallest compliance of a wave, where coarser grids have settled the long waves.
+_SHORT_WAVES = (2.7, 4.5)
+_ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the smallest and the largest
 _GROWTH = 2.0  # of the splitting's steps from round to round
 
 
@@ -92,11 +95,11 @@ class OneGrid:
         # These find most of the contact set, and cost half of a linear step each.
         kind = 0 if self.elastic else 1
         few = _FEW_DIRECTIONS[kind]
-        pressure = self._split(self.single, pressure, _FIRST_STEPS[kind], _STIFFNESSES[0])
+        pressure = self._split(self.single, pressure, _FIRST_STEPS[kind], self.quick_rho)
         result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
         if not result.converged and self.products < self.most_products:
             # A little more of the cheap kind brings most of those that remain near enough.
-            pressure = self._split(self.single, pressure, _MORE_STEPS, _STIFFNESSES[0])
+            pressure = self._split(self.single, pressure, _MORE_STEPS, self.rho(_ALL_WAVES[0]))
             result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
         if not (result.converged or self.elastic) and self.products < self.most_products:
             allowed = (self.most_products - self.products) // 2
@@ -107,17 +110,25 @@ class OneGrid:
             # Not from where the active set went: only its own steps bring the splitting nearer and nearer.
             turn += 1
             allowed = min(steps, self.most_products - self.products)
-            pressure = self._split(self.exact, pressure, allowed, _STIFFNESSES[turn % 2], accelerated=True)
+            pressure = self._split(self.exact, pressure, allowed, self.rho(_ALL_WAVES[turn % 2]), accelerated=True)
             # The active set gets as much to spend as the splitting, which may well be the one to converge.
             result = self._active_set(pressure, _PATIENCE, _MANY_DIRECTIONS, allowed)
             steps = int(_GROWTH * steps)
         return result
 
     @cached_property
-    def blocks(self) -> Blocks | None:
-        """Coarse correction of the linear problems."""
-        size = block_size(self.shape)
-        return None if size is None else Blocks(self.single, size)
+    def blocks(self) -> tuple[Blocks, ...]:
+        """Coarse corrections of the linear problems, the coarsest first."""
+        return tuple(Blocks(self.single, size) for size in block_sizes(self.shape))
+
+    @property
+    def quick_rho(self) -> float:
+        """ρ of the splitting that settles short waves in a few steps."""
+        return _SHORT_WAVES[0 if self.elastic else 1] * self.exact.compliance_range[0]
+
+    def rho(self, stiffness: float) -> float:
+        """ρ of the splitting that is so many times the geometric mean of the smallest and the largest compliance."""
+        return stiffness * math.sqrt(math.prod(self.exact.compliance_range))
 
     @property
     def products(self) -> int:
@@ -139,6 +150,7 @@ class OneGrid:
             tighten="near the end",
             directions=directions,
             coarse=self.blocks,
+            doubt=_DOUBT[0 if self.elastic else 1],
         )
         return self._counted(result)
 
@@ -165,12 +177,12 @@ class OneGrid:
         return result
 
     def _split(
-        self, operator: PeriodicOperator, pressure: AnyArray, steps: int, stiffness: float, accelerated: bool = False
+        self, operator: PeriodicOperator, pressure: AnyArray, steps: int, rho: float, accelerated: bool = False
     ) -> AnyArray:
         self.splitting_steps += steps
         found = split_steps(
             operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
-            stiffness=stiffness, accelerated=accelerated,
+            rho=rho, accelerated=accelerated,
         )  # fmt: skip
         return found if self._loaded(found) else pressure
 

@@ -39,7 +39,7 @@ def split_steps(
     load: float | None,
     indentation: float | None,
     steps: int,
-    stiffness: float,
+    rho: float,
     accelerated: bool = False,
 ) -> AnyArray:
     """Take some steps of the splitting from a guess, and return pressures that are not negative, in double precision.
@@ -55,14 +55,13 @@ def split_steps(
     load, indentation : float or None
         Sum of the pressures, or δ; one of them.
     steps : int
-    stiffness : float
-        ρ over the geometric mean of the smallest and the largest compliance of a wave.
+    rho : float
+        ρ, a compliance: waves much more compliant settle at once, those of about ρ in a few steps.
     accelerated : bool
         Whether to extrapolate from earlier steps (Anderson), which pays where many are needed.
     """
     backend, xp = operator.backend, operator.backend.xp
     height = backend.asarray(height)
-    rho = stiffness * math.sqrt(math.prod(operator.compliance_range))
     resolvent = backend.reciprocal(operator.transfer + rho)
     pressure = xp.astype(backend.asarray(guess), operator.dtype)
     offset = float(xp.mean(height)) if indentation is None else indentation
