@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.periodic.waves import wave_number, without_nyquist
+from viscofric.contact.periodic.waves import without_nyquist
 from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
@@ -95,12 +95,16 @@ class PeriodicSurface:
 
     def slope(self, direction: tuple[float, float]) -> Array:
         """Return the derivative of the heights along a unit vector, by their Fourier series; (nx, ny) array."""
-        qx, qy = (
-            without_nyquist(one, size)
-            for one, size in zip(wave_number(self.shape, self.spacing), self.shape, strict=True)
-        )
-        spectrum = 1j * (direction[0] * qx + direction[1] * qy) * scipy.fft.rfft2(self.z)
-        return np.asarray(scipy.fft.irfft2(spectrum, self.shape))
+        found = np.zeros(self.shape)
+        for axis, part in enumerate(direction):
+            points = self.shape[axis]
+            if part != 0.0 and points > 1:
+                q = 2.0 * np.pi * np.fft.rfftfreq(points, self.spacing[axis])
+                factor = 1j * part * without_nyquist(q, points)
+                waves = scipy.fft.rfft(self.z, axis=axis)
+                waves *= factor[:, None] if axis == 0 else factor
+                found += scipy.fft.irfft(waves, points, axis=axis, overwrite_x=True)
+        return found
 
     def coarser(self, shape: tuple[int, int]) -> tuple[Array, tuple[float, float]]:
         """Return heights of the same period on fewer points, their shortest waves left out, and their spacing."""

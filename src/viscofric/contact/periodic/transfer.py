@@ -152,6 +152,8 @@ def dissipation(
 
     F_t/A = Σ_q 2(1−ν²)/|q| (q·n) (−Im S(−q·v)) |p̂_q|², over the waves of both signs; p̂_q are Fourier coefficients.
     """
+    if not np.iscomplexobj(transfer):
+        return 0.0  # elastic
     qx, qy = (without_nyquist(one, size) for one, size in zip(wave_number(shape, spacing), shape, strict=True))
     along = direction[0] * qx + direction[1] * qy
     work = along * np.imag(transfer) * np.square(np.abs(pressure_waves))
