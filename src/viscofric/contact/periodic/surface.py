@@ -99,7 +99,7 @@ class PeriodicSurface:
         for axis, part in enumerate(direction):
             points = self.shape[axis]
             if part != 0.0 and points > 1:
-                q = 2.0 * np.pi * np.fft.rfftfreq(points, self.spacing[axis])
+                q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, self.spacing[axis]).astype(np.float64)
                 factor = 1j * part * without_nyquist(q, points)
                 waves = scipy.fft.rfft(self.z, axis=axis)
                 waves *= factor[:, None] if axis == 0 else factor
