@@ -17,7 +17,7 @@ from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit
 
 BALL = vf.Ball(radius="9.525 mm")
 LOAD = 25.0
-CONDITIONS = ((303.15, 0.02), (333.15, 0.2), (363.15, 0.05))
+CONDITIONS = ((303.15, 0.02), (363.15, 0.05))
 
 
 def measured_material(noise: float = 0.01, samples: int = 40, seed: int = 5):

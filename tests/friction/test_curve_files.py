@@ -13,6 +13,7 @@ from hypothesis.extra.numpy import arrays
 
 import viscofric as vf
 from friction.made_runs import FOUR, traction_runs
+from friction.synthetic_curves import planted_law, synthetic_curves
 from viscofric.errors import DataFileError, InputError
 from viscofric.friction.curves import FrictionCurves
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 FOREIGN = "speed (mm/s);temperature (degC);load (N);viscoelastic friction (%)\n20;30;25;3,1\n200;60;25;2,5\n"
+#: Columns that a table has to have.
+BARE = {"speed", "temperature", "load", "viscoelastic friction"}
 WRITTEN = {"source", "notes", "load_unit", "assumption"}
 
 
@@ -66,7 +69,7 @@ def test_every_column_is_saved(tmp_path: Path) -> None:
 )
 @settings(
     deadline=None,
-    max_examples=30,
+    max_examples=20,
     derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
@@ -101,6 +104,24 @@ def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:
     assert curves.load_unit == "N"
     assert curves.source == str(path)
     assert any("neither standard errors nor scatter" in note for note in curves.notes)
+
+
+def test_a_table_without_errors_is_shifted_by_the_scatter_of_its_points(tmp_path: Path) -> None:
+    """Zeros are not taken for exactness: the factors have the errors that points of 2 % scatter make of them."""
+    curves, law, errors = synthetic_curves(30.0, 35.0, 40.0, 46.0, noise=0.02 * np.sqrt(8)), planted_law(), []
+    path = tmp_path / "bare.csv"
+    vf.write_friction_curves(curves, path)
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    kept = [place for place, heading in enumerate(rows[0]) if heading.split(" (")[0] in BARE]
+    assert len(kept) == len(BARE)
+    path.write_text("\n".join(",".join(row[place] for place in kept) for row in rows) + "\n", encoding="utf-8")
+    for one in (vf.read_friction_curves(path), curves):
+        factors = vf.shift_friction(one, reference="30 degC").shift_factors
+        errors.append(factors.standard_errors[1:])
+        off = factors.log10_values[1:] - np.asarray(law.at_reference(factors.reference).log10(factors.temperatures[1:]))
+        assert np.all(np.abs(off) < 4.0 * errors[-1])
+    # The scatter of 40 points is known to 11 %, in both; thrice that.
+    np.testing.assert_allclose(errors[0], errors[1], rtol=0.35)
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def test_processes_that_share_the_contacts_find_the_same_digits(rubber: vf.Mater
 
 
 def test_settings_of_the_contact_are_passed_on(rubber: vf.Material) -> None:
-    """The same digits as each contact solved for itself, in as many processes as wanted."""
+    """The same digits as the contact solved for itself."""
     ellipsoid = vf.Ellipsoid("10 mm", "20 mm")
     settings: dict[str, Any] = {
         "layer": vf.Layer("5 mm", bonded=False),
@@ -93,10 +93,9 @@ def test_settings_of_the_contact_are_passed_on(rubber: vf.Material) -> None:
         "grid": 128,
     }
     wanted = {"load": "2 N", "accuracy": 0.1, **settings}
-    curves = predict_friction(rubber, ellipsoid, speeds=[0.05, 0.2], temperatures=320.0, workers=2, **wanted)
-    for row, speed in enumerate((0.05, 0.2)):
-        alone = vf.solve_steady(rubber, ellipsoid, speed=speed, temperature=320.0, **wanted)
-        assert curves.viscoelastic[row] == alone.friction_coefficient
+    curves = predict_friction(rubber, ellipsoid, speeds=0.05, temperatures=320.0, **wanted)
+    alone = vf.solve_steady(rubber, ellipsoid, speed=0.05, temperature=320.0, **wanted)
+    assert curves.viscoelastic == [alone.friction_coefficient]
     assert curves.load_unit == "N"
     with pytest.raises(TypeError, match="unexpected keyword argument 'indentation'"):
         predict_friction(rubber, BALL, speeds=0.1, temperatures=320.0, load=2.0, indentation=1e-4)  # type: ignore[call-arg]

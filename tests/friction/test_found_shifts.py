@@ -127,15 +127,15 @@ def test_errors_that_a_temperature_shares_are_counted_if_told() -> None:
     """Levels off by 1 % move α by many times what the scatter of the points does; told of, intervals hold again."""
     law = planted_law()
     inside: dict[float, list[bool]] = {0.0: [], 0.01: []}
-    for seed in range(40):
+    for seed in range(20):
         plain = synthetic_curves(30.0, 35.0, 40.0, noise=0.01, seed=seed)
         level = np.repeat(1.0 + 0.01 * np.random.default_rng(seed).standard_normal(3), 10)
         curves = replace(plain, viscoelastic=level * plain.viscoelastic)
         for told, found in inside.items():
             factors = shift_friction(curves, level_error=told, reference="30 degC").shift_factors
             found += list(np.abs(deviation(factors, law))[1:] < 1.96 * factors.standard_errors[1:])
-    # 80 values, some of them correlated: 95 % to within three of their standard deviations, 3 %.
-    assert np.mean(inside[0.01]) > 0.86
+    # 40 values, some of them correlated: 95 % to within three of their standard deviations, 4 %.
+    assert np.mean(inside[0.01]) > 0.83
     assert np.mean(inside[0.0]) < 0.6
     with pytest.raises(InputError, match=r"level_error = -0\.1: must be zero or above"):
         shift_friction(curves, level_error=-0.1)

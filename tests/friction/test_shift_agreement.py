@@ -35,13 +35,13 @@ def factors(error: float, random: np.random.Generator, *, stretch: float = 1.0) 
 @cache
 def drawn(stretch: float) -> list[ShiftAgreement]:
     random = np.random.default_rng(5)
-    return [compare_shift_factors(factors(0.02, random, stretch=stretch), factors(0.03, random)) for _ in range(400)]
+    return [compare_shift_factors(factors(0.02, random, stretch=stretch), factors(0.03, random)) for _ in range(200)]
 
 
 def test_p_is_uniform_where_both_are_the_same() -> None:
-    """400 pairs: each fifth holds 80 ± 8; three and a half standard deviations."""
+    """200 pairs: each fifth holds 40 ± 5.7; three and a half standard deviations."""
     counts, _ = np.histogram([one.p_value for one in drawn(1.0)], 5, (0.0, 1.0))
-    assert np.all(np.abs(counts - 80) < 28)
+    assert np.all(np.abs(counts - 40) < 20)
 
 
 @pytest.mark.parametrize("stretch", [1.0, 1.1])
@@ -50,9 +50,9 @@ def test_the_slope_holds_what_its_error_says(stretch: float) -> None:
     agreements = drawn(stretch)
     slope = np.array([one.slope for one in agreements])
     inside = np.abs(slope - stretch) < 1.96 * np.array([one.slope_error for one in agreements])
-    # The standard deviation of the share is 1.1 %; the error grows where points scatter, so that it may hold more.
-    assert 0.92 <= inside.mean() <= 0.99
-    assert slope.mean() == pytest.approx(stretch, abs=4 * slope.std() / 20)
+    # The standard deviation of the share is 1.5 %; the error grows where points scatter, so that it may hold more.
+    assert 0.905 <= inside.mean() <= 0.995
+    assert slope.mean() == pytest.approx(stretch, abs=4 * slope.std() / np.sqrt(200))
 
 
 def test_different_factors_are_told_apart() -> None:

@@ -34,7 +34,7 @@ coefficients = st.floats(0.0, 1.0)
     replicates=st.integers(1, 3),
     seed=st.integers(0, 2**32 - 1),
 )
-@settings(deadline=None, max_examples=60, derandomize=True)
+@settings(deadline=None, max_examples=30, derandomize=True)
 def test_four_runs_give_back_what_was_planted(
     viscoelastic: float,
     coulomb: float,
@@ -74,7 +74,7 @@ def test_four_runs_give_back_what_was_planted(
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(1, 4)), max_size=12), st.integers(0, 1000))
-@settings(deadline=None, max_examples=40, derandomize=True)
+@settings(deadline=None, max_examples=25, derandomize=True)
 def test_unbalanced_and_jittering_data_give_back_what_was_planted(missing: list[tuple[int, int]], seed: int) -> None:
     """Whatever readings are missing, as long as three configurations are there, and however often others come."""
     runs = traction_runs(
@@ -202,7 +202,7 @@ def test_rolling_and_sliding_are_conditions_of_their_own() -> None:
 
 def test_standard_errors_are_honest() -> None:
     """Intervals of 95 % by Student's t, n − 1 degrees of freedom, hold the truth in 95 % of noisy tests."""
-    replicates, temperatures = 8, tuple(290.0 + 5.0 * np.arange(100))
+    replicates, temperatures = 8, tuple(290.0 + 5.0 * np.arange(60))
     truth = {"viscoelastic": 0.03, "coulomb": 0.05, "consistency": 0.0}
     runs = traction_runs(
         viscoelastic=lambda v, T: 0.03,
@@ -213,16 +213,16 @@ def test_standard_errors_are_honest() -> None:
         seed=5,
     )
     curves = separate(runs)
-    assert len(curves) == 300
+    assert len(curves) == 180
     quantile = stdtrit(replicates - 1, 0.975)
     # Limits that chance leaves once in a million times.
-    low, high = binom.interval(1 - 1e-6, 300, 0.95)
+    low, high = binom.interval(1 - 1e-6, 180, 0.95)
     for name, value in truth.items():
         error = getattr(curves, f"{name}_error")
         held = np.count_nonzero(np.abs(getattr(curves, name) - value) <= quantile * error)
         assert low <= held <= high, name
-    # 32 readings per entry: 0.05 N / √32 / 25 N; from 2100 degrees of freedom known to 1.5 %, thrice that.
-    assert np.sqrt(np.mean(curves.viscoelastic_error**2)) == pytest.approx(0.05 / np.sqrt(32) / 25, rel=0.045)
+    # 32 readings per entry: 0.05 N / √32 / 25 N; from 1260 degrees of freedom known to 2 %, thrice that.
+    assert np.sqrt(np.mean(curves.viscoelastic_error**2)) == pytest.approx(0.05 / np.sqrt(32) / 25, rel=0.06)
     np.testing.assert_allclose(curves.viscoelastic_scatter, np.sqrt(replicates) * curves.viscoelastic_error)
 
 
@@ -230,7 +230,7 @@ def test_standard_errors_are_honest_where_replicates_are_incomplete() -> None:
     """All readings are fitted together, which is said; intervals use the residuals' degrees of freedom."""
     runs = traction_runs(
         viscoelastic=lambda v, T: 0.03,
-        temperatures=tuple(290.0 + 5.0 * np.arange(100)),
+        temperatures=tuple(290.0 + 5.0 * np.arange(60)),
         replicates=3,
         noise=0.05,
         seed=6,
@@ -238,10 +238,10 @@ def test_standard_errors_are_honest_where_replicates_are_incomplete() -> None:
     rows = rows_of(runs)
     incomplete = rows[~((rows[:, 5] == 3) & (rows[:, 0] < 0) & (rows[:, 0] > rows[:, 1]))]
     curves = separate(runs_from(incomplete))
-    assert len(incomplete) == 300 * 11
+    assert len(incomplete) == 180 * 11
     assert any("not every replicate" in note for note in curves.notes)
     held = np.count_nonzero(np.abs(curves.viscoelastic - 0.03) <= stdtrit(11 - 3, 0.975) * curves.viscoelastic_error)
-    low, high = binom.interval(1 - 1e-6, 300, 0.95)
+    low, high = binom.interval(1 - 1e-6, 180, 0.95)
     assert low <= held <= high
     assert np.all(curves.replicates == 3)
 
@@ -436,14 +436,14 @@ def test_small_slips_have_signs_where_speeds_are_steady(slip_ratio: float) -> No
 def test_gaussian_noise_is_seldom_called_an_outlier() -> None:
     runs = traction_runs(
         viscoelastic=lambda v, T: 0.03,
-        temperatures=tuple(290.0 + 5.0 * np.arange(100)),
+        temperatures=tuple(290.0 + 5.0 * np.arange(40)),
         replicates=8,
         noise=0.05,
         seed=8,
     )
     (note,) = [note for note in separate(runs).notes if "kept" in note] or ["0 readings"]
     count = 1 if note.startswith("One") else int(note.split()[0])
-    # 9600 readings; their common scale is known to 1 %, and 5 σ is passed once in two million times.
+    # 3840 readings; their common scale is known to 2 %, and 5 σ is passed once in two million times.
     assert count == 0
 
 

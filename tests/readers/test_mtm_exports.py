@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -325,6 +326,12 @@ REAL = {
 }
 
 
+@cache
+def read_once(path):
+    """Read a file of megabytes for all tests of it."""
+    return read_mtm(path)
+
+
 def printed_rows(path):
     """Yield the cells of each row by heading, found without the reader: all that begins with a digit after a header."""
     headings = None
@@ -342,7 +349,7 @@ def test_real_exports_are_read_completely(real_data, name):
     if not path.is_file():
         pytest.skip(f"no real export {path}")
     steps, with_readings, pairs, single = REAL[name]
-    runs = read_mtm(path)
+    runs = read_once(path)
     rows = list(printed_rows(path))
     assert len(rows) == pairs + single
     assert len(runs) == 2 * pairs + single
@@ -379,7 +386,7 @@ def real_pairs(real_data):
     path = real_data / "mtm" / "ETM_slim_mapper.txt"
     if not path.is_file():
         pytest.skip(f"no real export {path}")
-    runs = read_mtm(path)
+    runs = read_once(path)
     # step 2 is timed, all others reverse the slip
     ratio = (runs.disc_speed - runs.ball_speed)[60:].reshape(-1, 2) / runs.disc_speed[60:].reshape(-1, 2)
     clear = np.flatnonzero(np.abs(ratio).min(axis=1) > 0.05)
