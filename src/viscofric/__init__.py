@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from viscofric.data import Isotherm as Isotherm
     from viscofric.data import IsothermalSweeps as IsothermalSweeps
     from viscofric.data import MasterCurve as MasterCurve
-    from viscofric.data import TractionRuns as TractionRuns
     from viscofric.errors import ConvergenceError as ConvergenceError
     from viscofric.errors import DataFileError as DataFileError
     from viscofric.errors import InputError as InputError
@@ -98,12 +97,13 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
-    from viscofric.steps import TractionStep as TractionStep
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
     from viscofric.study import load_study as load_study
     from viscofric.study import open_results as open_results
     from viscofric.study import run_study as run_study
+    from viscofric.traction import TractionRuns as TractionRuns
+    from viscofric.traction import TractionStep as TractionStep
 
 __version__: str
 
@@ -136,7 +136,7 @@ _HOME = {
     "Isotherm": "viscofric.data",
     "IsothermalSweeps": "viscofric.data",
     "MasterCurve": "viscofric.data",
-    "TractionRuns": "viscofric.data",
+    "TractionRuns": "viscofric.traction",
     "ConvergenceError": "viscofric.errors",
     "DataFileError": "viscofric.errors",
     "InputError": "viscofric.errors",
@@ -198,7 +198,7 @@ _HOME = {
     "Superposition": "viscofric.rheology.superposition.superpose",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
-    "TractionStep": "viscofric.steps",
+    "TractionStep": "viscofric.traction",
     "load_study": "viscofric.study",
     "open_results": "viscofric.study",
     "run_study": "viscofric.study",

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.data import TractionRuns
 from viscofric.friction.curves import FrictionCurves
+from viscofric.traction import TractionRuns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

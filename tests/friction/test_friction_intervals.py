@@ -16,7 +16,7 @@ from viscofric.errors import InputError
 from viscofric.friction.measurement.tribometry import separate
 
 if TYPE_CHECKING:
-    from viscofric.data import TractionRuns
+    from viscofric.traction import TractionRuns
 
 SPEEDS = np.geomspace(0.02, 0.2, 10)
 TEMPERATURES = 273.15 + np.array([30.0, 35.0, 40.0, 46.0, 52.0, 60.0, 68.0, 78.0, 90.0])
@@ -41,10 +41,10 @@ def scattered(seed: int) -> TractionRuns:
 
 
 def test_intervals_hold_the_truth_in_95_of_100_tests() -> None:
-    """Multiplicative scatter of 5 %, eight replicates, 100 seeds: within 95 ± 5 %, and far closer on all entries."""
+    """Multiplicative scatter of 5 %, eight replicates, 50 seeds: within 95 ± 5 %, and far closer on all entries."""
     held: dict[str, list[float]] = {"viscoelastic": [], "coulomb": []}
     false_alarms = 0
-    for seed in range(100):
+    for seed in range(50):
         curves = separate(scattered(seed))
         planted = np.array([viscoelastic(v, T) for v, T in zip(curves.speed, curves.temperature, strict=True)])
         for name, truth in (("viscoelastic", planted), ("coulomb", 0.05)):
@@ -56,7 +56,7 @@ def test_intervals_hold_the_truth_in_95_of_100_tests() -> None:
         assert low_count <= sum(inside) <= high_count, (name, np.mean(inside))
         assert abs(np.mean(inside) - 0.95) <= 0.05
     # Each kind of note comes up by chance once in 370 tests; there are some four kinds.
-    assert false_alarms <= 5
+    assert false_alarms <= 4
 
 
 def test_the_consistency_is_a_calibrated_test_of_the_measurement() -> None:
@@ -64,7 +64,7 @@ def test_the_consistency_is_a_calibrated_test_of_the_measurement() -> None:
     for replicates, complete in ((4, True), (3, False)):
         runs = traction_runs(
             viscoelastic=lambda v, T: 0.03,
-            temperatures=tuple(290.0 + 5.0 * np.arange(200)),
+            temperatures=tuple(290.0 + 5.0 * np.arange(100)),
             speeds=[0.1],
             replicates=replicates,
             noise=0.05,

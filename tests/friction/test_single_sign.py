@@ -15,7 +15,7 @@ from viscofric.errors import InputError
 from viscofric.friction.measurement.tribometry import separate
 
 if TYPE_CHECKING:
-    from viscofric.data import TractionRuns
+    from viscofric.traction import TractionRuns
 
 ROUNDING = 1e-12
 SPEEDS = (0.02, 0.1, 0.2)

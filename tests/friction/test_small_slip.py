@@ -12,7 +12,7 @@ from friction.made_runs import exported_runs, rows_of, runs_from, traction_runs
 from viscofric.friction.measurement.tribometry import separate
 
 if TYPE_CHECKING:
-    from viscofric.data import TractionRuns
+    from viscofric.traction import TractionRuns
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
 ROUNDING = 1e-12

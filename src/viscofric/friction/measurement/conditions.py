@@ -17,8 +17,8 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
     from viscofric.friction.measurement.course import Course
+    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
     Labels: TypeAlias = NDArray[np.int64]

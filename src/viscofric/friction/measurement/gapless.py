@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
+    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -14,9 +14,9 @@ from viscofric.friction.measurement.course import Course, of_both, of_the_disc
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
     from viscofric.friction.measurement.assumed_coulomb import Assumed
     from viscofric.friction.measurement.zeros import Zeros
+    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
 

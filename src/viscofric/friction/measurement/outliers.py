@@ -11,9 +11,9 @@ from viscofric.friction.measurement.doubts import ROUNDING
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.entry import Entry
+    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -14,9 +14,9 @@ from viscofric.friction.measurement.least_squares import operators, residuals
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.zeros import Zeros
+    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from viscofric.nominal import SAME_LOAD
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
     from viscofric.friction.measurement.entry import Entry
+    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
 

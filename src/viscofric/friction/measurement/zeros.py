@@ -15,8 +15,8 @@ from viscofric.units import Quantity, to_si
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import TractionRuns
     from viscofric.friction.measurement.conditions import Condition
+    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
     Labels: TypeAlias = NDArray[np.int64]

@@ -16,7 +16,7 @@ from viscofric.readers.mtm.pcs_times import start_times
 from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.printed import unit_conversion
 from viscofric.readers.table import heading
-from viscofric.steps import TractionStep
+from viscofric.traction import TractionStep
 from viscofric.units import celsius
 
 if TYPE_CHECKING:

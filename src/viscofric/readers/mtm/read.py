@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.data import TractionRuns
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.readers.mtm import formats
 from viscofric.readers.source import Source
-from viscofric.steps import TractionStep
+from viscofric.traction import TractionRuns, TractionStep
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

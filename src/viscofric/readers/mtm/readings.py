@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.steps import TractionStep
+    from viscofric.traction import TractionStep
 
     Array: TypeAlias = NDArray[np.float64]
     Whole: TypeAlias = NDArray[np.int64]
@@ -27,13 +27,13 @@ class TractionReadings:
     source : str
         The file, as the user named it.
     disc_speed, ball_speed, traction_force, load, temperature : (n,) array
-        As in `viscofric.data.TractionRuns`.
+        As in `viscofric.traction.TractionRuns`.
     row : (n,) array of int
         Row of the file's tables that a reading stands in: those of one row were taken together.
     replicate : (n,) array of int, optional
         As the file numbers its repetitions.
     zero_force, time, track_radius : (n,) array, optional
-        As in `viscofric.data.TractionRuns`; the time is that since the file's first reading.
+        As in `viscofric.traction.TractionRuns`; the time is that since the file's first reading.
     step : (n,) array of int, optional
         As the file numbers its steps.
     steps : tuple of TractionStep

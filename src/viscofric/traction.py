@@ -1,0 +1,227 @@
+"""Measurements of a mini-traction machine, reading by reading and step by step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.data import read_only
+from viscofric.errors import InputError
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class TractionStep:
+    """One step of a traction test.
+
+    Attributes
+    ----------
+    number : int
+        As in `TractionRuns.step`: that of the file, counted on through all files.
+    source : str
+        The file that holds the step.
+    kind, description, started : str
+        As the file has them: ``"BOD_TIMED"``, ``"running-in"``, ``"23/03/2018 10:12:01"``; empty if it does not.
+    readings : int
+        Number of its readings.
+    load, temperature, speed : float
+        Means over its readings: N, K and the magnitude of the disc's speed, m/s.
+    slip_ratio : float
+        Mean of ``|u_disc - u_ball|`` over the mean of the two speeds' magnitudes.
+    """
+
+    number: int
+    source: str = ""
+    kind: str = ""
+    description: str = ""
+    started: str = ""
+    readings: int = 0
+    load: float = math.nan
+    temperature: float = math.nan
+    speed: float = math.nan
+    slip_ratio: float = math.nan
+
+    def __str__(self) -> str:
+        words = ", ".join(word for word in (self.kind, self.description and repr(self.description)) if word)
+        what = f"step {self.number}" + (f" ({words})" if words else "")
+        means = f"{self.load:.4g} N, {celsius(self.temperature):z.1f} °C, {1e3 * self.speed:.4g} mm/s"
+        return f"{what}: {self.readings} readings at {means}, slip {100 * self.slip_ratio:.3g} %"
+
+
+@dataclass(frozen=True, eq=False)
+class TractionRuns:
+    """Traction measurements of a mini-traction machine, one row per reading.
+
+    Velocities are signed: the sign of `disc_speed` is the direction in which the rubber is deformed, the
+    sign of ``disc_speed - ball_speed`` that of sliding.
+
+    Parameters
+    ----------
+    disc_speed, ball_speed : (n,) array
+        Signed surface velocities, m/s.
+    traction_force : (n,) array
+        Signed force on the ball's force cell, zero reading included, N.
+    load : (n,) array
+        Measured normal load, N.
+    temperature : (n,) array
+        K.
+    replicate : (n,) array of int
+        Number of the repetition that a row belongs to.
+    source : str
+        Where they came from.
+    notes : tuple of str
+        What the reader found doubtful or changed: one sentence each.
+    zero_force : (n,) array, optional
+        Reading of the force cell without traction, N; NaN where it was not recorded.
+    time : (n,) array, optional
+        Since the first reading, s; NaN where it was not recorded.
+    step : (n,) array of int, optional
+        Number of the step of the test that a row belongs to, counted through all files.
+    track_radius : (n,) array, optional
+        Of the ball's track on the disc, m; NaN where it was not recorded.
+    steps : tuple of TractionStep
+        What the files say of the steps, which `step` numbers; counts and means are taken from the rows, and steps
+        without rows are left out.
+    """
+
+    disc_speed: Array
+    ball_speed: Array
+    traction_force: Array
+    load: Array
+    temperature: Array
+    replicate: NDArray[np.int64]
+    source: str = ""
+    notes: tuple[str, ...] = ()
+    zero_force: Array | None = None
+    time: Array | None = None
+    step: NDArray[np.int64] | None = None
+    track_radius: Array | None = None
+    steps: tuple[TractionStep, ...] = ()
+
+    def __post_init__(self) -> None:
+        rows = np.size(self.disc_speed)
+        for name in ("disc_speed", "ball_speed", "traction_force", "load", "temperature"):
+            column = read_only(getattr(self, name))
+            if column.shape != (rows,) or not np.all(np.isfinite(column)):
+                raise InputError(f"{name} of traction runs must be one row of finite numbers, one per reading.")
+            object.__setattr__(self, name, column)
+        for name in ("zero_force", "time", "track_radius"):
+            if getattr(self, name) is None:
+                continue
+            column = read_only(getattr(self, name))
+            if column.shape != (rows,) or np.any(np.isinf(column)):
+                raise InputError(
+                    f"{name} of traction runs must hold one number per reading, NaN where it is not known."
+                )
+            object.__setattr__(self, name, column)
+        for name in ("replicate", "step"):
+            if getattr(self, name) is None and name == "step":
+                continue
+            numbers = np.array(getattr(self, name), dtype=np.int64)
+            if numbers.shape != (rows,):
+                raise InputError(f"{name} of traction runs must hold one whole number per reading.")
+            numbers.flags.writeable = False
+            object.__setattr__(self, name, numbers)
+        if rows and not np.all(self.load > 0):
+            raise InputError("load of traction runs must be above zero in every reading.")
+        object.__setattr__(self, "steps", _summarised(self, self.steps))
+
+    def __len__(self) -> int:
+        return len(self.disc_speed)
+
+    def select(
+        self,
+        rows: ArrayLike | None = None,
+        *,
+        steps: int | Sequence[int] | None = None,
+        except_steps: int | Sequence[int] | None = None,
+    ) -> TractionRuns:
+        """Return some of the readings: ``runs.select(runs.temperature > 330)``, ``runs.select(steps=[2, 4])``.
+
+        Parameters
+        ----------
+        rows : (n,) array of bool, or array of int, optional
+            Which readings to keep, or their places; if left out, all.
+        steps, except_steps : int or sequence of int, optional
+            Numbers of the steps to keep, or to leave out, of these readings.
+
+        Returns
+        -------
+        TractionRuns
+            With a note on how many readings it holds; times and replicate numbers stay as they are.
+
+        Raises
+        ------
+        InputError
+            If nothing is selected, `rows` does not fit the readings, or there are no such steps.
+        """
+        chosen = np.arange(len(self)) if rows is None else np.asarray(rows)
+        if chosen.dtype == bool and chosen.shape == (len(self),):
+            chosen = np.flatnonzero(chosen)
+        elif chosen.ndim != 1 or not np.issubdtype(chosen.dtype, np.integer):
+            raise InputError(f"select needs true or false for each of the {len(self)} readings, or their places.")
+        if chosen.size and (chosen.min() < -len(self) or chosen.max() >= len(self)):
+            raise InputError(f"select names a reading beyond the {len(self)} that there are.")
+        for name, wanted, keep in (("steps", steps, True), ("except_steps", except_steps, False)):
+            if wanted is not None:
+                chosen = chosen[self._in_steps(name, wanted)[chosen] == keep]
+        if not chosen.size:
+            raise InputError("select would leave no reading; see steps for what there is.")
+        columns: dict[str, Any] = {
+            column.name: value[chosen]
+            for column in fields(self)
+            if isinstance(value := getattr(self, column.name), np.ndarray)
+        }
+        note = f"{chosen.size} of {len(self)} readings are selected."
+        return replace(self, **columns, notes=(*self.notes, note))
+
+    def _in_steps(self, name: str, wanted: int | Sequence[int]) -> NDArray[np.bool_]:
+        """Tell which readings belong to some steps, all of which there must be."""
+        if self.step is None:
+            raise InputError(f"{name} = {wanted!r}: these traction runs do not say what steps they are of.")
+        numbers = np.atleast_1d(np.asarray(wanted))
+        known = np.isin(numbers, self.step)
+        if not np.all(known):
+            raise InputError(
+                f"{name} = {wanted!r}: there is no step {numbers[~known][0]}; steps go from {self.step.min()} to "
+                f"{self.step.max()}."
+            )
+        return np.isin(self.step, numbers)
+
+
+def _summarised(runs: TractionRuns, known: Iterable[TractionStep]) -> tuple[TractionStep, ...]:
+    """Return the steps that have readings, in the order of their numbers, with counts and means of these."""
+    if runs.step is None or not len(runs):
+        return ()
+    numbers, place, counts = np.unique(runs.step, return_inverse=True, return_counts=True)
+    told = {step.number: step for step in known}
+
+    def mean(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> list[float]:
+        return [float(value) for value in np.bincount(place, values) / counts]
+
+    disc, ball = np.abs(runs.disc_speed), np.abs(runs.ball_speed)
+    slip = np.bincount(place, np.abs(runs.disc_speed - runs.ball_speed))
+    rolling = np.bincount(place, 0.5 * (disc + ball))
+    ratio = np.divide(slip, rolling, out=np.zeros(slip.shape), where=rolling > 0.0)
+    columns = zip(numbers, counts, mean(runs.load), mean(runs.temperature), mean(disc), ratio, strict=True)
+    return tuple(
+        replace(
+            told.get(int(number), TractionStep(int(number))),
+            readings=int(count),
+            load=load,
+            temperature=temperature,
+            speed=speed,
+            slip_ratio=float(slip_ratio),
+        )
+        for number, count, load, temperature, speed, slip_ratio in columns
+    )
