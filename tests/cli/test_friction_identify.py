@@ -75,6 +75,28 @@ def test_the_rubber_is_read_back_by_the_other_commands(found: tuple[Path, dict[s
     assert (folder / "modulus.svg").stat().st_size > 0
 
 
+@pytest.mark.parametrize(
+    ("option", "text", "name", "value"),
+    [
+        ("indentation", "0.3 mm", "indentation", 3e-4),
+        ("area", "7 mm^2", "contact_area", 7e-6),
+        ("half_width", "1.7 mm", "half_width", 1.7e-3),
+    ],
+)
+def test_the_size_of_a_contact_is_an_anchor_too(option: str, text: str, name: str, value: float) -> None:
+    from viscofric.cli.friction.anchors import check_anchor, make_anchor
+
+    names = ("modulus", "frequency", "indentation", "area", "half_width", "speed", "load", "temperature", "error")
+    asked: dict[str, Any] = {f"anchor_{one}": None for one in names}
+    asked |= {"anchor_speed": "1 m/s", "anchor_load": "1 N", "anchor_temperature": "300 K", f"anchor_{option}": text}
+    what = check_anchor(asked)
+    assert what == option
+    anchor = make_anchor(asked, what, "N")
+    assert isinstance(anchor, vf.ContactAnchor)
+    assert getattr(anchor, name) == pytest.approx(value, rel=1e-12)
+    assert (anchor.speed, anchor.load, anchor.temperature) == (1.0, 1.0, 300.0)
+
+
 def test_tables_tell_what_is_identified_and_what_not() -> None:
     from types import SimpleNamespace
 
@@ -106,7 +128,10 @@ def test_tables_tell_what_is_identified_and_what_not() -> None:
     ("words", "status", "told"),
     [
         (["curves.csv"], 2, "nothing says what the indenter is"),
-        (["curves.csv", "--ball", "10 mm", "--anchor-modulus", "2 MPa"], 2, "give --anchor-frequency too"),
+        (["curves.csv", "--ball", "10 mm", "--anchor-modulus", "2 MPa"], 2, "needs --anchor-frequency too"),
+        (["curves.csv", "--ball", "10 mm", "--anchor-load", "2 N"], 2, "--anchor-load is of an anchor"),
+        (["curves.csv", "--ball", "10 mm", "--anchor-area", "2 mm^2", *ANCHOR], 2, "one anchor is enough"),
+        (["curves.csv", "--ball", "10 mm", "--anchor-load", "2 N", *ANCHOR], 2, "does not belong to --anchor-modulus"),
         (["curves.csv", "--ball", "10 mm", "--prior-band", "1 Hz,2 Hz"], 2, "--prior-band is the band of a --prior"),
         (["curves.csv", "--ball", "10 mm", "--out", "rubber.csv"], 2, "must end in .json"),
         (["curves.csv", "--ball", "10 mm", "--beside", "rubber.json"], 2, "drawn into the --picture"),

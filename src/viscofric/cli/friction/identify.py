@@ -11,13 +11,13 @@ import click
 
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import refuse_to_overwrite, told
+from viscofric.cli.friction.anchors import anchor_options, check_anchor, make_anchor
 from viscofric.cli.friction.files import JSON, PICTURES, check_ending, tell_notes
 from viscofric.cli.friction.options import separation_options, settings_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from viscofric.friction.identification.anchors import ModulusAnchor
     from viscofric.friction.identification.result import IdentifiedMaterial
     from viscofric.rheology.material import Material
 
@@ -41,10 +41,7 @@ Such as
     help="Shift factors: a table (CSV), a rubber's file or a name of the catalogue [default: found from friction].",
 )
 @click.option("--reference", metavar="T", help="Temperature at which the rubber is described, such as '30 degC'.")
-@click.option("--anchor-modulus", metavar="E", help="|E| known at one frequency, such as '8 MPa': it fixes the level.")
-@click.option("--anchor-frequency", metavar="F", help="Of the anchor, such as '1 Hz' or '6.28 rad/s'.")
-@click.option("--anchor-temperature", metavar="T", help="Of the anchor, such as '30 degC'.")
-@click.option("--anchor-error", type=float, metavar="SHARE", help="Relative standard error of it [default: 0.01].")
+@anchor_options
 @click.option("--prior", metavar="FILE|NAME", help="A rubber that is known over a part of the frequencies.")
 @click.option("--prior-band", metavar="LOW,HIGH", help="Over which it is known, such as '0.1 Hz,10 Hz'.")
 @click.option("--prior-error", type=float, default=0.02, show_default=True, help="Relative standard error of it.")
@@ -82,7 +79,7 @@ def command(
             refuse_to_overwrite(target, sources)
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture, which is not asked for.")
-    settings, anchor = settings_of(asked), _anchor(asked)
+    settings, anchor = settings_of(asked), check_anchor(asked)
     with told():
         from viscofric.cli.friction.sources import friction_curves, shifts
         from viscofric.cli.material.rubbers import find_rubber
@@ -92,7 +89,9 @@ def command(
         shape = chosen_indenter(asked)
         known = None if beside is None else find_rubber(beside)
         options = {name: asked[name] for name in _SETTINGS}
-        options |= _prior(asked) | ({"anchor": anchor()} if anchor else {})
+        options |= _prior(asked)
+        if anchor is not None:
+            options["anchor"] = make_anchor(asked, anchor, shape.indenter.geometry.load_unit)
         if asked["shift"] is not None:
             options["shift"], _ = shifts(asked["shift"])
         curves = friction_curves(sources, settings)
@@ -108,29 +107,6 @@ def command(
         tell_notes(curves.notes)
         for written in _write(found, known, out, picture, synthetic):
             click.echo(written, err=as_json)
-
-
-def _anchor(asked: dict[str, Any]) -> Callable[[], ModulusAnchor] | None:
-    """Return what makes the anchor, once it is worth loading what it takes."""
-    names = ("anchor_modulus", "anchor_frequency", "anchor_temperature")
-    given = [name for name in names if asked[name] is not None]
-    if not given and asked["anchor_error"] is None:
-        return None
-    if len(given) < len(names):
-        missing = next(name for name in names if asked[name] is None)
-        raise click.UsageError(f"an anchor has modulus, frequency and temperature; give --{_typed(missing)} too.")
-
-    def made() -> ModulusAnchor:
-        from viscofric.friction.identification.anchors import ModulusAnchor
-
-        more = {} if asked["anchor_error"] is None else {"error": asked["anchor_error"]}
-        return ModulusAnchor(*(asked[name] for name in names), **more)
-
-    return made
-
-
-def _typed(name: str) -> str:
-    return name.replace("_", "-")
 
 
 def _prior(asked: dict[str, Any]) -> dict[str, Any]:

@@ -43,6 +43,13 @@ Such as
 @click.option(
     "--ball", metavar="RADIUS", help="Of the ball, such as '9.525 mm': friction at all loads is then reduced to one."
 )
+@click.option(
+    "--level-error",
+    type=float,
+    default=0.0,
+    show_default=True,
+    help="Relative standard error that all points of a temperature share, which the errors of α then count.",
+)
 @separation_options
 @click.option("--out", type=_FILE, help="Write the shift factors with their errors (CSV).")
 @click.option("--picture", type=_FILE, help="Draw master curve and shift factors (PNG, SVG or PDF).")
@@ -74,7 +81,9 @@ def command(
         agreement = _agreement(master, known)
         if as_json:
             inputs = {"sources": [str(path) for path in sources]}
-            inputs |= {"shift": asked["known"]} | {name: asked[name] for name in ("reference", "law", "ball")}
+            inputs |= {"shift": asked["known"]} | {
+                name: asked[name] for name in ("reference", "law", "ball", "level_error")
+            }
             record = shift_record(master, law, agreement, inputs | settings)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         else:
@@ -104,7 +113,7 @@ def _shifted(
         )
     try:
         about = known.reference if reference is None and known is not None else reference
-        return shift_friction(curves, reference=about, **options)
+        return shift_friction(curves, reference=about, level_error=asked["level_error"], **options)
     except SuperpositionError as error:
         if known is None:
             raise
