@@ -216,7 +216,22 @@ def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
     beside = call("shift", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
     assert beside.exit_code == 0, beside.output
     assert "No shift factors from friction" in beside.output
-    assert not record("shift", path, "--shift", "synthetic fluoroelastomer")["found"]
+    told = record("shift", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
+    law = vf.synthetic_fluoroelastomer().shift
+    assert law is not None
+    assert not told["found"]
+    assert told["covariance"] is None
+    np.testing.assert_allclose(told["log10_shift_factor"], law.log10(np.array([303.15, 363.15])), atol=1e-12)
+    refused = call("shift", path, "--shift", "synthetic fluoroelastomer", "--out", tmp_path / "alpha.csv")
+    assert refused.exit_code == 1
+    assert "alpha.csv is not written" in refused.output
+    assert not (tmp_path / "alpha.csv").exists()
+
+
+def test_curves_of_one_temperature_are_shifted_by_given_factors(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv", [363.15])
+    assert "hold no shift factor" in call("shift", path).output
+    assert call("shift", path, "--shift", "synthetic fluoroelastomer").exit_code == 0
 
 
 def test_runs_are_separated_before_they_are_shifted(tmp_path: Path) -> None:

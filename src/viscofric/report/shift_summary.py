@@ -14,10 +14,14 @@ from viscofric.rheology.cards.native import plain
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
     from viscofric.rheology.shifts.laws import ParametricLaw
     from viscofric.rheology.shifts.shift_law import ShiftLaw
+
+    Array = NDArray[np.float64]
 
 _UNITS = {"temperature": "K", "reference": "K", "log10_shift_factor": "1", "standard_error": "1", "covariance": "1"}
 
@@ -31,24 +35,35 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
     known : ShiftLaw, optional
         Of the modulus; dashes where it does not answer.
     """
-    factors = master.shift_factors
+    temperatures, found, doubt = _factors(master)
     columns = [
-        ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in factors.temperatures)],
-        ["log10 α", *_pairs(factors.log10_values, factors.standard_errors)],
+        ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in temperatures)],
+        ["log10 α", *_pairs(found, doubt)],
     ]
     if known is not None and master.found:
-        known = known.at_reference(factors.reference)
-        answers = [_answer(known, float(kelvin)) for kelvin in factors.temperatures]
-        values, errors = (np.array(column) for column in zip(*answers, strict=True))
+        values, errors = _answers(known.at_reference(master.reference), temperatures)
         columns.append(["of the modulus", *_pairs(values, errors)])
-        doubt = np.hypot(errors, factors.standard_errors)
-        columns.append(["difference", *_pairs(factors.log10_values - values, doubt)])
+        columns.append(["difference", *_pairs(found - values, np.hypot(errors, doubt))])
     widths = [max(map(len, column)) for column in columns]
     return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in _rows(columns)]
 
 
 def _rows(columns: list[list[str]]) -> list[tuple[str, ...]]:
     return list(zip(*columns, strict=True))
+
+
+def _factors(master: FrictionMasterCurve) -> tuple[Array, Array, Array]:
+    """Return temperatures (K), log10 α and its standard errors: those found, or those given at the curves' own."""
+    if master.found:
+        factors = master.shift_factors
+        return factors.temperatures, factors.log10_values, factors.standard_errors
+    temperatures = master.curves.temperatures
+    return temperatures, *_answers(master.shift, temperatures)
+
+
+def _answers(law: ShiftLaw, temperatures: Array) -> tuple[Array, Array]:
+    values, errors = np.array([_answer(law, float(kelvin)) for kelvin in temperatures]).T
+    return values, errors
 
 
 def _answer(law: ShiftLaw, kelvin: float) -> tuple[float, float]:
@@ -114,16 +129,16 @@ def shift_record(
     inputs : dict
         What was asked for, in plain types.
     """
-    factors = master.shift_factors
+    temperatures, values, errors = _factors(master)
     return {
         "format": "viscofric friction shift 1",
         "inputs": inputs,
         "found": master.found,
-        "reference": factors.reference,
-        "temperature": factors.temperatures.tolist(),
-        "log10_shift_factor": factors.log10_values.tolist(),
-        "standard_error": factors.standard_errors.tolist(),
-        "covariance": factors.covariance.tolist(),
+        "reference": master.reference,
+        "temperature": temperatures.tolist(),
+        "log10_shift_factor": values.tolist(),
+        "standard_error": errors.tolist(),
+        "covariance": master.shift_factors.covariance.tolist() if master.found else None,
         "law": None if law is None else plain(law),
         "overlap": {
             "rms": master.overlap_rms,

@@ -80,15 +80,14 @@ class Measurement:
     def _shifted_by_itself(self) -> FrictionMasterCurve | None:
         """Find α(T) from friction alone, about the modulus's reference where friction reaches it."""
         assert self.material.shift is not None
-        for reference in (self.material.shift.reference, None):
-            try:
-                return shift_friction(self.curves, reference=reference, **self._rule)
-            except SuperpositionError as error:
-                self.notes.append(f"Friction alone tells no shift factors: {error}")
-                return None
-            except InputError:
-                continue  # the reference lies outside the temperatures of friction
-        return None
+        reference: float | None = self.material.shift.reference
+        if not self.curves.temperature.min() <= reference <= self.curves.temperature.max():
+            reference = None
+        try:
+            return shift_friction(self.curves, reference=reference, **self._rule)
+        except (SuperpositionError, InputError) as error:
+            self.notes.append(f"Friction alone tells no shift factors: {error}")
+            return None
 
     def groups(
         self,

@@ -79,6 +79,8 @@ def command(
         master = _shifted(curves, known, vertical, asked)
         law = _law(master, asked["law"])
         agreement = _agreement(master, known)
+        if out is not None and not master.found:
+            raise click.ClickException(f"{out} is not written, for friction tells no shift factors.")
         if as_json:
             inputs = {"sources": [str(path) for path in sources]}
             inputs |= {"shift": asked["known"]} | {
