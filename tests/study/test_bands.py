@@ -96,18 +96,13 @@ def test_modulus_has_its_band_too(results: StudyResults) -> None:
     assert "storage_modulus_lower" in results.tree["spectrum_curve"]
 
 
-def test_no_samples_are_no_bands(tmp_path: Path) -> None:
-    plain = run_study(write(tmp_path, samples=0))
-    assert "friction_lower" not in plain.tree["prediction"]
-    assert not [note for note in plain.notes if "95 % band" in note]
-
-
 def test_a_rubber_that_was_ready_has_no_bands_and_says_so(tmp_path: Path) -> None:
     ready = run_study(write(tmp_path, 'catalogue = "synthetic fluoroelastomer"', samples=20))
     assert "friction_lower" not in ready.tree["prediction"]
     assert any("no 95 % bands" in note for note in ready.notes)
 
 
+@pytest.mark.slow
 def test_friction_is_kept_where_only_its_band_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from viscofric.study import cases
 

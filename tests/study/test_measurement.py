@@ -26,7 +26,7 @@ thickness = "5 mm"
 curves = "curves.csv"
 [solver]
 accuracy = 1e-2
-master_curve_points = 11
+master_curve_points = 9
 """
 
 

@@ -298,6 +298,8 @@ def test_a_file_that_tells_neither_tension_nor_shear_needs_it_told(tmp_path: Pat
 def test_contacts_beyond_the_measured_frequencies_are_told(tmp_path: Path) -> None:
     results = run_study(_small_study(tmp_path, speed='speed = ["100 mm/s", "1e8 m/s"]'))
     assert results.tree["prediction"]["within_measured_frequencies"].values.tolist() == [1, 0]
+    assert "friction_lower" not in results.tree["prediction"]  # no samples were asked for
+    assert not [note for note in results.notes if "95 % band" in note]
     assert any("beyond the reduced frequencies" in warning for warning in results.warnings)
 
 
