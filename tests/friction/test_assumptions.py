@@ -139,3 +139,15 @@ def test_what_cannot_be_checked_is_refused() -> None:
         vf.check_assumptions(RUBBER, BALL, curves(), contact_radius=[1e-3, 2e-3])
     with pytest.raises(InputError, match="thickness"):
         vf.check_assumptions(RUBBER, BALL, curves(), thickness="-1 mm")
+
+
+def test_the_narrowest_contact_is_hertz_at_the_modulus_of_its_own_frequency() -> None:
+    """a³ = 3 F R (1 − ν²)/(4 |E(v/a)|), iterated here from its formula; both bounds are in the sentence."""
+    one = friction_curves(SPEED[:1], KELVIN[-1:], np.array([0.02]))
+    modes, a = RUBBER.modes_at(float(KELVIN[-1])), 1e-3
+    for _ in range(100):
+        modulus = abs(complex(modes.complex_modulus(SPEED[0] / a)))
+        a = (3.0 * 25.0 * 9.525e-3 * 0.75 / (4.0 * modulus)) ** (1.0 / 3.0)
+    sentence = checks(RUBBER, BALL, one)["small contact"].sentence
+    assert f"about {1e3 * a:.2g} and at most" in sentence
+    assert f"{a / 9.525e-3:.2f} to" in sentence

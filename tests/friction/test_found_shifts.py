@@ -181,6 +181,16 @@ def test_friction_that_does_not_depend_on_speed_tells_no_shift(noise: float) -> 
         shift_friction(made(constant, 30.0, 40.0, noise=noise))
 
 
+def test_what_chance_makes_of_constant_friction_is_refused() -> None:
+    """Of many pairs of curves without slope some seem to overlap: what they join must not be one constant."""
+    for seed in range(40):
+        curves = made(
+            constant, *np.arange(30.0, 111.0, 10.0), speeds=np.geomspace(0.02, 0.2, 8), noise=NOISE, seed=seed
+        )
+        with pytest.raises(SuperpositionError, match="too flat"):
+            shift_friction(curves)
+
+
 @pytest.mark.parametrize("friction", [power, peak, double_peak])
 def test_curves_with_and_without_maxima_are_joined(friction: Callable[[Array], Array]) -> None:
     """Where one flank could pass for another, the curves of all temperatures together decide."""
@@ -204,6 +214,27 @@ def test_curves_that_fit_in_two_places_are_not_placed() -> None:
     curves = made(repeating, 48.0, 50.0, speeds=np.geomspace(0.002, 0.2, 25))
     with pytest.raises(SuperpositionError, match=r"friction at 50\.0 °C coincides with the other curves in more"):
         shift_friction(curves)
+
+
+@pytest.mark.parametrize("level", [0.05, 0.1])
+def test_flanks_of_two_maxima_are_not_taken_for_one(level: float) -> None:
+    """In noise those of temperatures far apart look alike, but what was measured in between says that they are not."""
+
+    def unequal(reduced: Array) -> Array:
+        place = np.log10(reduced / 0.01)
+        return np.asarray(
+            0.01 + 0.03 * np.exp(-(((place + 1.5) / 0.6) ** 2)) + 0.02 * np.exp(-(((place - 1) / 0.6) ** 2))
+        )
+
+    celsius = (30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0)
+    for seed in range(6):
+        curves = made(unequal, *celsius, speeds=np.geomspace(0.02, 0.4, 8), noise=np.sqrt(8.0) * level, seed=seed)
+        try:
+            factors = shift_friction(curves).shift_factors
+        except SuperpositionError:
+            continue
+        # Flanks mistaken for each other are wrong by one to three decades, everything else by a tenth or two.
+        assert np.abs(deviation(factors)).max() < 0.6
 
 
 def test_opposite_flanks_of_a_maximum_do_not_overlap() -> None:

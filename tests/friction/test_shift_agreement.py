@@ -122,3 +122,18 @@ def test_what_cannot_be_compared_is_refused() -> None:
     apart = ShiftFactors([303.15, 304.0], [0.0, -0.05], 303.15)
     with pytest.raises(InputError, match=r"no temperature in common beside the reference, 30\.0 °C"):
         compare_shift_factors(table, apart)
+
+
+def test_factors_that_scatter_more_than_their_errors_say_widen_that_of_the_slope() -> None:
+    """One unknown, n − 1 degrees of freedom; for equal independent errors k and its error are those of a textbook."""
+    law = WLF(C1=9.0, C2=100.0, reference=303.15)
+    kelvin = 303.15 + np.array([0.0, 10.0, 20.0, 30.0])
+    x = np.asarray(law.log10(kelvin))
+    y = x + np.array([0.0, 0.1, -0.1, 0.1])
+    found = ShiftFactors(kelvin, y, 303.15, np.diag([0.0, 1e-4, 1e-4, 1e-4]))
+    agreement = compare_shift_factors(found, law)
+    slope = x @ y / (x @ x)
+    deviation = np.sqrt(np.sum((y - slope * x) ** 2) / 2.0)
+    # 1e-6 decades are added to the errors, 1e-8 of their squares.
+    assert agreement.slope == pytest.approx(slope, rel=1e-6)
+    assert agreement.slope_error == pytest.approx(deviation / np.sqrt(x @ x), rel=1e-6)

@@ -16,6 +16,7 @@ from scipy.stats import binom
 
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
+from viscofric.friction.measurement.least_squares import operators, residuals
 from viscofric.friction.measurement.tribometry import separate
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
@@ -424,6 +425,36 @@ def test_outliers_are_left_out_with_all_that_was_recorded_with_them() -> None:
     np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=3.6e-4)
 
 
+@pytest.mark.parametrize("replicates", [1, 2, 4])
+def test_few_readings_of_a_rolling_ball_have_no_sense_of_slip(replicates: int) -> None:
+    """All of few readings jitter to the same side every other time; 3 standard deviations pass 359 times in 360."""
+    temperatures = tuple(290.0 + 5.0 * np.arange(20))
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03,
+        slip_ratio=0.0,
+        configurations=[(-1, 1), (1, 1)],
+        coulomb=0.0,
+        temperatures=temperatures,
+        replicates=replicates,
+        speed_jitter=0.002,
+    )
+    curves = separate(runs)
+    assert len(curves) >= 58  # of 60
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("slip_ratio", [0.02, 0.04])
+def test_slip_reversed_at_constant_rolling_speed_is_no_jitter(slip_ratio: float) -> None:
+    """The disc's two speeds lie within the tolerance of speeds; what each scatters by tells slip from rolling."""
+    rows = rows_of(
+        traction_runs(viscoelastic=lambda v, T: 0.03, slip_ratio=slip_ratio, replicates=8, speed_jitter=0.001)
+    )
+    rows[:, :2] += 0.5 * (rows[:, :1] - rows[:, 1:2])
+    curves = separate(runs_from(rows))
+    assert len(curves) == 6
+    np.testing.assert_allclose(curves.coulomb, 0.05, rtol=ROUNDING)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("slip_ratio", [0.01, 0.03, 1.5])
 def test_small_slips_have_signs_where_speeds_are_steady(slip_ratio: float) -> None:
     """What slip can be told from rolling follows from the measured jitter of the speeds, here 0.1 %."""
@@ -490,3 +521,29 @@ def test_fifty_thousand_readings_take_seconds() -> None:
     assert process_time() - start < 20.0
     assert len(curves) == 1560
     assert curves.notes == ()
+
+
+def test_outliers_are_told_from_the_scatter_of_loads() -> None:
+    """Loads that jitter by 2 % move forces by 0.03 N, and an offset of 30 N by none of that: 0.1 N stand out."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03, offset=30.0, load_jitter=0.02, noise=0.002, replicates=8, seed=2
+    )
+    force = runs.traction_force.copy()
+    force[5] += 0.1
+    (note,) = [one for one in separate(replace(runs, traction_force=force)).notes if "kept" in one]
+    assert note.startswith("One reading deviates")
+    assert "row 6" in note
+
+
+def test_residuals_are_those_of_least_squares_with_and_without_the_fourth_coefficient() -> None:
+    """Configurations measured unequally often, with loads of their own: the regressors are not orthogonal."""
+    random = np.random.default_rng(4)
+    disc, slip = np.array(FOUR)[[0, 0, 0, 1, 2, 2, 3, 3, 3]].T
+    load = 1.0 + 0.1 * random.standard_normal(9)
+    design = np.stack([np.ones(9), load * disc, load * slip], axis=1)
+    crossed, target = -load * disc * slip, random.standard_normal((9, 2))
+    operator = operators(design, crossed, [np.arange(9)])
+    both = np.column_stack([design, crossed])
+    expected = [target - one @ np.linalg.lstsq(one, target, rcond=None)[0] for one in (design, both)]
+    for found, wanted in zip(residuals(design, crossed, operator, target), expected, strict=True):
+        np.testing.assert_allclose(found, wanted, atol=1e-12)

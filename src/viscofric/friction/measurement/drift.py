@@ -36,7 +36,9 @@ class Drift:
     follows : bool
         Whether the zero follows its changes from one recording to the next.
     wandering : float
-        Standard deviation of a zero that moves unevenly, N; zero where it does not.
+        Standard deviation of a zero that moves unevenly, or at times that were not recorded, N; zero where it does not.
+    timed : bool
+        Whether the times were recorded.
     """
 
     rate: float = 0.0
@@ -44,6 +46,7 @@ class Drift:
     freedom: float = np.inf
     follows: bool = False
     wandering: float = 0.0
+    timed: bool = True
 
     @property
     def weights(self) -> Array:
@@ -66,7 +69,7 @@ class Drift:
         repeated = [fit for fit in timed if len(fit.each) > 1]
         taken = repeated or timed
         if not taken:
-            return cls(follows=follows)
+            return cls(follows=follows, wandering=_in_order_of_rows(fitted, plain), timed=False)
         zero = np.concatenate([fit.offset(plain) for fit in taken])
         # Where readings of a replicate weigh unequally, its zero is that of the time which the fit makes of theirs.
         time = np.concatenate([fit.time - fit.each[:, 0, DRIFT] for fit in taken])
@@ -112,12 +115,25 @@ class Drift:
                 f"(viscoelastic) and {size[1]:.2g} (Coulomb)."
             )
         if self.wandering:
+            how, advice = "unevenly ", "measure the configurations of a condition in quick succession"
+            if not self.timed:
+                how, advice = "", "record the times of the readings (time)"
             told.append(
-                f"The zero of the force cell moves unevenly in the course of the test, with a standard deviation of "
-                f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; measure "
-                "the configurations of a condition in quick succession."
+                f"The zero of the force cell moves {how}in the course of the test, with a standard deviation of "
+                f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; "
+                f"{advice}."
             )
         return told
+
+
+def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
+    """Return the standard deviation of zeros that follow each other closely, N; zero where they do not."""
+    if not fits:
+        return 0.0
+    row = np.concatenate([fit.first_rows for fit in fits])
+    zero = np.concatenate([fit.offset(weights) for fit in fits])[np.argsort(row, kind="stable")]
+    deviation = float(np.std(zero, ddof=1)) if zero.size > 1 else 0.0
+    return deviation if deviation > ROUNDING * max(fit.group.load for fit in fits) and wanders(zero) else 0.0
 
 
 def _centred(values: Array, line: NDArray[np.int64]) -> Array:

@@ -64,6 +64,8 @@ class Fit:
         What the fits without and with the consistency leave over.
     operator : (4, n) array
         Makes the coefficients of the readings.
+    first_rows : (r,) array of int
+        First row of the readings behind each entry of `each`.
     step : (n,) array of int
         Number of the step of the test that each reading belongs to, among those of the condition.
     freedom : (2,) tuple
@@ -84,6 +86,7 @@ class Fit:
     residual: Array = field(repr=False)
     checked: Array = field(repr=False)
     operator: Array = field(repr=False)
+    first_rows: NDArray[np.int64] = field(repr=False)
     step: NDArray[np.intp] = field(repr=False)
     freedom: tuple[int, int]
     zero_variance: Array
@@ -148,6 +151,7 @@ class Fit:
             residual=residual,
             checked=checked,
             operator=operator,
+            first_rows=np.array([group.rows[rows].min() for rows in parts]),
             step=step,
             freedom=(load.size - unknowns, load.size - unknowns - 1 if checks else 0),
             zero_variance=np.zeros(4) if offset else zeros.variance(group, operator, independent),

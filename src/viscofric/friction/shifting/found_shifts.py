@@ -12,7 +12,7 @@ from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.shifting.isotherms import scatter_scale
 from viscofric.friction.shifting.pairs import FEWEST_POINTS
 from viscofric.friction.shifting.placement import arrange, groups, rivals, scan_pairs
-from viscofric.friction.shifting.refusals import Doubts, shown
+from viscofric.friction.shifting.refusals import Doubts, shown, too_flat
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.superposition.common_shifts import fitted
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 SURE = 2.0
 #: By which variances grow at most because the scatter is found from few points.
 LARGEST_FACTOR = 5.0
+#: Friction whose differences chance makes more often than this may be constant; many pairs were looked at.
+CONSTANT = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,14 +83,15 @@ def found_shifts(
         If the reference lies outside the temperatures, or between groups that do not overlap.
     """
     _check(isotherms, reference)
-    pairs = scan_pairs(isotherms, scatter_scale(isotherms) or 1.0)
+    scale = scatter_scale(isotherms)
+    pairs = scan_pairs(isotherms, scale or 1.0)
     doubts = Doubts(isotherms, pairs, reference)
     joined = [places for places, pair in pairs.items() if pair.candidates]
     members = _group(groups(range(len(isotherms)), joined), doubts)
     arrangements = arrange(members, pairs)
     doubts.elsewhere = rivals(arrangements)
-    members = [place for place in members if place not in doubts.elsewhere]
     positions = arrangements[0].positions
+    members = [place for place in sorted(positions) if place not in doubts.elsewhere]
     while True:
         members = _group([members], doubts)
         chosen = [isotherms[place] for place in members]
@@ -102,6 +105,8 @@ def found_shifts(
             break
         positions = dict(zip(members, values.tolist(), strict=True))
         members = reaching
+    if scale is not None and _may_be_constant(chosen, isotherms, scale):
+        raise SuperpositionError(too_flat(chosen))
     temperatures = np.array([isotherm.temperature for isotherm in chosen])
     notes = doubts.left_out(members)
     return FoundShifts(ShiftFactors(temperatures, values, kelvin, covariance, notes), tuple(members), notes)
@@ -132,6 +137,17 @@ def _group(found: list[list[int]], doubts: Doubts, *, fitted: bool = False) -> l
     if not near:
         raise SuperpositionError(doubts.refusal(fitted=fitted))
     return max(near, key=len)
+
+
+def _may_be_constant(chosen: Sequence[FrictionIsotherm], isotherms: Sequence[FrictionIsotherm], scale: float) -> bool:
+    """Whether friction of the chosen temperatures differs no more than its scatter, that of all, makes it (F test)."""
+    from scipy.special import fdtrc
+
+    friction = np.concatenate([isotherm.friction for isotherm in chosen])
+    weight = 1.0 / (scale * np.concatenate([isotherm.variance for isotherm in chosen]))
+    ratio = np.sum(weight * (friction - np.average(friction, weights=weight)) ** 2) / (friction.size - 1)
+    freedom = sum(isotherm.curves.freedom for isotherm in isotherms if len(isotherm) > 3)
+    return bool(fdtrc(friction.size - 1, freedom, ratio) > CONSTANT)
 
 
 def _fit(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> tuple[Array, Array]:

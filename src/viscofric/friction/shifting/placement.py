@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TYPE_CHECKING, TypeAlias
 
-from viscofric.friction.shifting.pairs import Pair, scan
+import numpy as np
+
+from viscofric.friction.shifting.pairs import LARGEST_MISFIT, STEP, WRONG_WAY, Pair, scan
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -42,10 +44,32 @@ Pairs: TypeAlias = "Mapping[tuple[int, int], Pair]"
 
 def scan_pairs(isotherms: Sequence[FrictionIsotherm], scale: float) -> dict[tuple[int, int], Pair]:
     """Scan all pairs of temperatures; the keys are their places, the colder first."""
-    return {
+    pairs = {
         (colder, warmer): scan(isotherms[colder], isotherms[warmer], scale)
         for colder, warmer in combinations(range(len(isotherms)), 2)
     }
+    return {places: _with_those_between(places, pair, pairs) for places, pair in pairs.items()}
+
+
+def _with_those_between(places: tuple[int, int], pair: Pair, pairs: Pairs) -> Pair:
+    """Drop the steps that most temperatures between the two contradict.
+
+    α falls with temperature, so that a curve between two others lies between them.  Different stretches of a curve that
+    look alike, as the flanks of two maxima, coincide where what was measured in between has no place.
+    """
+    between = range(places[0] + 1, places[1])
+    if not pair.candidates or not between:
+        return pair
+
+    def contradicts(middle: int, step: float) -> bool:
+        upper, lower = pairs[places[0], middle], pairs[middle, places[1]]
+        parts = np.arange(-WRONG_WAY, max(step, 0.0) + WRONG_WAY + STEP, STEP)
+        return all(max(upper.cost(part), lower.cost(step - part)) > LARGEST_MISFIT for part in parts.tolist())
+
+    steps = tuple(
+        step for step in pair.candidates if 2 * sum(contradicts(one, step) for one in between) <= len(between)
+    )
+    return replace(pair, candidates=steps, verdict=pair.verdict if steps else "apart")
 
 
 def groups(places: Iterable[int], joined: Iterable[tuple[int, int]]) -> list[list[int]]:
@@ -61,7 +85,8 @@ def arrange(members: Sequence[int], pairs: Pairs) -> list[Arrangement]:
     """Put the curves of a group of temperatures over each other, the best arrangement first.
 
     From the coldest on, each is tried wherever it coincides with one that is placed already; what contradicts the
-    others falls behind, so that a curve which coincides in two places with one neighbour finds the right one.
+    others falls behind, so that a curve which coincides in two places with one neighbour finds the right one.  Where
+    α would rise with temperature none is put, and curves that have no place then are left out.
 
     Parameters
     ----------
@@ -73,13 +98,19 @@ def arrange(members: Sequence[int], pairs: Pairs) -> list[Arrangement]:
     found = [Arrangement({members[0]: 0.0}, 0.0)]
     left = list(members[1:])
     while left:
-        place = next(one for one in left if any(_pair(pairs, one, other).candidates for other in found[0].positions))
+        joined = (one for one in left if any(_pair(pairs, one, other).candidates for other in found[0].positions))
+        place = next(joined, None)
+        if place is None:
+            break
         left.remove(place)
         grown = [
             _with(arrangement, place, position, pairs)
             for arrangement in found
             for position in _positions(arrangement, place, pairs)
+            if _falls(arrangement, place, position, pairs)
         ]
+        if not grown:
+            continue
         found = sorted(grown, key=lambda one: one.cost)[:BREADTH]
     return found
 
@@ -112,6 +143,15 @@ def _positions(arrangement: Arrangement, place: int, pairs: Pairs) -> list[float
             if all(abs(wanted - known) > SAME_POSITION for known in positions):
                 positions.append(wanted)
     return positions
+
+
+def _falls(arrangement: Arrangement, place: int, position: float, pairs: Pairs) -> bool:
+    """Whether α falls with temperature if a curve is put at a position, to what pairs by themselves leave open."""
+    for other, known in arrangement.positions.items():
+        step = known - position if other < place else position - known
+        if step < min(-WRONG_WAY, *(one - SAME_POSITION for one in _pair(pairs, place, other).candidates), 0.0):
+            return False
+    return True
 
 
 def _with(arrangement: Arrangement, place: int, position: float, pairs: Pairs) -> Arrangement:

@@ -64,10 +64,7 @@ class Doubts:
             )
         neighbours = [self.pairs[place, place + 1] for place in range(len(self.isotherms) - 1)]
         if all(pair.verdict == "flat" for pair in neighbours):
-            return (
-                f"the {what} are too flat: friction changes too little with speed for its errors, so that any shift "
-                "factor would do."
-            )
+            return too_flat(self.isotherms)
         lone = [isotherm for isotherm in self.isotherms if len(isotherm) < FEWEST_POINTS]
         if len(lone) > len(self.isotherms) - 2:
             return f"friction at {_listed(lone)} is known at one speed only; a shift factor needs two or more."
@@ -102,6 +99,14 @@ class Doubts:
 def shown(isotherm: FrictionIsotherm) -> str:
     """Write the temperature of an isotherm as users read it."""
     return f"{celsius(isotherm.temperature):z.1f} °C"
+
+
+def too_flat(isotherms: Sequence[FrictionIsotherm]) -> str:
+    """Say that friction may as well be constant."""
+    return (
+        f"the friction curves at {_listed(isotherms)} are too flat: friction changes too little with speed for its "
+        "errors, so that any shift factor would do."
+    )
 
 
 def _listed(isotherms: Sequence[FrictionIsotherm]) -> str:
