@@ -10,6 +10,7 @@ import pytest
 from viscofric import files
 from viscofric.errors import DataFileError
 from viscofric.readers import read_dma
+from viscofric.readers.table import read_table
 
 HEADER = "temperature (degC);frequency (Hz);storage modulus (MPa);loss modulus (MPa)"
 
@@ -31,6 +32,18 @@ def write(tmp_path, *lines, encoding="utf-8"):
 def test_points_and_commas_in_one_file_are_refused(tmp_path, rows, line, cell):
     with pytest.raises(DataFileError, match=rf"line {line}: '{cell}' .* has a point, but other numbers .* a comma"):
         read_dma(write(tmp_path, HEADER, *rows))
+
+
+def test_decimal_commas_in_columns_without_a_unit_alone(tmp_path):
+    heading = "speed (mm/s);temperature (degC);load (N);viscoelastic friction"
+    table = read_table(write(tmp_path, heading, "20;30;25;0,02", "40;30;25;0,0175"))
+    assert table.numbers(3).tolist() == [0.02, 0.0175]
+
+
+@pytest.mark.parametrize("line", ["sep=;", '"sep=;"', "SEP=;"])
+def test_a_line_that_tells_excel_the_delimiter_is_no_header(tmp_path, line):
+    sweeps = read_dma(write(tmp_path, line, HEADER, "20;0,1;5,5;0,5", "20;1;6,5;0,5"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
 
 
 def test_a_comma_in_a_remark_is_no_decimal_comma(tmp_path):

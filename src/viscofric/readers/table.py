@@ -30,6 +30,8 @@ _UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>°?[CKF]|deg[CFK]|[mkM]?Hz|ra
 #: How instruments and people print that there is no number.
 MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n/a", "#n/a", "n.a.", "null", "none", "*"})
 
+_FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
+_IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 # How instruments write the units of temperature that pint would take for coulomb, farad or nothing at all.
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
 
@@ -200,7 +202,7 @@ def read_table(path: str | PathLike[str]) -> Table:
     """Read a table of numbers separated by commas, semicolons or tabs, under one row of headings.
 
     UTF-8 and UTF-16 (with a byte-order mark) are recognised, anything else is read as Windows-1252.  Blank
-    lines and lines that begin with ``#`` are passed over.
+    lines, lines that begin with ``#`` and a first line ``sep=;``, which tells Excel the delimiter, are passed over.
 
     Raises
     ------
@@ -214,6 +216,8 @@ def read_table(path: str | PathLike[str]) -> Table:
 def table_of_text(shown: str, text: str) -> Table:
     """Read a table as `read_table` does, from text that is at hand; `shown` names the file in errors."""
     lines = text_lines(text)
+    if lines and _FOR_EXCEL.fullmatch(lines[0][1]):
+        del lines[0]
     if not lines:
         raise DataFileError(shown, "the file is empty; it must hold a header and rows of numbers.")
     first, header = lines[0]
@@ -263,8 +267,12 @@ def make_table(
         rows.append(tuple(cells))
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.")
-    # a remark may hold any comma
-    measured = [place for place, column in enumerate(columns) if column.unit or quantity(column.name)]
+    # a remark may hold any comma; a pure number, such as a coefficient of friction, has no unit
+    measured = [
+        place
+        for place, column in enumerate(columns)
+        if column.unit or quantity(column.name) or all(_IS_NUMBER.fullmatch(row[place].strip()) for row in rows)
+    ]
     lines = [number for number, _ in numbered]
     printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
     comma = comma_is_free and decimal_comma(path, printed)
