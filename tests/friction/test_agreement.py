@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from friction.made_runs import friction_curves
+from friction.made_runs import friction_curves, traction_runs
 from viscofric.errors import InputError
 from viscofric.friction.agreement import compare
 
@@ -181,3 +181,22 @@ def test_master_curves_that_cannot_be_compared_are_refused() -> None:
     faster = replace(curves, speed=1e4 * curves.speed)
     with pytest.raises(InputError, match="do not overlap"):
         compare(master, vf.shift_friction(faster, shift=WLF))
+    sparse = curves.select(np.array([0, len(curves) - 1]))
+    with pytest.raises(InputError, match="points there lie more than half a decade apart"):
+        compare(
+            vf.shift_friction(curves.select(np.arange(1, len(curves) - 1)), shift=WLF),
+            vf.shift_friction(sparse, shift=WLF),
+        )
+
+
+@pytest.mark.parametrize("what", ["measured", "predicted", "shifted", "checked"])
+def test_runs_that_are_not_separated_yet_are_no_friction_curves(what: str) -> None:
+    curves, runs = friction_of(WLF), traction_runs(viscoelastic=lambda v, T: 0.03)
+    uses = {
+        "measured": lambda: compare(runs, curves),  # type: ignore[call-overload]
+        "predicted": lambda: compare(curves, runs),  # type: ignore[call-overload]
+        "shifted": lambda: vf.shift_friction(runs),  # type: ignore[arg-type]
+        "checked": lambda: vf.check_assumptions(vf.synthetic_fluoroelastomer(), vf.Ball(radius=0.01), runs),  # type: ignore[arg-type]
+    }
+    with pytest.raises(InputError, match=r"must be FrictionCurves, as separate\(\) gives them, not TractionRuns"):
+        uses[what]()

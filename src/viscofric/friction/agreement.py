@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, overload
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.pairing import Pairs, along_reduced_speed, point_by_point
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 
@@ -143,13 +143,14 @@ def compare(
             "measured and predicted: one is a master curve and the other is not; compare curves with curves, or shift "
             "both with shift_friction."
         )
-    points = measured.curves if isinstance(measured, FrictionMasterCurve) else measured
-    _insist_on_friction(points)
     if isinstance(measured, FrictionMasterCurve) and isinstance(predicted, FrictionMasterCurve):
+        points = measured.curves
+        _insist_on_friction(points)
         pairs = along_reduced_speed(measured, predicted)
     else:
-        assert isinstance(predicted, FrictionCurves)
-        pairs = point_by_point(points, predicted)
+        points = insist_on_curves(measured, "measured")
+        _insist_on_friction(points)
+        pairs = point_by_point(points, insist_on_curves(predicted, "predicted"))
     return _agreement(pairs, shifted, len(points) - len(pairs.measured))
 
 

@@ -10,19 +10,19 @@ import numpy as np
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter
 from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.flash_temperature import (
     FILLED_RUBBER,
     PTFE,
     ThermalProperties,
 )
 from viscofric.friction.warming import Warming
+from viscofric.rheology.material import Material
 from viscofric.units import Quantity, celsius, positive, to_si_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.material import Material
     from viscofric.units import Quantities
 
     Array: TypeAlias = NDArray[np.float64]
@@ -129,6 +129,9 @@ def check_assumptions(
     linearity True
     one temperature True
     """
+    insist_on_curves(curves, "curves")
+    if not isinstance(material, Material):
+        raise InputError(f"material = {material!r}: must be a Material, such as vf.read_card('rubber.json').")
     if not len(curves):
         raise InputError("friction curves hold no points; there are no contacts to check.")
     if not isinstance(indenter, Indenter):

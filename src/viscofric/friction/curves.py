@@ -329,6 +329,13 @@ class FrictionCurves:
         )
 
 
+def insist_on_curves(given: object, name: str) -> FrictionCurves:
+    """Return friction curves; raise `InputError` where something else is given, such as runs not yet separated."""
+    if not isinstance(given, FrictionCurves):
+        raise InputError(f"{name} must be FrictionCurves, as separate() gives them, not {type(given).__name__}.")
+    return given
+
+
 def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
     column = np.array(values, dtype=float)
     if column.shape != shape:

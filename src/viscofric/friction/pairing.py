@@ -73,6 +73,11 @@ def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMaster
         covered |= (reduced >= low * (1.0 - _ROUNDING)) & (reduced <= high * (1.0 + _ROUNDING))
     if not np.any(covered):
         low, high = predicted.reduced_range
+        if low <= reduced.max() and reduced.min() <= high:
+            raise InputError(
+                "the predicted master curve cannot be read at any of the measured reduced speeds: its points there lie "
+                "more than half a decade apart; predict friction at more of them."
+            )
         raise InputError(
             f"master curves do not overlap: friction was measured at reduced speeds from {reduced.min():.3g} to "
             f"{reduced.max():.3g} m/s and predicted from {low:.3g} to {high:.3g} m/s, both at "

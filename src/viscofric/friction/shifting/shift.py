@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.curves import insist_on_curves
 from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
 from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_rows
@@ -161,6 +162,7 @@ def _nominal_log10(shift: ShiftLaw, curves: FrictionCurves) -> Array:
 
 def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: Any, load: Any) -> None:
     """Raise `InputError` for what cannot be shifted."""
+    insist_on_curves(curves, "curves")
     if not len(curves):
         raise InputError("friction curves hold no points; there is nothing to shift.")
     if shift is not None and not hasattr(shift, "log10"):
