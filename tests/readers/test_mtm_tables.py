@@ -47,6 +47,27 @@ def test_several_files_follow_each_other(tmp_path):
     assert "two.csv" in runs.source
 
 
+def test_files_that_are_each_numbered_from_one_are_different_repetitions(tmp_path):
+    days = ("0.40", "0.41", "0.39")
+    files = [
+        write(tmp_path, HEADER, *(f"30,{one},100,90,25,{force}" for one in (1, 2)), name=f"day{day}.csv")
+        for day, force in enumerate(days)
+    ]
+    runs = read_mtm(*files)
+    assert list(runs.replicate) == [1, 2, 3, 4, 5, 6]
+    assert [note.split(":")[0] for note in runs.notes] == ["day1.csv", "day2.csv"]
+    assert "numbered 3 to 4 here" in runs.notes[0]
+
+
+@pytest.mark.parametrize("other", ["60,1,100,90,25,0.4", "30,1,-100,-90,25,-0.4", "30,1,100,101,25,-0.4"])
+def test_files_of_other_conditions_keep_their_replicates(tmp_path, other):
+    """One file for each temperature, direction or sense of slip: replicate 1 is the same repetition in all of them."""
+    first = write(tmp_path, HEADER, "30,1,100,99,25,0.4", name="one.csv")
+    runs = read_mtm(first, write(tmp_path, HEADER, other, name="two.csv"))
+    assert list(runs.replicate) == [1, 1]
+    assert runs.notes == ()
+
+
 def test_equal_conditions_are_numbered_though_readings_scatter(tmp_path):
     rows = [
         "30.4,100,90,25,0.4",

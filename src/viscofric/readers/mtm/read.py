@@ -44,7 +44,9 @@ def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lu
     -------
     TractionRuns
         All readings, file after file, in SI units.  Without a replicate column the rows of equal nominal
-        temperature, load, disc and ball speed are numbered 1, 2, … in their order, with a note.
+        temperature, load, disc and ball speed are numbered 1, 2, … in their order, with a note.  A file that measures
+        conditions of an earlier one under the same replicate numbers holds other repetitions: its numbers are counted
+        on from there, with a note.
 
     Raises
     ------
@@ -154,7 +156,7 @@ def _replicates(parts: Sequence[TractionReadings], columns: dict[str, Array]) ->
     """Take the files' replicate numbers, or number rows of equal conditions in their order."""
     known = [part.replicate for part in parts if part.replicate is not None]
     if len(known) == len(parts):
-        return np.concatenate(known), ()
+        return _counted_on(parts, columns)
     if known:
         without = next(part.source for part in parts if part.replicate is None)
         raise DataFileError(without, "has no replicate column, but another file of the same call has one.")
@@ -162,20 +164,55 @@ def _replicates(parts: Sequence[TractionReadings], columns: dict[str, Array]) ->
     lengths = np.cumsum([0, *(int(part.row.max()) + 1 for part in parts)])
     row = np.concatenate([part.row + first for part, first in zip(parts, lengths[:-1], strict=True)])
     _, first, place = np.unique(row, return_index=True, return_inverse=True)
-    disc, ball, load, temperature = (
-        columns[name][first] for name in ("disc_speed", "ball_speed", "load", "temperature")
-    )
+    nominal = _nominal({name: column[first] for name, column in columns.items()})
+    seen: Counter[tuple[int, ...]] = Counter()
+    numbers = []
+    for condition in nominal.tolist():
+        key = tuple(condition)
+        seen[key] += 1
+        numbers.append(seen[key])
+    note = "There is no replicate column; readings of equal speeds, load and temperature are numbered in their order."
+    return np.array(numbers, dtype=np.int64)[place], (note,)
+
+
+def _nominal(columns: dict[str, Array]) -> Whole:
+    """Return numbers of the nominal temperature, load, disc and ball speed of each reading, a column each."""
+    disc, ball, load, temperature = (columns[name] for name in ("disc_speed", "ball_speed", "load", "temperature"))
     nominal = [
         numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE)),
         numbered(load, SAME_LOAD * load),
         numbered(disc, SAME_SPEED * np.abs(disc)),
         numbered(ball, SAME_SPEED * np.abs(ball)),
     ]
-    seen: Counter[tuple[int, ...]] = Counter()
-    numbers = []
-    for condition in np.stack(nominal, axis=1).tolist():
-        key = tuple(condition)
-        seen[key] += 1
-        numbers.append(seen[key])
-    note = "There is no replicate column; readings of equal speeds, load and temperature are numbered in their order."
-    return np.array(numbers, dtype=np.int64)[place], (note,)
+    return np.stack(nominal, axis=1)
+
+
+def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) -> tuple[Whole, tuple[str, ...]]:
+    """Take the replicate numbers of the files, counted on where a file repeats what an earlier one holds.
+
+    Files of one repetition, such as one for each direction, have no reading in common; files that were each numbered
+    from 1 have.
+    """
+    sense = np.sign(columns["disc_speed"] - columns["ball_speed"]).astype(np.int64)
+    conditions = np.column_stack([_nominal(columns), sense])
+    numbers: list[Whole] = []
+    taken: set[tuple[int, ...]] = set()
+    told = []
+    for part, here in zip(parts, np.split(conditions, np.cumsum([len(part) for part in parts])[:-1]), strict=True):
+        own = np.asarray(part.replicate)
+        held = _held(here, own)
+        if not taken.isdisjoint(held):
+            own = own - own.min() + max(int(number.max()) for number in numbers) + 1
+            held = _held(here, own)
+            told.append(
+                f"{Path(part.source).name}: conditions of an earlier file are measured again under the same replicate "
+                f"numbers; they are other repetitions, numbered {own.min()} to {own.max()} here."
+            )
+        taken |= held
+        numbers.append(own)
+    return np.concatenate(numbers), tuple(told)
+
+
+def _held(conditions: Whole, replicate: Whole) -> set[tuple[int, ...]]:
+    rows = np.unique(np.column_stack([conditions, replicate]), axis=0)
+    return set(map(tuple, rows.tolist()))
