@@ -77,7 +77,8 @@ class LawComparison:
         Every law, the lowest AICc first, refused ones last.
     chosen : LawRow
         The row of `best`: of the laws of physics whose AICc is within 4 of their lowest, the one with the fewest
-        constants; a polynomial only where that one misses the factors by more than 0.1 decades.
+        constants, but none that needs scatter beyond the stated errors where another of them needs none; a polynomial
+        only where that one misses the factors by more than 0.1 decades.
     explanation : str
         One to three plain sentences.
 
@@ -105,7 +106,7 @@ def compare_laws(table: FactorTable) -> LawComparison:
     fitted = [row for row in rows.values() if row.law is not None]
     if not fitted:
         raise InputError(f"no shift law describes these factors: {rows['arrhenius'].refusal}")
-    chosen = _chosen(fitted)
+    chosen = _chosen(fitted, _stated(table))
     every = sorted([*rows.values(), _vft(rows["wlf"])], key=lambda row: row.aicc)
     return LawComparison(tuple(every), chosen, _explanation(chosen, fitted, rows["wlf"], table))
 
@@ -165,11 +166,18 @@ def _vft(wlf: LawRow) -> LawRow:
     return LawRow("vft", law.title, law, wlf.constants, wlf.chi2, wlf.freedom, wlf.scatter, wlf.aicc, same_as="wlf")
 
 
-def _chosen(fitted: list[LawRow]) -> LawRow:
+def _stated(table: FactorTable) -> float:
+    """Return the usual standard error of the factors, decades."""
+    return float(np.sqrt(np.median(table.variance)))
+
+
+def _chosen(fitted: list[LawRow], stated: float) -> LawRow:
     """Choose the law of physics with the fewest constants that is supported, or a polynomial where all fail."""
     laws = [row for row in fitted if row.kind != "polynomial"]
     lowest = min((row.aicc for row in laws), default=float("inf"))
     supported = [row for row in laws if row.aicc <= lowest + SUPPORTED]
+    # With few temperatures AICc pays more for one constant less than for errors that are met.
+    supported = [row for row in supported if row.scatter <= stated] or supported
     chosen = min(supported, key=lambda row: row.constants, default=fitted[0])
     empirical = next((row for row in fitted if row.kind == "polynomial"), chosen)
     if chosen.scatter > LARGEST_SCATTER and empirical.aicc < lowest - SUPPORTED:
@@ -191,7 +199,7 @@ def _explanation(chosen: LawRow, fitted: list[LawRow], wlf: LawRow, table: Facto
     sentences = [first[0].upper() + first[1:]]
     if wlf.law is not None:
         sentences.append("VFT is the same curve as WLF in other constants, and no candidate of its own.")
-    stated = float(np.sqrt(np.median(table.variance)))
+    stated = _stated(table)
     if chosen.scatter > stated:
         sentences.append(
             f"The factors scatter about it by {chosen.scatter:.2g} decades, more than their uncertainties of about "
