@@ -100,6 +100,7 @@ def test_overlap_is_exact_without_noise_and_tells_noise() -> None:
     exact = shift_friction(shifted_curves(), shift=LAW)
     # A cubic spline through 9 intervals of a decade; h⁴/384 of the fourth derivative, more at the ends.
     assert exact.overlap_rms == pytest.approx(0.0, abs=1e-3)
+    assert exact.overlap_sentence.endswith("where they overlap in reduced speed.")  # no errors were given
     noisy = shift_friction(shifted_curves(noise=0.02), shift=LAW)
     # Of some 20 points, and the spline averages a little: within 40 %.
     assert noisy.overlap_rms == pytest.approx(0.02 * np.sqrt(2), rel=0.4)

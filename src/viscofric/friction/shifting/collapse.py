@@ -44,9 +44,10 @@ class Collapse:
                 "does not test the shift factors."
             )
         alone = f"would make it {100 * self.error:.2g} %" if np.isfinite(self.error) else "are unknown"
+        errors = f"; their errors alone {alone}" if self.error > 0.0 else ""
         return (
             f"Curves of neighbouring temperatures coincide to {100 * self.rms:.2g} % (root mean square over "
-            f"{self.points} points) where they overlap in reduced speed; their errors alone {alone}."
+            f"{self.points} points) where they overlap in reduced speed{errors}."
         )
 
 
