@@ -69,6 +69,10 @@ def test_the_rubber_is_read_back_by_the_other_commands(found: tuple[Path, dict[s
     folder, told = found
     rubber = vf.read_card(folder / "rubber.json")
     np.testing.assert_allclose(rubber.modes_at().C, told["material"]["C"], rtol=1e-12)
+    fit = rubber.modes_at().fit
+    assert fit is not None
+    assert fit.from_friction
+    assert fit.frequency_range == (told["identified"]["low"], told["identified"]["high"])
     shown = CliRunner().invoke(main, ["material", "show", str(folder / "rubber.json"), "--frequency", "10 rad/s"])
     assert shown.exit_code == 0, shown.output
     assert "identified from friction" in shown.output

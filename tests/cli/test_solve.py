@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -19,6 +20,7 @@ from viscofric.cli import main
 from viscofric.contact import steady
 from viscofric.report.contact_figures import contact_figure, draw_contact
 from viscofric.report.contact_summary import UNITS
+from viscofric.rheology.spectra.retardation import SpectrumFit
 
 RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
 DMA = str(files("viscofric") / "example" / "dma.csv")
@@ -41,6 +43,18 @@ def record(*arguments: object) -> dict[str, Any]:
 def expected(**arguments: Any) -> vf.ContactSolution:
     rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
     return vf.solve_steady(rubber, vf.Ball("10 mm"), **{"speed": "1 m/s", "load": "1 N", **arguments})
+
+
+def test_a_contact_beyond_the_frequencies_of_the_rubber_is_told(tmp_path: Path) -> None:
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    fit = SpectrumFit(None, None, True, True, (100.0, 2e3), method="friction")
+    vf.write_card(vf.Material(replace(solid, fit=fit)), tmp_path / "rubber.json", format="json")
+    contact = ("--material", tmp_path / "rubber.json", "--ball", "10 mm", "--load", "1 N", "--accuracy", "0.1")
+    # Contacts of about 1 mm.
+    beyond = call(*contact, "--speed", "10 m/s")
+    assert beyond.exit_code == 0, beyond.output
+    assert "beyond those at which the rubber was identified from friction, 100 to 2e+03 rad/s" in beyond.stderr
+    assert "beyond" not in call(*contact, "--speed", "1 m/s").stderr
 
 
 def test_json_holds_what_python_gives() -> None:

@@ -13,7 +13,7 @@ from viscofric.report import drawing
 from viscofric.report.checks import all_checks
 from viscofric.report.friction_tables import agreement_table
 from viscofric.report.tables import detail_tables
-from viscofric.report.words import captions, key_numbers
+from viscofric.report.words import captions, key_numbers, what_was_asked
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -59,6 +59,18 @@ def test_shift_factors_of_friction_are_judged_by_their_probability(
 ) -> None:
     told = check(with_friction_shifts(tree, p_value), "Shift factors from friction")
     assert told == (verdict, "The shift factors agree within their errors.")
+
+
+def test_friction_does_not_test_the_rubber_identified_from_it(tree: xr.DataTree) -> None:
+    assert "Nothing of this friction enters the prediction" in " ".join(what_was_asked(tree))
+    tree = with_friction_shifts(tree)
+    tree.attrs["identified_from_friction"] = 1
+    verdict, words = check(tree, "Shift factors from friction")
+    assert verdict == "noted"
+    assert "this tests nothing" in words
+    asked = " ".join(what_was_asked(tree))
+    assert "Nothing of this friction" not in asked
+    assert "tests no prediction" in asked
 
 
 def test_shift_factors_of_friction_are_a_key_number_and_a_table(tree: xr.DataTree) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import DataFileError, InputError
+from viscofric.friction.identification.origin import with_origin
 from viscofric.study.rubber import make_rubber
 from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.run_file import material_of
@@ -85,6 +87,31 @@ def test_a_ready_rubber_can_have_another_reference() -> None:
         assert complex(after.material.complex_modulus(1.0, kelvin)) == pytest.approx(
             complex(before.material.complex_modulus(1.0, kelvin)), rel=1e-12
         )
+
+
+def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path) -> None:
+    solid = vf.Material.standard_linear_solid("2 MPa", "6 MPa", "10 ms")
+    found: Any = SimpleNamespace(
+        material=vf.Material(solid.modes_at(), name="mine"),
+        identified=SimpleNamespace(low=3.0, high=400.0),
+        middle=30.0,
+        known=("|E(ω)| is known to 5 % from 3 to 400 rad/s.",),
+    )
+    vf.write_card(with_origin(found, "fr.csv"), tmp_path / "rubber.json", format="json")
+    made = rubber(file=str(tmp_path / "rubber.json"))
+    assert made.from_friction
+    assert made.attributes["identified_from_friction"] == 1
+    assert made.attributes["material"] == "“mine” of the file rubber.json"
+    spectrum = made.material.spectrum
+    assert isinstance(spectrum, vf.RetardationSpectrum)
+    assert spectrum.fit is not None
+    assert spectrum.fit.frequency_range == (3.0, 400.0)
+    assert spectrum.fit.notes == (
+        "The rubber was identified from friction (fr.csv), no modulus of it was measured.",
+        "|E(ω)| is known to 5 % from 3 to 400 rad/s.",
+    )
+    assert spectrum.fit.E_inf_remark == "extrapolated: beyond what friction tells"
+    assert not rubber(catalogue="pvb interlayer").from_friction
 
 
 def test_two_names_of_one_temperature_are_told() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -107,6 +108,7 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
         began = time.perf_counter()
         solution = solve_steady(rubber.material, shape.indenter, speed=_speed(asked["speed"]), **settings)
         seconds = time.perf_counter() - began
+        solution = replace(solution, warnings=(*solution.warnings, *_beyond_known(rubber, solution)))
         name = _named(rubber, shape, settings["layer"])
         if as_json:
             from viscofric.report.contact_summary import contact_record
@@ -134,6 +136,25 @@ def _speed(text: str) -> float | str:
     if plain.removeprefix("-").removeprefix("+") in _INFINITE:
         return -math.inf if plain.startswith("-") else math.inf
     return text
+
+
+def _beyond_known(rubber: NamedRubber, solution: ContactSolution) -> tuple[str, ...]:
+    """Tell where the contact asks the rubber for frequencies at which its modulus is extrapolated."""
+    from viscofric.rheology.spectra.modulus_table import ModulusTable
+
+    fit = getattr(rubber.material.modes_at(solution.temperature), "fit", None)
+    if fit is None or isinstance(rubber.material.spectrum, ModulusTable):  # a table tells it by itself
+        return ()
+    low, high = fit.frequency_range
+    frequency = abs(solution.speed) / (0.5 * (solution.front + solution.rear))
+    if frequency == 0.0 or math.isinf(frequency) or low <= frequency <= high:
+        return ()
+    known = "identified from friction" if fit.from_friction else "measured"
+    said = (
+        f"the contact's frequency v/a, {frequency:.3g} rad/s, lies beyond those at which the rubber was {known}, "
+        f"{low:.3g} to {high:.3g} rad/s at this temperature: the friction rests on the extrapolated modulus."
+    )
+    return (said,)
 
 
 def _inputs(

@@ -12,7 +12,7 @@ from viscofric.report.check import Check
 from viscofric.report.doubts import is_extrapolated, knows_range, reach
 from viscofric.report.friction_summary import CONSISTENT_WITHIN, consistency_words
 from viscofric.report.numbers import percent, several, significant
-from viscofric.report.results import group, number, numbers, sentences, values
+from viscofric.report.results import group, is_from_friction, number, numbers, sentences, values
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -121,14 +121,15 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
         return
     ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
     measured = f" ({ends[0]} to {ends[1]} rad/s at the reference temperature)" if len(ends) == 2 else ""
+    kind = "identified" if is_from_friction(tree) else "measured"
     meaning = "the frequency at which the contact deforms the rubber, shift factor times speed over half-width,"
     if outside:
         words = (
-            f"In {several(counts)} {meaning} lies outside the measured range{measured}; friction there rests on the "
+            f"In {several(counts)} {meaning} lies outside the {kind} range{measured}; friction there rests on the "
             "extrapolated spectrum. The tables mark these cases."
         )
     else:
-        words = f"Everywhere {meaning} lies within the measured range{measured}."
+        words = f"Everywhere {meaning} lies within the {kind} range{measured}."
     yield Check.of("Measured frequency range", outside == 0, words)
 
 
@@ -153,7 +154,12 @@ def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:
     found = group(tree, "friction_shift_factors")
     if found is not None:
         likely = number(found.attrs, "p_value") >= _LIKELY
-        yield Check.of("Shift factors from friction", likely, str(found.attrs.get("sentence", "")))
+        sentence = str(found.attrs.get("sentence", ""))
+        if is_from_friction(tree):
+            sentence += " The rubber was itself identified from friction; if that is this friction, this tests nothing."
+            yield Check("Shift factors from friction", "noted", sentence)
+        else:
+            yield Check.of("Shift factors from friction", likely, sentence)
 
 
 def _cases(tree: xr.DataTree) -> Iterator[Check]:

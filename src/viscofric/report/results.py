@@ -74,6 +74,11 @@ def is_synthetic(tree: xr.DataTree) -> bool:
     return str(tree.attrs.get("data_origin", "synthetic")) != "measured"
 
 
+def is_from_friction(tree: xr.DataTree) -> bool:
+    """Whether the rubber was identified from friction, and not from a modulus that was measured."""
+    return int(tree.attrs.get("identified_from_friction", 0)) == 1
+
+
 def values(dataset: xr.Dataset, name: str) -> Array:
     """Return a variable as floats, nan throughout if it is absent."""
     if name in dataset.variables:

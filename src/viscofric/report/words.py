@@ -24,6 +24,7 @@ from viscofric.report.numbers import (
 )
 from viscofric.report.results import (
     group,
+    is_from_friction,
     is_synthetic,
     nominal_temperatures,
     number,
@@ -95,11 +96,16 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
     measurement = group(tree, "measurement")
     if measurement is not None:
         kind = "synthetic (made, not measured)" if is_synthetic(tree) else "measured"
-        said.append(
-            f"The prediction is compared with {measurement.sizes['point']} {kind} points, at which the "
-            "viscoelastic and the Coulomb friction were separated; nothing of this friction enters the "
-            "prediction."
+        coulomb = np.isfinite(values(measurement, "coulomb")).any()
+        separated = ", at which the viscoelastic and the Coulomb friction were separated" if coulomb else ""
+        enters = (
+            "The rubber was itself identified from friction; if that is this friction, the comparison tells how well "
+            "it was fitted, and tests no prediction."
+            if is_from_friction(tree)
+            else "Nothing of this friction enters the prediction."
         )
+        points = f"{measurement.sizes['point']} {kind} points of friction"
+        said.append(f"The prediction is compared with {points}{separated}. {enters}")
     return [_BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", sentence) for sentence in said]
 
 

@@ -154,7 +154,8 @@ def _doubts(study: Study, rubber: Rubber, shift: ShiftLaw) -> list[str]:
         )
     if beyond.size:
         at = ", ".join(f"{celsius(float(kelvin)):z.4g}" for kelvin in np.unique(beyond))
-        said.append(f"At {at} °C the shift factor is extrapolated beyond the temperatures of the sweeps, by its law.")
+        behind = "of the friction that it was identified from" if rubber.from_friction else "of the sweeps"
+        said.append(f"At {at} °C the shift factor is extrapolated beyond the temperatures {behind}, by its law.")
     if rubber.material.vertical_shift is not None:
         said.append(
             "The modulus has a vertical shift b(T), so that curves of other temperatures fall on the friction master "

@@ -12,6 +12,7 @@ from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_files import read_shift_factors
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.superpose import superpose
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.rheology.superposition.superpose import Superposition
     from viscofric.study.material_table import MaterialTable
 
@@ -74,13 +74,23 @@ class Rubber:
         return None if self.laws is None else self.laws.best
 
     @property
+    def from_friction(self) -> bool:
+        """Whether the rubber was identified from friction, which then tests no prediction from it."""
+        spectrum = self.material.spectrum
+        fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
+        return fit is not None and fit.from_friction
+
+    @property
     def attributes(self) -> dict[str, str | float]:
         """What results say of the rubber as a whole."""
         said: dict[str, str | float] = {"poisson_ratio": self.material.poisson_ratio}
         if self.sweeps is not None:
             said |= {"deformation": self.sweeps.deformation, "dma_format": self.sweeps.format}
         if self.material.name or self.source:
-            said["material"] = " of ".join(part for part in (self.material.name or "a rubber", self.source) if part)
+            name = f"“{self.material.name}”" if self.material.name else "one"
+            said["material"] = " of ".join(part for part in (name, self.source) if part)
+        if self.from_friction:
+            said["identified_from_friction"] = 1
         if self.material.citation:
             said["citation"] = self.material.citation
         if self.material.reference is not None:

@@ -167,7 +167,7 @@ def _master_curve(curve: MasterCurve, material: Material) -> xarray.Dataset:
     spectrum = material.spectrum
     fitted = spectrum.complex_modulus(curve.angular_frequency)
     quality = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
-    if quality is None:
+    if quality is None or quality.rms_storage is None or quality.rms_loss is None:
         raise InputError("spectrum: has not been fitted to a master curve.")
     return dataset(
         "reading",

@@ -11,6 +11,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band
 from viscofric.friction.identification.iteration import Contacts, Weighed, most_evident, spectrum_of, weighed
 from viscofric.friction.identification.level_family import level_family
+from viscofric.friction.identification.origin import with_origin
 from viscofric.friction.identification.result import IdentifiedMaterial, LevelFit
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -84,7 +85,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     fitted, residuals = _fitted(outcome, posterior)
     levels_drawn = np.abs([one.complex_modulus(middle) for one in drawn.materials])
     points = problem.observations.points
-    return IdentifiedMaterial(
+    found = IdentifiedMaterial(
         material=material,
         samples=drawn,
         shift_factors=material.shift,
@@ -107,6 +108,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         iterations=outcome.iterations,
         notes=(*points.notes, *_doubts(error_scale, best)),
     )
+    return replace(found, material=with_origin(found, outcome.curves.source))
 
 
 def _freedom(best: Weighed) -> float:

@@ -163,9 +163,14 @@ class IdentifiedMaterial:
         return np.array([np.log(np.abs(one.complex_modulus(self.middle))) for one in self.samples.materials])
 
     @property
+    def known(self) -> tuple[str, ...]:
+        """What of the modulus is identified, one sentence each: what goes with the material into its file."""
+        return (*self._told_level(), self._told_band())
+
+    @property
     def sentences(self) -> tuple[str, ...]:
         """What was found, and what not, one sentence each."""
-        return (self._told_fit(), *self._told_level(), self._told_band(), *self._told_shift(), *self.notes)
+        return (self._told_fit(), *self.known, *self._told_shift(), *self.notes)
 
     def _told_fit(self) -> str:
         return (

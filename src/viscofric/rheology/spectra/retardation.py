@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 BALANCE = 1e-6
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
+_BEYOND_FRICTION = "extrapolated: beyond what friction tells"
+#: Method of a spectrum that was found from friction.
+FROM_FRICTION = "friction"
 _REACHED = "reached by the sweeps"
 
 
@@ -40,8 +43,8 @@ class SpectrumFit:
 
     Parameters
     ----------
-    rms_storage, rms_loss : float
-        Root mean square of the difference of log10 E', and of log10 E''; decades.
+    rms_storage, rms_loss : float or None
+        Root mean square of the difference of log10 E', and of log10 E''; decades.  None where no modulus was measured.
     E0_extrapolated : bool
         Whether the rubber plateau lies outside the measurement: E' at the lowest measured frequency exceeds
         E0 by more than 5 %, or the measured loss tangent there is above 0.1.
@@ -49,11 +52,13 @@ class SpectrumFit:
         Likewise the glass: E_inf exceeds E' at the highest frequency by more than 5 %, or the loss tangent
         there is above 0.1.
     frequency_range : tuple of float
-        Lowest and highest reduced angular frequency measured, rad/s; beyond them the spectrum extrapolates.
+        Lowest and highest reduced angular frequency measured, or identified from friction, rad/s; beyond them the
+        spectrum extrapolates.
     notes : tuple of str
         The same in sentences.
     method : str
-        How it was fitted: "non-negative", "regularised" or "sparse"; empty where that is not known.
+        How it was fitted: "non-negative", "regularised" or "sparse", or "friction" where it was identified from
+        friction; empty where that is not known.
     modes : int
         Number of modes that have compliance.
     tau_ratio : float or None
@@ -70,8 +75,8 @@ class SpectrumFit:
         follow these points.
     """
 
-    rms_storage: float
-    rms_loss: float
+    rms_storage: float | None
+    rms_loss: float | None
     E0_extrapolated: bool
     E_inf_extrapolated: bool
     frequency_range: tuple[float, float]
@@ -96,11 +101,16 @@ class SpectrumFit:
         )
 
     @property
+    def from_friction(self) -> bool:
+        """Whether the spectrum was identified from friction, without a modulus measured."""
+        return self.method == FROM_FRICTION
+
+    @property
     def E0_remark(self) -> str:
         """What is to be said beside E0, in a few words."""
         if self.E0_missed:
             return f"the fit lies above the softest measured E'{self._measured(0)}"
-        return _EXTRAPOLATED if self.E0_extrapolated else _REACHED
+        return self._beyond if self.E0_extrapolated else _REACHED
 
     @property
     def E_inf_remark(self) -> str:
@@ -109,7 +119,11 @@ class SpectrumFit:
             return "not known: the sweeps do not tell it, and the fit stopped at 30 times the largest measured E'"
         if self.E_inf_missed:
             return f"the fit lies below the stiffest measured E'{self._measured(1)}"
-        return _EXTRAPOLATED if self.E_inf_extrapolated else _REACHED
+        return self._beyond if self.E_inf_extrapolated else _REACHED
+
+    @property
+    def _beyond(self) -> str:
+        return _BEYOND_FRICTION if self.from_friction else _EXTRAPOLATED
 
     def _measured(self, end: int) -> str:
         return "" if self.measured_storage is None else f", {shown_modulus(self.measured_storage[end])}"

@@ -87,7 +87,7 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
 def what_was_fitted(spectrum: RetardationSpectrum) -> tuple[str, ...]:
     """Say in sentences that modes stand for a table, and how well."""
     fit = spectrum.fit
-    if fit is None:
+    if fit is None or fit.rms_storage is None or fit.rms_loss is None:
         return ()
     stands = (
         f"The material is a table of moduli, for which {fit.modes} retardation modes fitted to it stand: rms errors of "

@@ -41,7 +41,7 @@ class Refit:
     """
 
     def __init__(self, spectrum: RetardationSpectrum, lowest: float, highest: float) -> None:
-        if spectrum.fit is None or not spectrum.fit.method:
+        if spectrum.fit is None or not spectrum.fit.method or spectrum.fit.from_friction:
             raise InputError(
                 "spectrum: was not fitted to a master curve, so that it cannot be fitted to samples of one; "
                 "give what fit_retardation_spectrum returned."
