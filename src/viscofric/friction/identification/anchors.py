@@ -19,9 +19,9 @@ _UNITS: dict[str, str] = {"indentation": "m", "contact_area": "m²", "half_width
 
 
 def _relative(error: float) -> float:
-    value = positive(error, "dimensionless", "error")
+    value = positive(error, "dimensionless", "error of the anchor")
     if value >= 1.0:
-        raise InputError(f"error = {value:g}: must be a relative standard error below 1, such as 0.02.")
+        raise InputError(f"error of the anchor = {value:g}: must be a relative standard error below 1, such as 0.02.")
     return value
 
 

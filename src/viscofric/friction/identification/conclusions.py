@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Residuals this many standard deviations above their expectation enlarge the errors.
 DOUBTFUL = 3.0
+#: What was given of the modulus contradicts the friction if it is missed by more standard errors.
+CONTRADICTED = 4.0
 #: Bands of moduli end so far beyond the contact's frequencies v/a at the latest: Hertz's pressure has waves up to 3/a.
 BEYOND = 3.0
 
@@ -81,6 +83,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     family: tuple[LevelFit, ...] = ()
     if not outcome.anchored:
         family = level_family(best, outcome.contacts, material_of, middle, levels, outcome.iterations + 1)
+    told = _told_anchors(best, drawn, middle, limit) if outcome.anchored else ()
     material = material_of(best.minimum.place, posterior.covariance)
     fitted, residuals = _fitted(outcome, posterior)
     levels_drawn = np.abs([one.complex_modulus(middle) for one in drawn.materials])
@@ -106,7 +109,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         error_scale=error_scale,
         roughness=problem.smoothness.roughness,
         iterations=outcome.iterations,
-        notes=(*points.notes, *_doubts(error_scale, best)),
+        notes=(*points.notes, *_doubts(error_scale, best), *told),
     )
     return replace(found, material=with_origin(found, outcome.curves.source))
 
@@ -142,6 +145,25 @@ def _doubts(error_scale: float, best: Weighed) -> tuple[str, ...]:
     return (sentence,)
 
 
+def _told_anchors(best: Weighed, drawn: MaterialSamples, middle: float, limit: float) -> tuple[str, ...]:
+    """Tell what was given of the level, if it does not fix it, or contradicts the friction or itself."""
+    notes = []
+    spread = float(np.std([np.log(np.abs(one.complex_modulus(middle))) for one in drawn.materials], ddof=1))
+    if spread > limit:
+        notes.append(
+            "What was given of the modulus does not fix its level where friction tells something: the standard error "
+            f"of |E| at {middle:.2g} rad/s is {100.0 * spread:.2g} %; give an anchor near there."
+        )
+    points = len(best.problem.observations.points)
+    away = float(np.max(np.abs(best.problem.measured(best.minimum.place)[0][points:]), initial=0.0))
+    if away > CONTRADICTED:
+        notes.append(
+            f"What was given of the modulus is missed by {away:.2g} of its standard errors: it contradicts the "
+            "friction or itself."
+        )
+    return tuple(notes)
+
+
 def _frequencies(best: Weighed) -> tuple[float, float, float]:
     """Return the lowest, the middle and the highest of the contacts' frequencies v/a at the reference, rad/s."""
     problem = best.problem
@@ -172,8 +194,7 @@ def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Arr
     """Return the friction of the identified material at the points, and the residuals over the standard errors."""
     problem, place = posterior.best.problem, posterior.best.minimum.place
     points = problem.observations.points
-    value, change = problem.log_friction(place)
-    spread = np.sqrt(np.einsum("ij,jk,ik->i", change, posterior.covariance, change))
+    value, _ = problem.log_friction(place)
     drawn = np.array([problem.log_friction(row)[0] for row in posterior.drawn])
     lower, upper = (np.exp(np.quantile(drawn, level, axis=0) + points.raised) for level in (0.025, 0.975))
     friction = np.exp(value + points.raised)
@@ -190,7 +211,7 @@ def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Arr
         replicates=np.ones(len(friction), dtype=np.int64),
         source="identified material",
         load_unit=outcome.contacts.indenter.geometry.load_unit,
-        material_error=spread * friction,
+        material_error=drawn.std(axis=0, ddof=1) * friction,
         viscoelastic_lower=lower,
         viscoelastic_upper=upper,
     )

@@ -57,7 +57,7 @@ class Posterior:
         shares /= shares.sum()
         counts = np.diff(np.round(samples * np.concatenate([[0.0], np.cumsum(shares)]))).astype(int)
         drawn = [
-            draws(fit.problem, fit.minimum, int(count), random)
+            draws(fit.problem, fit.minimum, int(count), random, fit.problem.metric)
             for fit, count in zip(fits, counts, strict=True)
             if count
         ]

@@ -16,7 +16,6 @@ from viscofric.contact.free.scale import Scale
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from scipy.interpolate import CubicSpline
 
     from viscofric.contact.indenters.indenter import Indenter
 
@@ -86,7 +85,7 @@ class FirstOrder:
             "_loss": loss,
             "_storage": storage,
             "_dimension": dimension,
-            "_radius": _with_slope(places, np.log(lengths)),
+            "_radius": _Table(places, np.log(lengths)),
             "_log_tau": np.log(self.tau),
             "_constant": np.log(self.load * self.plane_strain)
             - (np.log(2.0 * np.pi**2) if dimension == 2 else np.log(0.5 * np.pi)),
@@ -94,9 +93,9 @@ class FirstOrder:
         for name, value in numbers.items():
             object.__setattr__(self, name, value)
 
-    _loss: CubicSpline = None  # type: ignore[assignment]
-    _storage: CubicSpline = None  # type: ignore[assignment]
-    _radius: CubicSpline = None  # type: ignore[assignment]
+    _loss: _Table = None  # type: ignore[assignment]
+    _storage: _Table = None  # type: ignore[assignment]
+    _radius: _Table = None  # type: ignore[assignment]
     _log_tau: Array = None  # type: ignore[assignment]
     _dimension: int = 2
     _constant: float = 0.0
@@ -117,10 +116,10 @@ class FirstOrder:
         radius = np.full(log_speed.shape, float(self._radius(log_load + np.log(glass + C.sum()))[0]))
         for _ in range(_NEWTON):
             stored = self._storage((log_speed - radius)[:, None] + self._log_tau)
-            kernel = C * np.exp(stored[..., 0])
+            kernel = C * np.exp(stored[0])
             total = glass + kernel.sum(axis=1)
-            bend = np.sum(kernel * stored[..., 1], axis=1) / total
-            elastic, power = self._radius(log_load + np.log(total)).T
+            bend = np.sum(kernel * stored[1], axis=1) / total
+            elastic, power = self._radius(log_load + np.log(total))
             stiff = 1.0 + power * bend
             step = (radius - elastic) / stiff
             radius = radius - step
@@ -130,9 +129,9 @@ class FirstOrder:
         radius_change = (power / stiff)[:, None] * seen
         radius_slope = power * bend / stiff
         table = self._loss((log_speed - radius)[:, None] + self._log_tau)
-        lost = C * np.exp(table[..., 0])
+        lost = C * np.exp(table[0])
         sum_lost = lost.sum(axis=1)
-        steep = np.sum(lost * table[..., 1], axis=1) / sum_lost
+        steep = np.sum(lost * table[1], axis=1) / sum_lost
         by_radius = -float(self._dimension) - steep
         change = by_radius[:, None] * radius_change
         change[:, 1:] += lost / sum_lost[:, None]
@@ -147,7 +146,7 @@ class FirstOrder:
 
 
 @lru_cache(maxsize=2)
-def _kernels(dimension: int) -> tuple[CubicSpline, CubicSpline]:
+def _kernels(dimension: int) -> tuple[_Table, _Table]:
     """Return ln of the loss kernel K(θ) and of the storage kernel, 1 at θ = 0, over ln θ = ln(τ v/a).
 
     K(θ) = ∫ W(t) tθ/(1 + t²θ²) dt with W the dissipation's weight of the waves q·v/|v| = t/a; of a ball's Hertz
@@ -170,11 +169,23 @@ def _kernels(dimension: int) -> tuple[CubicSpline, CubicSpline]:
     relaxed = expit(-2.0 * theta)
     lost = np.trapezoid(loss * t * debye, _WAVES, axis=1)
     stored = np.trapezoid(storage * t * relaxed, _WAVES, axis=1) / np.trapezoid(storage * t, _WAVES)
-    return _with_slope(_TABLE, np.log(lost)), _with_slope(_TABLE, np.log(stored))
+    return _Table(_TABLE, np.log(lost)), _Table(_TABLE, np.log(stored))
 
 
-def _with_slope(places: Array, values: Array) -> CubicSpline:
-    """Return a spline of values and their slope, (…, 2), which are then read at once."""
-    from scipy.interpolate import CubicSpline
+class _Table:
+    """Cubic spline of values at equally spaced places and of their slope, read at once and faster than SciPy's."""
 
-    return CubicSpline(places, np.column_stack([values, CubicSpline(places, values)(places, 1)]))
+    def __init__(self, places: Array, values: Array) -> None:
+        from scipy.interpolate import CubicSpline
+
+        spline = CubicSpline(places, np.column_stack([values, CubicSpline(places, values)(places, 1)]))
+        self._first, self._step = float(places[0]), float(places[1] - places[0])
+        self._coefficients = np.ascontiguousarray(np.moveaxis(spline.c, -1, 1))
+
+    def __call__(self, places: Array) -> Array:
+        """Return values and slopes, (2, …); those beyond the ends as the outermost cubics continue."""
+        along = (places - self._first) / self._step
+        number = np.clip(along.astype(np.intp), 0, self._coefficients.shape[-1] - 1)
+        away = (along - number) * self._step
+        a, b, c, d = np.take(self._coefficients, number, axis=-1)
+        return np.asarray(((a * away + b) * away + c) * away + d)

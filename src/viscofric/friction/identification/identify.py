@@ -15,6 +15,7 @@ from viscofric.friction.identification.iteration import Contacts, identify
 from viscofric.friction.identification.known_moduli import Known, anchored, known_part
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.setting_up import alone_or_many, problem_of, shifts_of
+from viscofric.processes import Workers
 from viscofric.threads import one_blas_thread
 from viscofric.units import positive, to_si
 
@@ -40,7 +41,7 @@ def identify_material(
     shift: ShiftLaw | None = None,
     anchor: Anchor | Sequence[Anchor] | None = None,
     prior: Known | None = None,
-    prior_band: tuple[float, float] | None = None,
+    prior_band: tuple[Quantity, Quantity] | None = None,
     prior_error: float = 0.02,
     reference: Quantity | None = None,
     poisson_ratio: float = 0.5,
@@ -72,8 +73,8 @@ def identify_material(
     prior : Material, MaterialSamples or MasterCurve, optional
         What is known of E(ω) over a part of the frequencies; it fixes the level too.
     prior_band : (low, high), optional
-        Angular frequencies at the prior's reference over which it is known, rad/s; those that it was measured or
-        fitted at without it.
+        Angular frequencies at the prior's reference over which it is known, rad/s if plain numbers; those that it was
+        measured or fitted at without it.
     prior_error : float
         Relative standard error of E' and E'' of the prior, four values of each per decade; samples have their own.
     reference : float, str or pint.Quantity, optional
@@ -151,7 +152,9 @@ def identify_material(
     >>> found.anchored
     True
     """
-    _check(curves, indenter, poisson_ratio, modes=modes, samples=samples, limit=limit, prior_error=prior_error)
+    _check(curves, indenter, poisson_ratio)
+    _check_numbers(modes=modes, samples=samples, seed=seed)
+    _check_parts(levels, limit=limit, prior_error=prior_error, accuracy=accuracy)
     anchors = alone_or_many(anchor)
     points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy)
     kelvin = None if reference is None else positive(reference, "K", "reference")
@@ -160,15 +163,16 @@ def identify_material(
     if prior is not None:
         moduli.append(known_part(prior, prior_band, prior_error, shifts.reference))
     sizes = tuple(one for one in anchors if isinstance(one, ContactAnchor))
-    contacts = Contacts(indenter, poisson_ratio, points.load, accuracy, workers, sizes, progress)
-    problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
-    start = np.concatenate([problem.smoothness.middle, shifts.middle])
-    fits, iterations = identify(problem, contacts, start)
-    outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name, bool(moduli or sizes))
-    return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=tuple(levels))
+    with Workers(workers) as processes:
+        contacts = Contacts(indenter, poisson_ratio, points.load, accuracy, processes, sizes, progress)
+        problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
+        start = np.concatenate([problem.smoothness.middle, shifts.middle])
+        fits, iterations = identify(problem, contacts, start)
+        outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name, bool(moduli or sizes))
+        return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=tuple(levels))
 
 
-def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float, **numbers: float) -> None:
+def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float) -> None:
     if not isinstance(curves, FrictionCurves):
         raise InputError(f"curves must be FrictionCurves, as separate() gives them, not {type(curves).__name__}.")
     if not isinstance(indenter, Indenter):
@@ -177,9 +181,19 @@ def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float, **n
         raise InputError(f"indenter: friction of a {indenter.noun} sits on its edges and identifies no material.")
     if not 0.0 <= to_si(poisson_ratio, "dimensionless", "poisson_ratio") <= 0.5:
         raise InputError(f"poisson_ratio = {poisson_ratio:g}: must lie between 0 and 0.5.")
-    for name, fewest in (("modes", FEWEST_MODES), ("samples", FEWEST_SAMPLES)):
-        if numbers[name] != int(numbers[name]) or numbers[name] < fewest:
+
+
+def _check_numbers(**numbers: int) -> None:
+    for name, fewest in (("modes", FEWEST_MODES), ("samples", FEWEST_SAMPLES), ("seed", 0)):
+        if not isinstance(numbers[name], (int, np.integer)) or numbers[name] < fewest:
             raise InputError(f"{name} = {numbers[name]!r}: must be a whole number, {fewest} or more.")
-    for name in ("limit", "prior_error"):
-        if not 0.0 < numbers[name] < 1.0:
-            raise InputError(f"{name} = {numbers[name]!r}: must be a relative error above 0 and below 1.")
+
+
+def _check_parts(levels: Sequence[float], **parts: float) -> None:
+    for name, value in parts.items():
+        if positive(value, "dimensionless", name) >= 1.0:
+            raise InputError(f"{name} = {value!r}: must be a relative error above 0 and below 1.")
+    if not isinstance(levels, (tuple, list)):
+        raise InputError(f"levels = {levels!r}: must be a list of factors of the modulus, such as (0.5, 1.0, 2.0).")
+    for one in levels:
+        positive(one, "dimensionless", "levels")

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.identification.anchors import ContactAnchor
     from viscofric.friction.identification.problem import Problem
+    from viscofric.processes import Workers
 
     Array = NDArray[np.float64]
 
@@ -61,7 +62,7 @@ class Contacts:
     load : float
         N or N/m.
     accuracy : float
-    workers : int
+    workers : int or Workers
     anchors : tuple of ContactAnchor
         Contacts whose size was measured.
     progress : callable or None
@@ -72,7 +73,7 @@ class Contacts:
     poisson_ratio: float
     load: float
     accuracy: float
-    workers: int
+    workers: int | Workers
     anchors: tuple[ContactAnchor, ...] = ()
     progress: Callable[[int, int, int], object] | None = None
 
@@ -148,7 +149,7 @@ def weighed(problem: Problem, start: Array) -> list[Weighed]:
         place = start if middle not in found else found[middle].minimum.place
         for number in way:
             tried = replace(problem, smoothness=replace(problem.smoothness, roughness=float(ROUGHNESS[number])))
-            minimum = descend(tried, place)
+            minimum = descend(tried, place, metric=tried.metric)
             found[number] = Weighed(tried, minimum, log_evidence(minimum, tried.smoothness.log_volume))
             place = minimum.place
     settled = [found[number] for number in sorted(found) if found[number].minimum.settled]
@@ -169,7 +170,8 @@ def first_fit(problem: Problem, start: Array) -> Array:
         problem = replace(problem, shifts=replace(problem.shifts, whitening=held))
     for error in TEMPERED:
         blurred = replace(points, error=np.hypot(points.error, error))
-        start = descend(replace(problem, observations=replace(problem.observations, points=blurred)), start).place
+        observations = replace(problem.observations, points=blurred)
+        start = descend(replace(problem, observations=observations), start, metric=problem.metric).place
     return start
 
 

@@ -11,6 +11,7 @@ from viscofric.errors import InputError
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.units import angular_frequency as frequency_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.identification.anchors import ModulusAnchor
+    from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
     #: Observations that err together, and what whitens their errors.
@@ -49,7 +51,7 @@ def anchored(anchors: Iterable[ModulusAnchor]) -> list[Block]:
     ]
 
 
-def known_part(prior: Known, band: tuple[float, float] | None, error: float, reference: float) -> Block:
+def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: float, reference: float) -> Block:
     """Return E' and E'' of a rubber over the frequencies that were measured, as observations.
 
     Parameters
@@ -94,7 +96,7 @@ def known_part(prior: Known, band: tuple[float, float] | None, error: float, ref
     return _observations(np.log(frequency), reference if temperature is None else temperature, middle), whitening
 
 
-def _of_curve(curve: MasterCurve, band: tuple[float, float] | None, error: float) -> Block:
+def _of_curve(curve: MasterCurve, band: tuple[Quantity, Quantity] | None, error: float) -> Block:
     """Average ln E' and ln E'' over quarters of a decade."""
     low, high = _checked(
         (float(curve.angular_frequency[0]), float(curve.angular_frequency[-1])) if band is None else band
@@ -118,13 +120,15 @@ def _observations(log_frequency: Array, temperature: float, moduli: Array) -> tu
     )
 
 
-def _checked(band: tuple[float, float] | None) -> tuple[float, float]:
+def _checked(band: tuple[Quantity, Quantity] | None) -> tuple[float, float]:
     if band is None:
         raise InputError(
             "prior_band is missing: a material that was not fitted does not tell which frequencies were measured; give "
             "(lowest, highest) in rad/s at its reference temperature."
         )
-    low, high = (float(end) for end in band)
-    if not 0.0 < low < high < np.inf:
+    if np.shape(band) != (2,):
+        raise InputError(f"prior_band = {band!r}: must be two frequencies, such as ('0.1 Hz', '10 Hz').")
+    low, high = (float(frequency_of(end, "prior_band")) for end in band)
+    if low >= high:
         raise InputError(f"prior_band = {low:g} to {high:g} rad/s: must be two frequencies above zero that ascend.")
     return low, high

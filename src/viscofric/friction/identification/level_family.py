@@ -64,10 +64,10 @@ def level_family(
             start[: best.problem.modes] -= np.log(factor / last)
             held = _held(best, middle, log_modulus + float(np.log(factor)))
             try:
-                problem, place = held, descend(held, start).place
+                problem, place = held, descend(held, start, metric=held.metric).place
                 if factor != 1.0:
                     problem = contacts.solved(held, place, step + len(found))
-                    place = descend(problem, place).place
+                    place = descend(problem, place, metric=problem.metric).place
             except (ConvergenceError, InputError):
                 break
             last = factor

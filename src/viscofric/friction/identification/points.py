@@ -148,7 +148,8 @@ def relative_errors(curves: FrictionCurves) -> Array:
 
     Few replicates tell their own scatter badly: of eight, to a quarter, and to weigh points by it would make the
     fit worse than its errors say.  With ν0 the freedom of the common variance s0², that of a point is
-    (ν0 s0² + ν s²)/(ν0 + ν); ν0 follows from how much more ln s² scatters than chance.
+    (ν0 s0² + ν s²)/(ν0 + ν); ν0 follows from how much more ln s² scatters than chance.  The error of a mean then has
+    Student's distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2).
 
     References
     ----------
@@ -168,7 +169,10 @@ def relative_errors(curves: FrictionCurves) -> Array:
 
 
 def moderated_variances(variances: Array, freedom: NDArray[np.int64]) -> Array:
-    """Return sample variances (n,) of so many degrees of freedom (n,), drawn towards the common one."""
+    """Return sample variances (n,) of so many degrees of freedom (n,), drawn towards the common one.
+
+    They are those of Student's distribution.
+    """
     from scipy.optimize import brentq
     from scipy.special import digamma, polygamma
 
@@ -180,4 +184,5 @@ def moderated_variances(variances: Array, freedom: NDArray[np.int64]) -> Array:
         return np.full(len(variances), float(np.sum(freedom * variances) / np.sum(freedom)))
     prior_half = brentq(lambda value: float(polygamma(1, value)) - rest, 1e-3, 1e4)
     common *= float(np.exp(digamma(prior_half)) / prior_half)
-    return np.asarray((2.0 * prior_half * common + freedom * variances) / (2.0 * prior_half + freedom))
+    together = 2.0 * prior_half + freedom
+    return np.asarray((2.0 * prior_half * common + freedom * variances) / np.maximum(together - 2.0, 0.5 * together))

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 ITERATIONS = 100
 CONVERGED = 1e-5  # relative fall of the sum of squares, beside one
-LARGEST_DAMPING = 1e12
+LARGEST_DAMPING, LEAST_DAMPING = 1e12, 1e-9
+TINY = 1e-300
 #: … with which a draw ends: its place need not be known better than to a hundredth of its scatter.
 DRAW_CONVERGED = 1e-4
 
@@ -34,27 +35,34 @@ class Minimum(NamedTuple):
     settled: bool
 
 
-def descend(residuals: Residuals, start: Array, converged: float = CONVERGED) -> Minimum:
-    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 100 steps at most."""
-    place, damping = np.array(start), 1e-3
+def descend(residuals: Residuals, start: Array, converged: float = CONVERGED, metric: Array | None = None) -> Minimum:
+    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 100 steps at most.
+
+    Steps are damped in a metric (p, p), positive definite; that of the prior takes few steps along directions that the
+    measurement does not tell.  The damping follows H. B. Nielsen, Report IMM-REP-1999-05, DTU 1999.
+    """
+    place, damping, growth = np.array(start), 1.0, 2.0
+    metric = np.eye(len(place)) if metric is None else metric
     values, jacobian = residuals(place)
     squares = float(values @ values)
     for _ in range(ITERATIONS):
         normal, gradient = jacobian.T @ jacobian, jacobian.T @ values
         while True:
-            damped = normal + damping * np.diag(np.diag(normal))
-            step = -np.linalg.solve(damped, gradient)
+            step = -np.linalg.solve(normal + damping * metric, gradient)
             tried = place + step
-            tried_values, tried_jacobian = residuals(tried)
+            with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # too far a step is tried in vain
+                tried_values, tried_jacobian = residuals(tried)
             found = float(tried_values @ tried_values)
             if np.isfinite(found) and found <= squares:
                 break
-            damping *= 8.0
+            damping, growth = growth * damping, 2.0 * growth
             if damping > LARGEST_DAMPING:
                 return Minimum(place, squares, normal, True)
         fall = squares - found
+        gained = fall / max(-float(step @ (2.0 * gradient + normal @ step)), TINY)
+        damping = max(damping * max(1.0 / 3.0, 1.0 - (2.0 * gained - 1.0) ** 3), LEAST_DAMPING)
+        growth = 2.0
         place, values, jacobian, squares = tried, tried_values, tried_jacobian, found
-        damping = max(0.1 * damping, 1e-9)
         if fall <= converged * (1.0 + squares):
             return Minimum(place, squares, jacobian.T @ jacobian, True)
     return Minimum(place, squares, jacobian.T @ jacobian, False)
@@ -68,7 +76,9 @@ def log_evidence(minimum: Minimum, log_volume: float) -> float:
     return log_volume - 0.5 * minimum.squares - 0.5 * float(np.linalg.slogdet(minimum.normal)[1])
 
 
-def draws(residuals: Residuals, minimum: Minimum, count: int, random: np.random.Generator) -> Array:
+def draws(
+    residuals: Residuals, minimum: Minimum, count: int, random: np.random.Generator, metric: Array | None = None
+) -> Array:
     """Draw from the density exp(−|r|²/2), (count, p): each draw is the minimum for other errors of all that went in.
 
     What was measured and what was expected are moved by errors as large as their own, and fitted anew.  This is exact
@@ -88,5 +98,5 @@ def draws(residuals: Residuals, minimum: Minimum, count: int, random: np.random.
             values, jacobian = residuals(place)
             return values - error, jacobian
 
-        found.append(descend(moved, minimum.place, DRAW_CONVERGED).place)
+        found.append(descend(moved, minimum.place, DRAW_CONVERGED, metric).place)
     return np.array(found)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -59,6 +60,15 @@ class Problem:
     def modes(self) -> int:
         """Number of unknowns that are compliances."""
         return len(self.smoothness.tau) + 1
+
+    @cached_property
+    def metric(self) -> Array:
+        """What was expected of the unknowns as a matrix of normal equations (p, p): it damps steps (`descend`)."""
+        A, W = self.smoothness.matrix, self.shifts.whitening
+        size = self.modes + len(self.shifts.middle)
+        result = np.zeros((size, size))
+        result[: self.modes, : self.modes], result[self.modes :, self.modes :] = A.T @ A, W.T @ W
+        return result
 
     def split(self, unknowns: Array) -> tuple[Array, Array]:
         """Return compliances and ln α."""

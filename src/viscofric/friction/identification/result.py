@@ -183,10 +183,10 @@ class IdentifiedMaterial:
         if self.anchored:
             return ()
         sentence = (
-            "The level of the modulus is not identified: friction alone hardly tells it, and nothing else was given; "
-            f"|E| at {self.middle:.2g} rad/s lies between {low / 1e6:.3g} and {high / 1e6:.3g} MPa with 95 % "
-            "probability, most of which rests on the assumed smoothness of the spectrum, and the family tells which "
-            "materials give nearly the same friction."
+            "The level of the modulus is not identified: friction alone hardly tells it, and no anchor or prior was "
+            f"given; that |E| at {self.middle:.2g} rad/s is {low / 1e6:.3g} to {high / 1e6:.3g} MPa rests on what was "
+            "assumed of the spectrum and not on the friction, so that every modulus holds up to a factor, and the "
+            "family tells which materials give nearly the same friction."
         )
         return (sentence,)
 
@@ -195,11 +195,11 @@ class IdentifiedMaterial:
         about = "" if self.shift_factors is None else f" at {celsius(float(self.shift_factors.reference)):.1f} °C"
         of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
         if band.high <= band.low:
-            return f"{of} is known to {100.0 * band.limit:g} % nowhere."
+            return f"Nowhere is the standard error of {of} {100.0 * band.limit:g} % or less."
         return (
-            f"{of} is known to {100.0 * band.limit:g} % or better from {band.low:.2g} to {band.high:.2g} rad/s{about}, "
-            f"{band.decades:.1f} decades, E'' over {self.identified_loss.decades:.1f} of them; beyond, the material "
-            "is what a smooth spectrum would be, and its band tells how little that is worth."
+            f"The standard error of {of} is {100.0 * band.limit:g} % or less from {band.low:.2g} to {band.high:.2g} "
+            f"rad/s{about}, {band.decades:.1f} decades, that of E'' over {self.identified_loss.decades:.1f} of them; "
+            "beyond, the material is what a smooth spectrum would be, and its band tells how little that is worth."
         )
 
     def _told_shift(self) -> tuple[str, ...]:

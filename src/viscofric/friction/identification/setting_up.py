@@ -91,6 +91,10 @@ def shifts_of(
         number = np.searchsorted(everywhere, points.temperatures)[points.number]
         return replace(points, temperatures=everywhere, number=number), Shifts.known(everywhere, law)
     if len(points.temperatures) == 1:
+        only = float(points.temperatures[0])
+        if reference is not None and abs(reference - only) > SAME_TEMPERATURE:
+            asked = f"reference = {celsius(reference):.1f} °C"
+            raise InputError(f"{asked} was not measured, only {celsius(only):.1f} °C was; give shift=.")
         return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]), np.zeros(1))
     # Points are at one load already, as far as contacts at different loads are alike.
     alike = replace(

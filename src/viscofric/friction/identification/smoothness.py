@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-#: Standard deviation of the mean of ln C about the first guess, and of ln(1/E_inf) about a tenth of the compliance.
+#: Standard deviation of the mean of ln C about the first guess, and of ln(1/E_inf) about the compliance that is seen: a
+#: rubber of little loss has most of it, one amidst its transition a hundredth.
 LEVEL = 3.0
 GLASS = 2.0
-GLASS_SHARE = 0.1
 #: Standard deviation of the mean slope d ln C/d ln τ: it lies between the −1 and 1 of power-law moduli, as a rule.
 SLOPE = 0.7
 #: Roughnesses that are weighed against each other, standard deviation of d ln C/d ln τ over an e-fold of τ.
@@ -56,7 +56,7 @@ class Smoothness:
         """What is expected, (1 + m,)."""
         spacing = float(np.log(self.tau[-1] / self.tau[0])) / (len(self.tau) - 1)
         level = np.log(self.compliance) + np.log(0.1 * spacing)
-        return np.concatenate([[np.log(GLASS_SHARE * self.compliance)], np.full(len(self.tau), level)])
+        return np.concatenate([[np.log(self.compliance)], np.full(len(self.tau), level)])
 
     @cached_property
     def matrix(self) -> Array:
