@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.measurement.conditions import Condition
+    from viscofric.friction.measurement.growth import Growth
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
@@ -70,6 +71,10 @@ class Fit:
         Number of the step of the test that each reading belongs to, among those of the condition.
     freedom : (2,) tuple
         Degrees of freedom of the residuals without and with the consistency.
+    log_speed : (n,) array
+        ln of the disc's speed over the condition's.
+    viscoelastic_force : (n,) array
+        What each reading's force holds of viscoelastic friction of coefficient 1 at the condition's speed, N.
     zero_variance, coulomb_variance : (4,) array
         Left by the errors of a zero and of a Coulomb coefficient that are not fitted, where scatter does not show them.
     """
@@ -89,6 +94,8 @@ class Fit:
     first_rows: NDArray[np.int64] = field(repr=False)
     step: NDArray[np.intp] = field(repr=False)
     freedom: tuple[int, int]
+    log_speed: Array = field(repr=False)
+    viscoelastic_force: Array = field(repr=False)
     zero_variance: Array
     coulomb_variance: Array
 
@@ -99,7 +106,7 @@ class Fit:
         group: Condition,
         zeros: Zeros,
         coulomb: tuple[float, float] | None = None,
-        slope: float = 0.0,
+        growth: Growth | None = None,
     ) -> Fit:
         """Fit a condition's readings, each replicate by itself where all are complete.
 
@@ -111,8 +118,8 @@ class Fit:
             Used where the signs do not tell the zero.
         coulomb : (float, float), optional
             Coulomb coefficient and its standard error where they are assumed.
-        slope : float
-            Power of speed that viscoelastic friction follows within the condition.
+        growth : Growth, optional
+            How viscoelastic friction follows speed within the condition; constant if left out.
         """
         slides = bool(np.any(group.slip_sign))
         checks = coulomb is None and group.signs >= _FOUR
@@ -120,7 +127,9 @@ class Fit:
         load = runs.load[group.rows] / group.load
         design = regressors(group, offset=offset, coulomb=coulomb is None)
         design[:, 1:] *= load[:, None]
-        design[:, _VISCOELASTIC] *= (np.abs(runs.disc_speed[group.rows]) / group.speed) ** slope
+        log_speed = np.log(np.abs(runs.disc_speed[group.rows]) / group.speed)
+        if growth is not None:
+            design[:, _VISCOELASTIC] *= np.exp(growth.log_change(log_speed))
         crossed = -(group.disc_sign * group.slip_sign) * load
         pattern = group.load * group.slip_sign * load
         target = _parts(runs, group, zeros, offset)
@@ -154,6 +163,8 @@ class Fit:
             first_rows=np.array([group.rows[rows].min() for rows in parts]),
             step=step,
             freedom=(load.size - unknowns, load.size - unknowns - 1 if checks else 0),
+            log_speed=log_speed,
+            viscoelastic_force=group.load * design[:, _VISCOELASTIC],
             zero_variance=np.zeros(4) if offset else zeros.variance(group, operator, independent),
             coulomb_variance=np.zeros(4) if coulomb is None else (coulomb[1] * (operator @ pattern)) ** 2,
         )

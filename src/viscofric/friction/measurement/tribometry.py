@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 
-# Slopes over speed change little by what they correct.
-_ROUNDS = 2
+# The change of friction over speed changes little by what it corrects: by a tenth, where the disc's speeds differ by half.
+_ROUNDS = 4
 
 
 def separate(
@@ -115,8 +115,9 @@ def separate(
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
     put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
-    one at that speed, and what it changes between the disc's speeds, told by its slope over the speeds of the test, is
-    kept out of Coulomb friction.
+    one at that speed, and what it changes between the disc's speeds, told by a polynomial through the nearest speeds of
+    the test, is taken out.  What these leave open, up to a curve as steep and sharp as that of a single retardation
+    time, is in the standard errors, which large slips and few speeds make wide.
 
     Examples
     --------
@@ -173,26 +174,21 @@ class _Separation:
         groups = grouping.groups
         uneven = Uneven.of(runs, groups, speed_tolerance)
 
-        def separated() -> tuple[list[Fit], Drift, list[Entry]]:
+        def separated() -> tuple[list[Fit], Drift, list[Entry], list[Entry]]:
             fits = [
-                Fit.of(runs, group, zeros, assumed.at(group, zeros), slope)
-                for group, slope in zip(groups, uneven.slope.tolist(), strict=True)
+                Fit.of(runs, group, zeros, assumed.at(group, zeros), growth)
+                for group, growth in zip(groups, uneven.growths, strict=True)
             ]
             drift = Drift.of(fits)
-            entries = [drift.entry(fit, zeros) for fit in fits]
-            return (
-                fits,
-                drift,
-                [
-                    entry.widened(uneven.coulomb_variance(place, entry), entry.freedom[1])
-                    for place, entry in enumerate(entries)
-                ],
-            )
+            bare = [drift.entry(fit, zeros) for fit in fits]
+            wider = [uneven.widened(place, *one) for place, one in enumerate(zip(fits, bare, strict=True))]
+            return fits, drift, bare, wider
 
-        fits, drift, entries = separated()
+        fits, drift, bare, entries = separated()
         for _ in range(_ROUNDS if uneven else 0):
-            uneven = uneven.with_slopes(groups, entries)
-            fits, drift, entries = separated()
+            uneven = uneven.with_growths(fits, bare, entries)
+            fits, drift, bare, entries = separated()
+        told_uneven = uneven.notes(groups, entries)
         slipping, told = unnoticed_slip(fits, entries)
         fits = [fit for place, fit in enumerate(fits) if place not in slipping]
         entries = [entry for place, entry in enumerate(entries) if place not in slipping]
@@ -202,7 +198,7 @@ class _Separation:
         load = float(np.mean([fit.group.load for fit in fits]))
         notes = [
             *grouping.notes,
-            *uneven.notes(grouping.groups),
+            *told_uneven,
             *told,
             *zeros.notes(groups, resting),
             *zeros.drift(load),

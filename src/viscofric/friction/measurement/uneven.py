@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from viscofric.friction.measurement.conditions import Condition, where
+from viscofric.friction.measurement.growth import Growth
 from viscofric.nominal import SAME_LOAD
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.measurement.entry import Entry
+    from viscofric.friction.measurement.separation import Fit
     from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
@@ -25,63 +27,78 @@ class Uneven:
     """How much the disc's speed differs between the directions of slip, and what follows for each condition.
 
     Coulomb friction, half the difference of the forces, then holds half the change of viscoelastic friction between
-    the two speeds.  With μ_v ~ vⁿ about the condition's speed, n being the slope of log μ_v over log v among the
-    speeds of the test, the change is taken out.
+    the two speeds, and their mean is not the friction at the mean speed.  As far as the other speeds of the test tell
+    how friction changes, it is taken out; what they leave open is in the standard errors.
 
     Attributes
     ----------
     apart : (k,) array
         Difference of the speeds over the condition's; zero where it is within the tolerance.
-    slope, error : (k,) array
-        n and its standard error; zero where it is not known or not needed.
+    growths : list of Growth or None
+        None where the speeds are the same.
     """
 
     apart: Array
-    slope: Array
-    error: Array
+    growths: list[Growth | None] = field(repr=False)
 
     @classmethod
     def of(cls, runs: TractionRuns, groups: list[Condition], tolerance: float) -> Uneven:
         """Compare the speeds of the disc where it is faster than the ball with those where it is slower."""
         apart = np.array([_apart(runs, group) for group in groups])
-        return cls(np.where(np.abs(apart) > tolerance, apart, 0.0), np.zeros(apart.size), np.zeros(apart.size))
+        apart = np.where(np.abs(apart) > tolerance, apart, 0.0)
+        return cls(apart, [Growth.unknown() if one else None for one in apart.tolist()])
 
     def __bool__(self) -> bool:
         return bool(np.any(self.apart))
 
-    def with_slopes(self, groups: list[Condition], entries: list[Entry]) -> Uneven:
-        """Find the slopes from viscoelastic friction at the speeds of each temperature and load."""
-        slope, error = np.zeros(len(groups)), np.zeros(len(groups))
+    def with_growths(self, fits: list[Fit], bare: list[Entry], entries: list[Entry]) -> Uneven:
+        """Find how friction changes from that at the speeds of each temperature and load.
+
+        Parameters
+        ----------
+        fits : list of Fit
+        bare, entries : list of Entry
+            Without and with what the change of friction leaves open in the standard errors.
+        """
+        growths = list(self.growths)
         isotherms = defaultdict(list)
-        for place, group in enumerate(groups):
-            isotherms[group.temperature].append(place)
+        for place, fit in enumerate(fits):
+            isotherms[fit.group.temperature].append(place)
         for place in np.flatnonzero(self.apart).tolist():
-            group = groups[place]
+            group = fits[place].group
             alike = [
                 other
                 for other in isotherms[group.temperature]
-                if abs(groups[other].load - group.load) <= SAME_LOAD * group.load
+                if abs(fits[other].group.load - group.load) <= SAME_LOAD * group.load
             ]
-            slope[place], error[place] = _slope(place, alike, groups, entries)
-        return Uneven(self.apart, slope, error)
+            growths[place] = _growth(place, alike, fits, bare, entries)
+        return Uneven(self.apart, growths)
 
-    def coulomb_variance(self, place: int, entry: Entry) -> Array:
-        """Return what the slope's error adds to the squared errors (4,), that of Coulomb friction."""
-        deviation = 0.5 * self.apart[place] * entry.value[1] * self.error[place]
-        return np.array([0.0, 0.0, float(deviation) ** 2, 0.0])
+    def widened(self, place: int, fit: Fit, entry: Entry) -> Entry:
+        """Add what the change of friction leaves open to the standard errors of a condition."""
+        growth = self.growths[place]
+        if growth is None:
+            return entry
+        scatter, rest = growth.deviations(fit.log_speed)
+        force = abs(entry.value[1]) * fit.viscoelastic_force
+        by_scatter, by_rest = (
+            np.sum((fit.operator @ (force * np.atleast_2d(some)).T) ** 2, axis=1) for some in (scatter, rest)
+        )
+        return entry.widened(by_scatter, entry.freedom[1]).widened(by_rest, np.inf)
 
-    def notes(self, groups: list[Condition]) -> list[str]:
+    def notes(self, groups: list[Condition], entries: list[Entry]) -> list[str]:
         """Say where the speeds differ and what was made of it."""
         told = []
         largest = 100 * float(np.abs(self.apart).max(initial=0.0))
         for taken in (True, False):
-            found = np.flatnonzero((self.apart != 0.0) & ((self.slope != 0.0) == taken))
-            if not found.size:
+            found = [place for place, one in enumerate(self.growths) if one is not None and one.known == taken]
+            if not found:
                 continue
             what = (
-                "is taken out by the slope of viscoelastic friction over speed"
+                "is taken out as far as friction at the other speeds tells it; the rest is in the standard errors"
                 if taken
-                else "is in Coulomb friction, half of it, for want of other speeds that would tell it"
+                else "is in Coulomb friction, half of it, for want of other speeds that would tell it; the standard "
+                f"errors allow for a change as steep as speed itself, {_size(found, entries)} at most"
             )
             place = where([groups[one] for one in found], len(groups))
             told.append(
@@ -89,6 +106,11 @@ class Uneven:
                 f"viscoelastic friction between them {what}."
             )
         return told
+
+
+def _size(found: list[int], entries: list[Entry]) -> str:
+    errors = [entries[place].error[2] for place in found]
+    return f"±{max(errors):.2g}"
 
 
 def _apart(runs: TractionRuns, group: Condition) -> float:
@@ -99,26 +121,34 @@ def _apart(runs: TractionRuns, group: Condition) -> float:
     return float(speed[faster].mean() - speed[~faster].mean()) / group.speed
 
 
-def _slope(place: int, alike: list[int], groups: list[Condition], entries: list[Entry]) -> tuple[float, float]:
-    """Return d log μ_v / d log v between the nearest speeds on both sides, as far as there are such."""
-    here = groups[place].speed
-    slower = [one for one in alike if groups[one].speed < here]
-    faster = [one for one in alike if groups[one].speed > here]
+def _growth(place: int, alike: list[int], fits: list[Fit], bare: list[Entry], entries: list[Entry]) -> Growth:
+    """Return how friction changes about a condition's speed, from those at its temperature and load."""
+    here = fits[place].group
+    known = np.isfinite(bare[place].error[1])
+
+    def error(one: int) -> float:
+        # A condition's own error is not to grow by what follows from it.
+        return float((bare if one == place else entries)[one].error[1])
+
     # Of several slips at one speed, the nearest.
-    slip = groups[place].slip / here
-
-    def nearest(some: list[int]) -> int:
-        if not some:
-            return place
-        return min(
-            some,
-            key=lambda one: (abs(np.log(groups[one].speed / here)), abs(groups[one].slip / groups[one].speed - slip)),
-        )
-
-    ends = nearest(slower), nearest(faster)
-    value, error = (np.array([getattr(entries[one], kind)[1] for one in ends]) for kind in ("value", "error"))
-    if ends[0] == ends[1] or np.any(value <= 0.0):
-        return 0.0, 0.0
-    span = float(np.log(groups[ends[1]].speed / groups[ends[0]].speed))
-    relative = np.where(np.isfinite(error), error, 0.0) / value
-    return float(np.log(value[1] / value[0])) / span, float(np.hypot(*relative)) / span
+    at_speed: dict[float, int] = {here.speed: place}
+    for one in alike:
+        group = fits[one].group
+        usable = entries[one].value[1] > 0.0 and (np.isfinite(error(one)) or not known)
+        if not usable or group.speed == here.speed:
+            continue
+        slip = abs(group.slip / group.speed - here.slip / here.speed)
+        other = at_speed.get(group.speed)
+        if other is None or slip < abs(fits[other].group.slip / group.speed - here.slip / here.speed):
+            at_speed[group.speed] = one
+    if entries[place].value[1] <= 0.0:
+        return Growth.unknown()
+    nodes = list(at_speed.values())
+    friction = np.array([entries[one].value[1] for one in nodes])
+    errors = np.array([error(one) for one in nodes])
+    return Growth.best(
+        np.log(np.array(list(at_speed)) / here.speed),
+        np.log(friction),
+        np.where(np.isfinite(errors), errors, 0.0) / friction,
+        fits[place].log_speed,
+    )
