@@ -455,6 +455,20 @@ def test_slip_reversed_at_constant_rolling_speed_is_no_jitter(slip_ratio: float)
     np.testing.assert_allclose(curves.coulomb, 0.05, rtol=ROUNDING)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("slip_ratio", [0.05, 0.055, 0.06])
+def test_slip_about_as_large_as_the_tolerance_of_speeds_leaves_nothing_out(slip_ratio: float) -> None:
+    """The disc's two speeds have a gap at some conditions and none at others; disc and ball have one mean speed."""
+    rows = rows_of(
+        traction_runs(viscoelastic=lambda v, T: 0.03, slip_ratio=slip_ratio, replicates=4, speed_jitter=0.002)
+    )
+    rows[:, :2] += 0.5 * (rows[:, :1] - rows[:, 1:2])
+    curves = separate(runs_from(rows))
+    assert len(curves) == 6
+    assert not any("left out" in note for note in curves.notes)
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=1e-3)
+    np.testing.assert_allclose(curves.coulomb, 0.05, rtol=1e-3)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("slip_ratio", [0.01, 0.03, 1.5])
 def test_small_slips_have_signs_where_speeds_are_steady(slip_ratio: float) -> None:
     """What slip can be told from rolling follows from the measured jitter of the speeds, here 0.1 %."""

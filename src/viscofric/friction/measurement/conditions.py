@@ -143,7 +143,8 @@ def conditions(
     )
     mean_speed = np.bincount(pace, speed) / np.bincount(pace)
     mean_temperature = np.bincount(isotherm, temperature) / np.bincount(isotherm)
-    told = 3.0 * math.sqrt(2.0) * _jitter(speed / mean_speed[pace], np.stack([pace, course.slip[moving] > 0.0], axis=1))
+    jitter = _jitter(speed / mean_speed[pace], np.stack([pace, course.slip[moving] > 0.0], axis=1))
+    told = 3.0 * course.slip_scatter * jitter
     slip = np.abs(runs.disc_speed[moving] - runs.ball_speed[moving])
     disc_sign = np.sign(runs.disc_speed[moving])
     found, swept = [], 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -27,11 +28,14 @@ class Course:
     slip : (n,) array
         Slip over that speed, above zero where the disc is faster than the ball.
     notes : tuple of str
+    slip_scatter : float
+        What the slip scatters by over what `speed` does, where disc and ball jitter alike and independently.
     """
 
     speed: Array
     slip: Array
     notes: tuple[str, ...] = ()
+    slip_scatter: float = math.sqrt(2.0)
 
 
 def of_the_disc(runs: TractionRuns) -> Course:
@@ -85,4 +89,5 @@ def of_both(runs: TractionRuns) -> Course:
     """Take each reading at the mean speed of disc and ball, which some tests keep where slip is reversed."""
     speed = 0.5 * np.abs(runs.disc_speed + runs.ball_speed)
     slip = np.sign(runs.disc_speed) * (runs.disc_speed - runs.ball_speed)
-    return Course(speed, slip / np.where(speed > 0.0, speed, 1.0))
+    # A difference of two speeds beside their mean.
+    return Course(speed, slip / np.where(speed > 0.0, speed, 1.0), slip_scatter=2.0)

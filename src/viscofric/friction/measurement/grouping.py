@@ -56,12 +56,13 @@ class Grouping:
             groups, notes, poor = grouped(of_the_disc(runs))
         except InputError as error:
             problem, groups, notes, poor = error, [], (), []
-        if problem or (groups and len(poor) == len(groups)):
+        if problem or poor:
+            # Slip that parts the disc's speeds by as much as nominal speeds may differ does so at some of them only.
             try:
                 others, other_notes, still_poor = grouped(of_both(runs))
             except InputError:
                 others, other_notes, still_poor = [], (), []
-            if len(still_poor) < len(others):
+            if _readings(others) - _readings(still_poor) > _readings(groups) - _readings(poor):
                 groups, notes, poor, problem = others, other_notes, still_poor, None
         if problem:
             raise problem
@@ -75,6 +76,10 @@ class Grouping:
             out = set(map(id, poor))
             groups = [group for group in groups if id(group) not in out]
         return cls(groups, told)
+
+
+def _readings(groups: list[Condition]) -> int:
+    return sum(group.rows.size for group in groups)
 
 
 def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> str:

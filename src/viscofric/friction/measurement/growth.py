@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
-#: Largest derivatives of ln μ_v by ln v, first to fourth.  Loss is a sum of x/(1 + x²) over retardation times; 4000 sums
-#: of up to four such terms, drawn at random, reached 1.0, 1.0, 1.54 and 3.3.  Rounded up, by half the last one: a
-#: maximum of friction half a decade wide, sharper than any of those, has 0.9, 1.1, 2.1 and 5.4.
+#: Largest derivatives of ln μ_v by ln v, first to fourth.  Loss is a sum of x/(1 + x²) over retardation times; 4000
+#: sums of up to four such terms, drawn at random, reached 1.0, 1.0, 1.54 and 3.3.  Rounded up, by half the last one:
+#: a maximum of friction half a decade wide, sharper than any of those, has 0.9, 1.1, 2.1 and 5.4.
 STEEPEST = (1.0, 1.2, 2.0, 5.0)
 #: Standard error of a derivative that is not known, over its largest: more than of equal chances up to that, 1/√3,
 #: since sharp curves reach it with one sign at many speeds.
@@ -26,8 +26,8 @@ _STANDARD = 0.7
 class Growth:
     """A polynomial through ln μ_v at up to four speeds, the condition's own first.
 
-    What it leaves over is f⁽ᵏ⁾/k! ∏(L − X_j) of the k speeds X_j, with a derivative f⁽ᵏ⁾ no larger than `STEEPEST`; with
-    the own speed alone that is all there is.
+    What it leaves over is f⁽ᵏ⁾/k! ∏(L − X_j) of the k speeds X_j, with a derivative f⁽ᵏ⁾ no larger than `STEEPEST`;
+    with the own speed alone that is all there is.
 
     Where a maximum of friction was half a decade wide and the disc's speeds differed by 20 or 50 %, 95 % intervals held
     92 to 98 % of viscoelastic friction and all of Coulomb friction at 2, 3, 4 and 6 speeds; where they differed by

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 
-# The change of friction over speed changes little by what it corrects: by a tenth, where the disc's speeds differ by half.
+# The change of friction over speed changes little by what it corrects.
 _ROUNDS = 4
 
 
