@@ -136,6 +136,20 @@ def test_what_the_spectrum_misses_widens_the_band(measured) -> None:
         assert width == pytest.approx(2.0 * 1.959964 * expected, rel=1e-6)
 
 
+def test_the_misfit_counts_at_the_frequency_of_the_contact(measured) -> None:
+    """Speed over half the contact's length, times α: a misfit that grows evenly over log ω tells where it is read."""
+    material, _ = measured
+    misfit = SystematicMisfit(np.array([-6.0, 14.0]), np.array([[0.0, 0.01], [0.0, 0.03]]))
+    curves = predicted(material, drawn_from(*[material] * 20, misfit=misfit), 333.15, 0.1)
+    contact = vf.solve_steady(material, BALL, speed=0.1, load=LOAD, temperature=333.15)
+    alpha = material.shift(333.15)
+    assert alpha < 0.5
+    frequency = alpha * 0.1 / (0.5 * (contact.front + contact.rear))
+    expected = np.log(10.0) * (0.01 + 0.001 * (np.log10(frequency) + 6.0))
+    # A factor of two in frequency changes the error by 2 %; lengths of contacts are found to far better.
+    assert curves.material_error[0] == pytest.approx(expected * curves.viscoelastic[0], rel=1e-4)
+
+
 def test_a_wide_band_and_a_foreign_one_are_told() -> None:
     rubber = vf.synthetic_fluoroelastomer()
     softer, stiffer = (replace(rubber, spectrum=rubber.spectrum.shifted(1.0, b)) for b in (0.4, 2.0))

@@ -17,6 +17,8 @@ from scipy.stats import binom
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
 from viscofric.friction.measurement.least_squares import operators, residuals
+from viscofric.friction.measurement.conditions import conditions
+from viscofric.friction.measurement.course import of_the_disc
 from viscofric.friction.measurement.tribometry import separate
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
@@ -441,6 +443,23 @@ def test_few_readings_of_a_rolling_ball_have_no_sense_of_slip(replicates: int) -
     curves = separate(runs)
     assert len(curves) >= 58  # of 60
     np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+
+
+def test_slip_of_a_rolling_ball_scatters_as_the_difference_of_two_speeds() -> None:
+    """Single readings of 300 conditions: 3 standard deviations of it pass 299, three of one speed 290 of them."""
+    runs = traction_runs(
+        viscoelastic=lambda v, T: 0.03,
+        slip_ratio=0.0,
+        configurations=[(-1, 1), (1, 1)],
+        coulomb=0.0,
+        temperatures=tuple(280.0 + 2.0 * np.arange(100)),
+        replicates=1,
+        speed_jitter=0.004,
+    )
+    found, _ = conditions(runs, of_the_disc(runs), 0.05, 1.0)
+    assert len(found) == 300
+    # Of 300 chances of 1 in 360 more than four come true once in 600 times.
+    assert sum(bool(np.any(one.slip_sign)) for one in found) <= 4
 
 
 @pytest.mark.parametrize("slip_ratio", [0.02, 0.04])

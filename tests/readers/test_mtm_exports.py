@@ -73,6 +73,20 @@ def test_speeds_that_are_printed_negative_are_not_reversed_again(tmp_path):
     assert runs.disc_speed[runs.step == 4][:4] == pytest.approx([22e-3, 18e-3, -22e-3, -18e-3])
 
 
+def test_a_pin_load_beside_a_ball_load_is_none_of_a_ball(tmp_path, mtm):
+    """Some exports print both, of which the ball's counts; the ball's own speed is that of the file."""
+    lines, headings = pcs.mtm(), pcs.columns()
+    pin, ball = headings.index("Pin Load (N)"), headings.index("Ball Load (N)")
+    for number, line in enumerate(lines):
+        cells = line.split("\t")
+        if len(cells) == len(headings) and cells[ball][:1].isdigit():
+            cells[pin] = "7.000"
+            lines[number] = "\t".join(cells)
+    both = read_mtm(pcs.write(tmp_path, lines))
+    np.testing.assert_array_equal(both.load, mtm.load)
+    np.testing.assert_array_equal(both.ball_speed, mtm.ball_speed)
+
+
 def test_planted_coefficients_come_back(mtm):
     """Both directions tell the force cell's zero, Coulomb and viscoelastic friction apart."""
     both = mtm.select(mtm.step == 4)
