@@ -16,9 +16,9 @@ from scipy.stats import binom
 
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
-from viscofric.friction.measurement.least_squares import operators, residuals
 from viscofric.friction.measurement.conditions import conditions
 from viscofric.friction.measurement.course import of_the_disc
+from viscofric.friction.measurement.least_squares import operators, residuals
 from viscofric.friction.measurement.tribometry import separate
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
