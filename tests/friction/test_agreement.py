@@ -111,7 +111,8 @@ def test_the_bias_scatters_as_its_standard_error_says() -> None:
 def test_an_unknown_error_is_said_to_be_unknown() -> None:
     measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02), error=np.array([np.inf, 1e-4, 1e-4, 1e-4]))
     agreement = compare(measured, friction_curves(SPEED, TEMPERATURE, np.full(4, 0.021)))
-    assert agreement.share_within_error == 0.25
+    # 1e-3 is ten of the three known errors; the infinite one does not count.
+    assert (agreement.share_within_error, agreement.with_error) == (0.0, 3)
     assert "standard error of unknown error" not in str(agreement)
     assert "of unknown standard error" in str(agreement)
 
@@ -200,3 +201,20 @@ def test_runs_that_are_not_separated_yet_are_no_friction_curves(what: str) -> No
     }
     with pytest.raises(InputError, match=r"must be FrictionCurves, as separate\(\) gives them, not TractionRuns"):
         uses[what]()
+
+
+def test_errors_that_are_not_known_tell_no_share() -> None:
+    """Else every prediction, however wrong, would be within twice an infinite error."""
+    measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02), error=np.full(4, np.inf))
+    predicted = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.03))
+    none = compare(measured, predicted)
+    assert np.isnan(none.share_within_error)
+    assert np.all(np.isnan(none.share_within_error_at))
+    assert none.bias_error == np.inf
+    assert "of unknown standard error" in str(none)
+    assert "no standard error of the measured friction is known" in str(none)
+    some = compare(replace(measured, viscoelastic_error=np.array([np.inf, 1e-2, 1e-3, np.inf])), predicted)
+    assert some.share_within_error == 0.5
+    assert "50 % of the 2 whose error is known" in str(some)
+    scattered = replace(measured, replicates=np.full(4, 3), viscoelastic_scatter=np.full(4, np.inf))
+    assert compare(scattered, predicted).share_within_scatter is None

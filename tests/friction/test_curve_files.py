@@ -98,7 +98,7 @@ def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:
     np.testing.assert_allclose(curves.speed, [0.02, 0.2], rtol=1e-15)
     np.testing.assert_allclose(curves.temperature, [303.15, 333.15], rtol=1e-15)
     np.testing.assert_allclose(curves.viscoelastic, [0.031, 0.025], rtol=1e-15)
-    np.testing.assert_array_equal(curves.viscoelastic_error, 0.0)
+    np.testing.assert_array_equal(curves.viscoelastic_error, np.inf)
     np.testing.assert_array_equal(curves.replicates, 1)
     assert curves.coulomb is None
     assert curves.load_unit == "N"
@@ -107,7 +107,7 @@ def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:
 
 
 def test_a_table_without_errors_is_shifted_by_the_scatter_of_its_points(tmp_path: Path) -> None:
-    """Zeros are not taken for exactness: the factors have the errors that points of 2 % scatter make of them."""
+    """Errors that are not known are found from the curves: the factors have the errors that points of 2 % scatter make of them."""
     curves, law, errors = synthetic_curves(30.0, 35.0, 40.0, 46.0, noise=0.02 * np.sqrt(8)), planted_law(), []
     path = tmp_path / "bare.csv"
     vf.write_friction_curves(curves, path)
@@ -190,3 +190,16 @@ def test_no_curves_and_no_folder_are_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(DataFileError, match="cannot be written"):
         vf.write_friction_curves(curves, tmp_path / "file" / "curves.csv")
+
+
+def test_errors_that_are_not_known_go_through_master_curves(tmp_path: Path) -> None:
+    """No standard error is told of what is read from them, and none of the comparison."""
+    curves = synthetic_curves(30.0, 35.0, 40.0)
+    unknown = replace(curves, viscoelastic_error=np.full(len(curves), np.inf))
+    master = vf.shift_friction(unknown, shift=planted_law())
+    middle = float(np.sqrt(np.prod(master.reduced_range)))
+    assert master.standard_error(middle) == np.inf
+    assert master(middle) == pytest.approx(vf.shift_friction(curves, shift=planted_law())(middle), rel=0.02)
+    assert master.overlap_error == np.inf
+    assert "their errors alone are unknown" in master.overlap_sentence
+    assert np.isnan(vf.compare(master, master).share_within_error)

@@ -34,7 +34,8 @@ class Agreement:
     share_within_error : float
         Share of the points where predicted and measured differ by at most twice the combined standard error
         √(s² + e² + m²), with s the standard error of the measured mean, e the numerical error of the prediction and m
-        the standard error that the material's own leaves on it, where the prediction carries one.
+        the standard error that the material's own leaves on it, where the prediction carries one.  Points whose s is
+        not known (infinite) do not count; NaN if there are no others.
     points : int
     temperature : (k,) array
         Different temperatures, K, ascending.
@@ -45,7 +46,7 @@ class Agreement:
         d in the order of the measured points.
     bias_error : float
         Standard error of `bias`; s and e are taken to be independent from point to point, m to be one error of all,
-        which makes most of it.
+        which makes most of it.  Infinite if any s is.
     bias_error_at : (k,) array
     share_within_scatter : float or None
         Share of the points where predicted and measured differ by at most the standard deviation over the measured
@@ -60,6 +61,8 @@ class Agreement:
         Whether master curves were compared, at equal reduced speeds.
     not_covered : int
         Measured points of a master curve that the predicted one does not reach; they are left out.
+    with_error : int
+        Points whose s is known.
     """
 
     bias: float
@@ -80,6 +83,7 @@ class Agreement:
     material_counted: bool
     along_reduced_speed: bool = False
     not_covered: int = 0
+    with_error: int = 0
 
     def __str__(self) -> str:
         where = "On the master curve, over" if self.along_reduced_speed else "Over"
@@ -89,9 +93,14 @@ class Agreement:
         said = (
             f"{where} {self.points} points the predicted friction is {abs(100 * self.bias):.1f} % "
             f"{'above' if self.bias >= 0 else 'below'} the measured one on average ({error}), "
-            f"{100 * self.rms:.1f} % away from it in root mean square, and within twice the standard error{counted} at "
-            f"{100 * self.share_within_error:.0f} % of them"
+            f"{100 * self.rms:.1f} % away from it in root mean square, "
         )
+        if self.with_error:
+            of = "of them" if self.with_error == self.points else f"of the {self.with_error} whose error is known"
+            share = f"{100 * self.share_within_error:.0f} %"
+            said += f"and within twice the standard error{counted} at {share} {of}"
+        else:
+            said += "and no standard error of the measured friction is known"
         if self.share_within_scatter is not None:
             share = f"{100 * self.share_within_scatter:.0f} %"
             of = "of them" if self.repeated == self.points else f"of the {self.repeated} that were repeated"
@@ -171,7 +180,9 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     own = np.hypot(measured.viscoelastic_error, pairs.numerical_error)
     material = np.zeros(len(measured)) if pairs.material_error is None else pairs.material_error
     within = np.abs(difference) <= 2.0 * np.hypot(own, material)
-    repeated = measured.replicates > 1
+    # An infinite error is one that is not known: no difference is within it.
+    told = np.isfinite(measured.viscoelastic_error)
+    repeated = (measured.replicates > 1) & np.isfinite(measured.viscoelastic_scatter)
     in_scatter = np.abs(difference) <= measured.viscoelastic_scatter
     own, material = own / measured.viscoelastic, material / measured.viscoelastic
     there = measured.temperatures
@@ -179,12 +190,12 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     return Agreement(
         bias=float(relative.mean()),
         rms=_rms(relative),
-        share_within_error=float(within.mean()),
+        share_within_error=_share(within[told]),
         points=len(measured),
         temperature=there,
         bias_at=np.array([relative[group].mean() for group in groups]),
         rms_at=np.array([_rms(relative[group]) for group in groups]),
-        share_within_error_at=np.array([within[group].mean() for group in groups]),
+        share_within_error_at=np.array([_share(within[group & told]) for group in groups]),
         points_at=np.array([np.count_nonzero(group) for group in groups]),
         relative_difference=relative,
         bias_error=_error_of_mean(own, material),
@@ -195,6 +206,7 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
         material_counted=pairs.material_error is not None,
         along_reduced_speed=shifted,
         not_covered=not_covered,
+        with_error=int(np.count_nonzero(told)),
     )
 
 

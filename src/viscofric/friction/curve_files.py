@@ -117,7 +117,7 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
     -------
     FrictionCurves
         Without a standard error it is the scatter over the square root of the number of replicates, and without both
-        it is zero, with a note; without a number of replicates it is one.
+        it is not known and infinite, with a note; without a number of replicates it is one.
 
     Raises
     ------
@@ -220,8 +220,11 @@ def _complete(columns: dict[str, Array], kind: str, replicates: Array, notes: li
         return
     error, scatter = columns.get(f"{kind}_error"), columns.get(f"{kind}_scatter")
     if error is None and scatter is None and kind == "viscoelastic":
-        error = scatter = np.zeros(replicates.size)
-        notes.append("The file of friction curves gives neither standard errors nor scatter; both are taken as zero.")
+        error = scatter = np.full(replicates.size, np.inf)
+        notes.append(
+            "The file of friction curves gives neither standard errors nor scatter: neither is known, and both are "
+            "infinite."
+        )
     if error is None and scatter is not None:
         error = scatter / np.sqrt(replicates)
     if scatter is None and error is not None:
