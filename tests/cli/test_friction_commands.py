@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -125,6 +126,30 @@ def test_one_direction_of_slip_needs_an_assumption_which_is_told(tmp_path: Path)
     assert "assumed" in call("separate", path, "--coulomb", COULOMB).stdout
 
 
+def test_coulomb_friction_that_is_not_needed_is_told(tmp_path: Path) -> None:
+    done = call("separate", runs(tmp_path / "runs.csv"), "--coulomb", "45")
+    assert done.exit_code == 0, done.output
+    assert "that was given is not used" in done.stderr
+
+
+def test_steps_that_are_not_steady_are_left_out(tmp_path: Path) -> None:
+    heading, *rows = runs(tmp_path / "runs.csv").read_text(encoding="utf-8").splitlines()
+    steady = [f"{row},{number}" for number, row in enumerate(rows, 1)]
+    # A step in which the load rises evenly, without the gap that parts nominal ones.
+    rising = [
+        f"30,1,{sign * 20},{sign * 20 - 2 * slip},{load},{0.1 * load},99"
+        for load, sign, slip in product(np.linspace(5.0, 25.0, 60).round(3), (-1, 1), (-1, 1))
+    ]
+    (tmp_path / "steps.csv").write_text("\n".join([f"{heading},step", *steady, *rising]), encoding="utf-8")
+    alone = call("separate", tmp_path / "steps.csv")
+    assert alone.exit_code == 1
+    assert "--except-steps 99 in the shell" in alone.output
+    found = record("separate", tmp_path / "steps.csv", "--except-steps", "99")
+    assert found["inputs"]["except_steps"] == [99]
+    whole = record("separate", tmp_path / "runs.csv")
+    assert [point["viscoelastic"] for point in found["points"]] == [point["viscoelastic"] for point in whole["points"]]
+
+
 def test_separate_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv")
     done = call("separate", path, "--picture", tmp_path / "curves.svg", "--synthetic")
@@ -144,6 +169,8 @@ def test_separate_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) 
         (["separate", "runs.csv", "--coulomb", "much"], 2, "'constant'"),
         (["separate", "runs.csv", "--zero-error", "0.1 N"], 2, "which is not given"),
         (["separate", "runs.csv", "--coulomb", "constant", "--coulomb-error", "0.1"], 2, "goes with a number"),
+        (["separate", "runs.csv", "--except-steps", "two"], 2, "numbers of steps"),
+        (["separate", "runs.csv", "--except-steps", "2"], 1, "step"),
         (["separate", "runs.csv", "--out", "runs.csv"], 1, "would be overwritten"),
         (["separat"], 2, "Did you mean 'separate'?"),
     ],
@@ -208,6 +235,31 @@ def test_shift_lays_the_modulus_beside(tmp_path: Path) -> None:
     assert (tmp_path / "alpha.svg").stat().st_size > 0
 
 
+def test_curves_without_errors_say_what_the_errors_of_their_shift_are(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv", noise=0.0)
+    done = call("shift", path)
+    assert done.exit_code == 0, done.output
+    assert "follow from how the points scatter about one curve" in done.stdout
+    assert "± 0.000" not in done.stdout
+    assert "follow from how" not in call("shift", curves(tmp_path / "noisy.csv")).stdout
+
+
+def test_law_is_not_sought_among_too_few_temperatures(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv")
+    told = call("shift", path).stderr
+    assert "Note: No law is fitted: 4 temperatures are too few" in told
+    assert "--law" in told
+    assert "No law is fitted" not in call("shift", path, "--law", "wlf").stderr
+
+
+def test_friction_below_zero_is_told(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv")
+    measured = vf.read_friction_curves(path)
+    vf.write_friction_curves(replace(measured, viscoelastic=-measured.viscoelastic), path)
+    done = call("shift", path)
+    assert "Viscoelastic friction is below zero at 32 of 32 points" in done.output
+
+
 def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", [303.15, 363.15])
     alone = call("shift", path)
@@ -253,6 +305,10 @@ def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
         (["shift", "curves.csv", "runs.csv"], 1, "runs.csv is none"),
         (["shift", "curves.csv", "--shift", "no rubber"], 1, "no rubber"),
         (["shift", "curves.csv", "--reference", "90 degC"], 1, "lies outside the friction curves"),
+        (["shift", "curves.csv", "--zero", "0.1 N"], 2, "--zero: only runs are separated"),
+        (["shift", "curves.csv", "--leave-out-outliers"], 2, "--leave-out-outliers: only runs"),
+        (["identify", "curves.csv", "--ball", "1 mm", "--speed-tolerance", "0.2"], 2, "--speed-tolerance: only runs"),
+        (["shift", "mu.csv"], 1, "has a column 'viscoelastic friction'"),
         (["shift", "curves.csv", "--out", "alpha.json"], 2, "must end in .csv"),
         (["shift", "curves.csv", "--out", "curves.csv"], 1, "would be overwritten"),
     ],
@@ -262,7 +318,8 @@ def test_mistakes_of_shifting_are_one_sentence(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     runs(tmp_path / "runs.csv")
-    curves(tmp_path / "curves.csv")
+    text = curves(tmp_path / "curves.csv").read_text(encoding="utf-8")
+    (tmp_path / "mu.csv").write_text(text.replace("viscoelastic friction", "mu"), encoding="utf-8")
     done = call(*words)
     assert done.exit_code == status, done.output
     assert told in done.output

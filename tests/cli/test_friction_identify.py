@@ -62,6 +62,8 @@ def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path
     assert told["anchored"]
     assert told["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01}
     assert told["family"] == []
+    assert told["inputs"]["anchor_modulus"] == "2.287 MPa"
+    assert not {"ball", "cone", "leave_out_outliers", "zero_error"} & set(told["inputs"])
 
 
 @pytest.mark.slow

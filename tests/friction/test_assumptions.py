@@ -10,6 +10,7 @@ import pytest
 import viscofric as vf
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
+from viscofric.friction import warming
 from viscofric.friction.flash_temperature import (
     FILLED_RUBBER,
     STEEL,
@@ -126,6 +127,18 @@ def test_line_contacts_and_shift_tables_are_judged_too() -> None:
     assert 0.0 < found["one temperature"].value < 0.05
     # a² = 4 F R (1 − ν²)/(π E0)
     assert found["small contact"].value == pytest.approx(np.sqrt(4 * 500.0 * 0.01 * 0.75 / (np.pi * 3e6)) / 0.01)
+
+
+def test_a_slope_of_the_shift_that_is_not_known_leaves_the_other_checks(monkeypatch: pytest.MonkeyPatch) -> None:
+    def unknown(*_: object) -> float:
+        raise InputError("shift is known at 30.0 °C alone.")
+
+    before = checks(RUBBER, BALL, curves())
+    monkeypatch.setattr(warming, "_decades_per_kelvin", unknown)
+    found = checks(RUBBER, BALL, curves())
+    assert found["one temperature"].holds is None
+    assert found["one temperature"].sentence.endswith("cannot be told: shift is known at 30.0 °C alone.")
+    assert {**found, "one temperature": None} == {**before, "one temperature": None}
 
 
 def test_what_cannot_be_checked_is_refused() -> None:

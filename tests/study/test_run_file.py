@@ -54,10 +54,12 @@ def test_measurement_is_as_in_python(tmp_path: Path) -> None:
         (tmp_path / name).write_text("", encoding="utf-8")
     path = tmp_path / "study.toml"
     more = 'zero = "-0.12 N"\nzero_error = "10 mN"\ncoulomb = 0.05\ntemperature_tolerance = "2 delta_degC"'
+    more += "\nexcept_steps = 3"
     path.write_text(f"{GOOD}{MEASURED.removeprefix(TWO)}\n{more}".replace("a.csv", "run*.txt"), encoding="utf-8")
     measurement = load_study(path).measurement
     assert measurement is not None
     assert measurement.inputs == (tmp_path / "run1.txt", tmp_path / "run2.txt")
+    assert measurement.except_steps == (3,)
     assert measurement.settings == {
         "zero": (-0.12, pytest.approx(0.01)),
         "coulomb": 0.05,

@@ -146,12 +146,17 @@ def check_assumptions(
     # By both bounds: the upper one, at E0, is often the same everywhere.
     widest = max(sizes, key=lambda size: size.largest * size.smallest)
     steepest = max(sizes, key=lambda size: size.largest * size.smallest * size.curvature**2)
-    warming = Warming.of(curves, material.shift, [size.smallest for size in sizes], rubber, counterbody)
+    try:
+        warming = Warming.of(curves, material.shift, [size.smallest for size in sizes], rubber, counterbody)
+        isothermal = _one_temperature(curves, warming, rubber, counterbody)
+    except InputError as error:  # the shift factors end where their slope is asked for
+        said = f"What warming changes in friction cannot be told: {error}"
+        isothermal = AssumptionCheck("one temperature", None, WARMING, None, said)
     return (
         _half_space(widest, thickness),
         _small_contact(steepest, indenter.noun),
         _linearity(steepest),
-        _one_temperature(curves, warming, rubber, counterbody),
+        isothermal,
     )
 
 
@@ -218,7 +223,7 @@ def _half_space(size: _Size, thickness: Quantity | None) -> AssumptionCheck:
         True: f"{size}, so that {1e3 * given:.3g} mm of rubber, {needed} and more, pass for a half-space.",
         None: f"{size}. Whether {1e3 * given:.3g} mm of rubber pass for a half-space depends on it; {_SOLVE}.",
         False: f"{size}. {1e3 * given:.3g} mm of rubber, less than {needed} do not pass for a half-space: solve the "
-        "contact on a layer (layer=Layer(…)) or use thicker rubber.",
+        "contact on a layer (layer=Layer(…), in the shell --layer) or use thicker rubber.",
     }[holds]
     return AssumptionCheck("half-space", size.largest / given, limit, holds, said)
 

@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 _UNITS = {"temperature": "K", "reference": "K", "log10_shift_factor": "1", "standard_error": "1", "covariance": "1"}
 
 
+#: Errors are printed with three decimals, and not as zero.
+_SMALLEST = 1e-3
+
+
 def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str]:
     """Return the shift factors as lines of a table, beside those that are known.
 
@@ -82,7 +86,7 @@ def _pairs(values: Any, errors: Any) -> list[str]:
         if not math.isfinite(value):
             texts.append(ABSENT)
         else:
-            doubt = f" ± {error:.3f}" if error > 0.0 else ""
+            doubt = f" ± {max(error, _SMALLEST):.3f}" if error > 0.0 else ""
             texts.append(f"{value:z.3f}{doubt}".replace("-", "−"))
     return texts
 
@@ -105,6 +109,9 @@ def shift_words(
         ("reference", degrees(master.reference)),
         ("reduced speed", f"{significant(low)} to {significant(high)} mm/s"),
     ]
+    if master.found and not np.any(master.error > 0.0):
+        told = "those of log10 α follow from how the points scatter about one curve, for they have none of their own"
+        lines.append(("errors", told))
     if law is not None:
         lines.append(("law", str(law)))
     lines.append(("overlap", master.overlap_sentence))

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import InputError
 from viscofric.friction.assumptions import AssumptionCheck, check_assumptions
 from viscofric.study import labels
 from viscofric.study.bands import curves_of
@@ -56,10 +55,7 @@ def _checked(
 ) -> tuple[AssumptionCheck, ...]:
     reach = np.array([max(record.half_width, 0.5 * (record.front + record.rear)) for record in records])
     thickness = study.conditions.thickness
-    try:
-        return check_assumptions(solver.material, solver.ball, curves, thickness=thickness, contact_radius=reach)
-    except InputError:
-        return ()  # the shift factors end where the slope of α(T) is asked for
+    return check_assumptions(solver.material, solver.ball, curves, thickness=thickness, contact_radius=reach)
 
 
 def _worse(some: list[AssumptionCheck], others: tuple[AssumptionCheck, ...]) -> list[AssumptionCheck]:

@@ -123,13 +123,16 @@ class CaseSolver:
         if wide:
             worst = max(wide, key=lambda record: record.half_width)
             place = _where(worst.temperature, worst.speed)
-            sentences.append(f"In {len(wide)} of {count} cases, most of all at {place}: {' '.join(worst.warnings)}")
+            sentences.append(
+                f"In {len(wide)} of all {count} contacts, most of all at {place}: {' '.join(worst.warnings)}"
+            )
         beyond = [record for record in self._solved if not self.within_measured_frequencies(record)]
         if beyond:
             example = _where(beyond[0].temperature, beyond[0].speed)
             sentences.append(
-                f"In {len(beyond)} of {count} cases, such as {example}, the contact's frequency v/a lies beyond the "
-                "reduced frequencies that were measured: their friction rests on the extrapolated spectrum."
+                f"In {len(beyond)} of all {count} contacts, such as {example}, the contact's frequency v/a lies beyond "
+                "the reduced frequencies at which the rubber is known: their friction rests on the extrapolated "
+                "spectrum."
             )
         return tuple(sentences)
 

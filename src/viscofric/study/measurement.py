@@ -42,7 +42,10 @@ def read_measurement(table: MeasurementTable) -> FrictionCurves:
     """
     if table.curves is not None:
         return read_friction_curves(table.curves)
-    return separate(read_mtm(*table.mtm), **table.settings)
+    runs = read_mtm(*table.mtm)
+    if table.except_steps:
+        runs = runs.select(except_steps=table.except_steps)
+    return separate(runs, **table.settings)
 
 
 class Measurement:

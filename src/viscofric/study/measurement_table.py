@@ -24,6 +24,11 @@ def _number_or_word(value: object) -> object:
     raise ValueError(f"{value!r} is neither a friction coefficient, such as 0.05, nor the word 'constant'")
 
 
+def _one_or_more(value: object) -> object:
+    """Let the number of one step stand for a list of it."""
+    return [value] if isinstance(value, int) else value
+
+
 class MeasurementTable(Table):
     """[measurement]: the files of a tribometer and how they are separated, or friction curves that are ready."""
 
@@ -33,6 +38,7 @@ class MeasurementTable(Table):
     zero_error: Force | None = None
     coulomb: Annotated[Any, BeforeValidator(_number_or_word)] = None
     coulomb_error: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] | None = None
+    except_steps: Annotated[tuple[int, ...], BeforeValidator(_one_or_more)] = ()
     outliers: Literal["keep", "leave out"] = "keep"
     speed_tolerance: float = Field(default=0.05, gt=0.0, lt=1.0)
     temperature_tolerance: TemperatureStep = 1.0

@@ -99,7 +99,7 @@ def command(
             found = identify_material(curves, indenter=shape.indenter, progress=progress, **options)
         if as_json:
             inputs = {"sources": [str(path) for path in sources], "indenter": shape.record}
-            inputs |= {name: asked[name] for name in asked if name not in shape.record} | settings
+            inputs |= chosen(asked) | settings
             record = identification_record(found, inputs)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False, default=str))
         else:
@@ -107,6 +107,12 @@ def command(
         tell_notes(curves.notes)
         for written in _write(found, known, out, picture, synthetic):
             click.echo(written, err=as_json)
+
+
+def chosen(asked: dict[str, Any]) -> dict[str, Any]:
+    """Return what was asked for besides the indenter and the separation, each told by itself; the rest is None."""
+    names = (*_SETTINGS, "shift", "prior", "prior_band", "prior_error")
+    return {name: asked[name] for name in asked if name in names or name.startswith("anchor_")}
 
 
 def _prior(asked: dict[str, Any]) -> dict[str, Any]:

@@ -24,13 +24,18 @@ _SEPARATION = (
         "over the speed.",
     ),
     click.option("--coulomb-error", type=float, metavar="NUMBER", help="Standard error of the --coulomb number."),
+    click.option(
+        "--except-steps",
+        metavar="NUMBERS",
+        help="Steps of the test to leave out, such as '1,3': those in which load or temperature were not steady.",
+    ),
     click.option("--leave-out-outliers", is_flag=True, help="Leave out readings far from the others of their kind."),
     click.option(
         "--speed-tolerance",
         type=float,
         default=0.05,
         show_default=True,
-        help="Relative gap that parts nominal speeds, slips and loads.",
+        help="Relative gap that parts nominal speeds and slips.",
     ),
     click.option(
         "--temperature-tolerance",
@@ -42,6 +47,21 @@ _SEPARATION = (
 )
 
 
+#: Settings of a separation of which nothing was chosen.
+_DEFAULTS: dict[str, Any] = {
+    "zero": None,
+    "coulomb": None,
+    "outliers": "keep",
+    "speed_tolerance": 0.05,
+    "temperature_tolerance": "1 delta_degC",
+    "except_steps": None,
+}
+#: Setting -> its option, where that is not its name.
+_TYPED = {"outliers": "leave-out-outliers"}
+#: Options of the separation, by the names that click gives them.
+SEPARATION_NAMES = ("zero_error", "coulomb_error", "leave_out_outliers", *(set(_DEFAULTS) - {"outliers"}))
+
+
 def separation_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the settings of `viscofric.friction.measurement.tribometry.separate`."""
     for option in reversed(_SEPARATION):
@@ -50,12 +70,13 @@ def separation_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def settings_of(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of the separation among what was asked for.
+    """Return the settings of `viscofric.cli.friction.sources.separated` among what was asked for.
 
     Raises
     ------
     click.UsageError
-        If an error is given without its value, or the Coulomb friction is neither a number nor the word.
+        If an error is given without its value, the Coulomb friction is neither a number nor the word, or steps are no
+        numbers.
     """
     for name in ("zero", "coulomb"):
         if asked[f"{name}_error"] is not None and asked[name] is None:
@@ -78,4 +99,37 @@ def settings_of(asked: dict[str, Any]) -> dict[str, Any]:
         "outliers": "leave out" if asked["leave_out_outliers"] else "keep",
         "speed_tolerance": asked["speed_tolerance"],
         "temperature_tolerance": asked["temperature_tolerance"],
+        "except_steps": _steps(asked["except_steps"]),
     }
+
+
+def _steps(text: str | None) -> list[int] | None:
+    if text is None:
+        return None
+    try:
+        return [int(number) for number in text.split(",")]
+    except ValueError:
+        raise click.BadParameter(
+            f"{text!r}: must be numbers of steps, such as '2' or '1,3'.", param_hint="--except-steps"
+        ) from None
+
+
+def refuse_settings(settings: dict[str, Any], table: object) -> None:
+    """Stop where something was chosen of a separation that has nothing to separate.
+
+    Parameters
+    ----------
+    settings : dict
+        From `settings_of`.
+    table : Path or str
+        Of friction curves.
+
+    Raises
+    ------
+    click.UsageError
+        If anything was chosen.
+    """
+    chosen = [name for name, value in settings.items() if value != _DEFAULTS[name]]
+    if chosen:
+        options = " and ".join(f"--{_TYPED.get(name, name.replace('_', '-'))}" for name in chosen)
+        raise click.UsageError(f"{options}: only runs are separated; {table} holds friction curves, which are already.")

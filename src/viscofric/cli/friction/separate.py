@@ -47,11 +47,10 @@ def command(
             refuse_to_overwrite(target, runs)
     settings = settings_of(asked)
     with told():
-        from viscofric.friction.measurement.tribometry import separate
-        from viscofric.readers import read_mtm
+        from viscofric.cli.friction.sources import separated
         from viscofric.report.friction_summary import friction_record
 
-        curves = separate(read_mtm(*runs), **settings)
+        curves = separated(runs, settings)
         if as_json:
             inputs = {"runs": [str(path) for path in runs], **settings}
             record = friction_record(curves, inputs)

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _LAWS = ("best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none")
+#: Temperatures that tell laws of two constants from each other, beside the scatter about them.
+_COMPARABLE = 5
 _EXAMPLE = """\b
 Such as
   viscofric friction shift curves.csv --shift rubber.json --reference "30 degC" --out alpha.csv
@@ -131,10 +133,15 @@ def _law(master: FrictionMasterCurve, kind: str) -> ParametricLaw | None:
         return None
     if kind != "best":
         return master.shift_factors.law(kind)
+    factors = master.shift_factors
+    if len(factors.temperatures) < _COMPARABLE:
+        few = f"{len(factors.temperatures)} temperatures are too few to compare laws, which takes {_COMPARABLE}"
+        click.echo(f"Note: No law is fitted: {few}; --law fits one that you choose.", err=True)
+        return None
     try:
-        return master.shift_factors.compare_laws().best
+        return factors.compare_laws().best
     except InputError as error:
-        click.echo(f"Note: {error}", err=True)
+        click.echo(f"Note: No law is fitted: {error}", err=True)
         return None
 
 

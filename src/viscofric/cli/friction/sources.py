@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 #: A table of friction curves has a column of it, the files of a tribometer have none.
 _MARK = "viscoelastic"
+#: Of the sentence that refuses a table as one of traction runs.
+_WITHOUT = "no column for"
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
 
 
@@ -26,28 +28,57 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
     paths : sequence of Path
         All of one kind.
     settings : dict
-        Of the separation of runs.
+        Of the separation of runs, from `settings_of`.
 
     Raises
     ------
     DataFileError, InputError
         If a file cannot be used, or the kinds are mixed.
+    click.UsageError
+        If something of a separation was chosen for friction curves.
     """
-    from viscofric.errors import InputError
+    from viscofric.cli.friction.options import refuse_settings
+    from viscofric.errors import DataFileError, InputError
     from viscofric.friction.curve_files import read_friction_curves
-    from viscofric.friction.measurement.tribometry import separate
-    from viscofric.readers import read_mtm
 
     tables = [path for path in paths if _holds_curves(path)]
     if not tables:
-        return separate(read_mtm(*paths), **settings)
+        try:
+            return separated(paths, settings)
+        except DataFileError as error:
+            if _WITHOUT not in str(error):
+                raise
+            raise InputError(f"{error} A table of friction curves has a column 'viscoelastic friction'.") from error
     other = [path for path in paths if path not in tables]
     if other:
         raise InputError(
             f"{tables[0]} is a table of friction curves, {other[0]} is none: give either such tables or the runs of "
             "a tribometer."
         )
+    refuse_settings(settings, tables[0])
     return joined([read_friction_curves(path) for path in tables])
+
+
+def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
+    """Return the friction curves of the runs in files of a tribometer.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+    settings : dict
+        From `settings_of`: those of `separate`, and the steps to leave out.
+
+    Raises
+    ------
+    DataFileError, InputError
+        If a file cannot be used, or its runs cannot be separated.
+    """
+    from viscofric.friction.measurement.tribometry import separate
+    from viscofric.readers import read_mtm
+
+    runs, settings = read_mtm(*paths), dict(settings)
+    steps = settings.pop("except_steps")
+    return separate(runs if steps is None else runs.select(except_steps=steps), **settings)
 
 
 def _holds_curves(path: Path) -> bool:

@@ -73,7 +73,9 @@ class Gapless:
             moving = [step for step, span in zip(steps, spans, strict=True) if span > allowed]
             if moving and len(moving) <= _NAMED and len(moving) < np.unique(self.runs.step).size:
                 words = f"step {moving[0]} is" if len(moving) == 1 else f"steps {', '.join(map(str, moving))} are"
-                return f"{words} not steady; leave out what is not, by runs.select(except_steps={moving})"
+                shell = f"--except-steps {','.join(map(str, moving))}"
+                way = f"runs.select(except_steps={moving}) ({shell} in the shell)"
+                return f"{words} not steady; leave out what is not, by {way}"
         middle = float(np.median(self.values[inside]))
         return (
             "leave out what was not steady, such as by "

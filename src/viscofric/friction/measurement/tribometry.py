@@ -62,8 +62,8 @@ def separate(
         deviations, the largest of those of their configuration, their condition and the whole test, each told by the
         median absolute deviation.  They are noted in either case.
     speed_tolerance : float
-        Relative gap that parts nominal speeds, slips and loads from each other; measured ones scatter by
-        less.
+        Relative gap that parts nominal speeds and slips from each other; measured ones scatter by less.  For loads it
+        is 5 %.
     temperature_tolerance : float, str or pint.Quantity
         Gap that parts nominal temperatures, K.
 
@@ -213,6 +213,8 @@ class _Separation:
         sliding = any(entry.slides for entry in self.entries)
         checked = any(entry.checks for entry in self.entries)
         assumption = assumed.sentence([groups[place] for place in self.assumed], len(groups))
+        if not assumption and not assumed.nothing:
+            told = [*told, "The Coulomb friction that was given is not used: the signs of the speeds tell it."]
 
         def column(number: int, kind: str) -> Array:
             return np.array([getattr(entry, kind)[number] for entry in self.entries])

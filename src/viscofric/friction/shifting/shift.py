@@ -142,8 +142,20 @@ def shift_friction(
         load_rule=rule,
         vertical_shift=vertical,
         found=found,
-        notes=notes,
+        notes=(*notes, *_below_zero(curves)),
     )
+
+
+def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
+    """Say at how many points friction pulls the indenter along, which that of a rubber cannot."""
+    count = int(np.count_nonzero(curves.viscoelastic < -2.0 * curves.viscoelastic_error))
+    if not count:
+        return ()
+    sentence = (
+        f"Viscoelastic friction is below zero at {count} of {len(curves)} points, by more than twice its standard "
+        "error, which that of a rubber never is; check the signs of the forces."
+    )
+    return (sentence,)
 
 
 def _at_one_load(
@@ -186,7 +198,7 @@ def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: An
         raise InputError(
             f"load of the friction curves runs from {curves.load.min():.3g} to {curves.load.max():.3g} "
             f"{curves.load_unit}, but a master curve holds at one load; choose one with curves.at_load(), or give "
-            "the indenter, with which loads are reduced to one."
+            "the indenter (in the shell --ball), with which loads are reduced to one."
         )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST
+from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
 
 if TYPE_CHECKING:
@@ -105,7 +106,8 @@ def _about_rubber(
     spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, softest: float, loss_tangent: float
 ) -> list[str]:
     where = (
-        f"E0 = {spectrum.E0:.4g} Pa lies {_beside(spectrum.E0, softest)} the smallest measured E' ({softest:.4g} Pa)"
+        f"E0 = {shown_modulus(spectrum.E0)} lies {_beside(spectrum.E0, softest)} the smallest measured E' "
+        f"({shown_modulus(softest)})"
     )
     end = f"at the lowest frequency, {fit.frequency_range[0]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
     if fit.E0_missed:
@@ -126,15 +128,16 @@ def _about_rubber(
 
 def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: float, loss_tangent: float) -> list[str]:
     where = (
-        f"E_inf = {spectrum.E_inf:.4g} Pa lies {_beside(spectrum.E_inf, stiffest)} the largest measured E' "
-        f"({stiffest:.4g} Pa)"
+        f"E_inf = {shown_modulus(spectrum.E_inf)} lies {_beside(spectrum.E_inf, stiffest)} the largest measured E' "
+        f"({shown_modulus(stiffest)})"
     )
     end = f"at the highest frequency, {fit.frequency_range[1]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
     notes = []
     if fit.E_inf_at_limit:
         notes.append(
-            f"E_inf = {spectrum.E_inf:.4g} Pa is the largest that the fit allows, {STIFFEST:g} times the largest "
-            f"measured E' ({stiffest:.4g} Pa), and no result: {end}, and the sweeps do not tell how stiff the glass is."
+            f"E_inf = {shown_modulus(spectrum.E_inf)} is the largest that the fit allows, {STIFFEST:g} times the "
+            f"largest measured E' ({shown_modulus(stiffest)}), and no result: {end}, and the sweeps do not tell how "
+            "stiff the glass is."
         )
     elif fit.E_inf_missed:
         also = f" {end[0].upper()}{end[1:]}: the glass was not measured." if fit.E_inf_extrapolated else ""
@@ -143,8 +146,8 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: floa
         notes.append(f"{where}, and {end}: the glass was not measured, so that E_inf is extrapolated.")
     if spectrum.E_inf > STIFFEST_GLASS:
         notes.append(
-            f"E_inf = {spectrum.E_inf:.4g} Pa is beyond any organic glass (a few 1e9 Pa); no rubber has such a glass, "
-            "and the spectrum is not physical above the measured frequencies."
+            f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no rubber has such a "
+            "glass, and the spectrum is not physical above the measured frequencies."
         )
     return notes
 
