@@ -62,6 +62,14 @@ def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path
     assert told["anchored"]
     assert told["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01}
     assert told["family"] == []
+    points, measured = told["points"], vf.read_friction_curves(found[0] / "curves.csv")
+    assert points["speed"] == measured.speed.tolist()
+    # All errors are alike, 1 %, so that residuals are one multiple of what the fit leaves over of ln μ.
+    left = np.log(measured.viscoelastic / points["viscoelastic"])
+    np.testing.assert_allclose(points["residual"] / left, points["residual"][0] / left[0], rtol=1e-6)
+    assert points["residual"][0] * left[0] > 0.0
+    assert len(told["samples"]) == 20
+    assert {len(sample["C"]) for sample in told["samples"]} == {len(told["material"]["tau"])}
     assert told["inputs"]["anchor_modulus"] == "2.287 MPa"
     assert not {"ball", "cone", "leave_out_outliers", "zero_error"} & set(told["inputs"])
 
@@ -113,7 +121,7 @@ def test_tables_tell_what_is_identified_and_what_not() -> None:
             lower=0.9 * RUBBER.complex_modulus(omega), upper=1.1 * RUBBER.complex_modulus(omega)
         )
     )
-    band = SimpleNamespace(low=5.0, high=500.0, decades=2.0)
+    band = SimpleNamespace(low=5.0, high=500.0, decades=2.0, relative=False)
     fits = tuple(SimpleNamespace(factor=f, modulus=f * 2e6, rms=0.01, penalty=f) for f in (0.5, 2.0))
     made: Any = SimpleNamespace(
         material=RUBBER, samples=samples, identified=band, frequency_range=(3.0, 300.0), middle=30.0, family=fits
@@ -124,6 +132,9 @@ def test_tables_tell_what_is_identified_and_what_not() -> None:
     assert [float(row.split()[0]) for row in rows] == [0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0]
     assert ["not identified" in row for row in rows] == [True, True, False, False, True, True]
     assert f"{1e-6 * complex(RUBBER.complex_modulus(10.0)).real:.3f}" in rows[2]
+    band.relative = True
+    remarks = [" ".join(row.split()[9:]) for row in modulus_lines(made)[1:]]
+    assert remarks == ["not identified"] * 2 + ["level not identified"] * 2 + ["not identified"] * 2
     assert len(family_lines(made)) == 3
     assert "× 0.5" in family_lines(made)[1]
     made.family = ()

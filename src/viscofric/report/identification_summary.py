@@ -29,6 +29,10 @@ _UNITS = {
     "C": "1/Pa",
     "tau": "s",
     "reference": "K",
+    "speed": "m/s",
+    "temperature": "K",
+    "viscoelastic": "1",
+    "residual": "1",
 }
 #: The modulus is told so many decades beyond the frequencies of the contacts, at one frequency a decade.
 _BEYOND = 1
@@ -56,10 +60,16 @@ def modulus_lines(found: IdentifiedMaterial) -> list[str]:
                 1e-6 * float(getattr(one, part)) for one in (modulus[row], band.lower[row], band.upper[row])
             )
             cells += [significant(value, 4), f"{significant(low)} to {significant(high)}"]
-        known = found.identified.low <= frequency <= found.identified.high and found.identified.decades > 0.0
-        rows.append((*cells, "" if known else "not identified"))
+        rows.append((*cells, _remark(found.identified, float(frequency))))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+def _remark(band: IdentifiedBand, frequency: float) -> str:
+    """Say what of the modulus is not identified at a frequency."""
+    if band.decades > 0.0 and band.low <= frequency <= band.high:
+        return "level not identified" if band.relative else ""
+    return "not identified"
 
 
 def identification_record(found: IdentifiedMaterial, inputs: dict[str, Any]) -> dict[str, Any]:
@@ -104,8 +114,17 @@ def identification_record(found: IdentifiedMaterial, inputs: dict[str, Any]) -> 
             for fit in found.family
         ],
         "fit": {name: float(getattr(found, name)) for name in ("chi2", "freedom", "rms", "error_scale")},
+        "points": {
+            name: getattr(found.friction, name).tolist()
+            for name in ("speed", "temperature", "load", "viscoelastic", "viscoelastic_lower", "viscoelastic_upper")
+        }
+        | {"residual": found.residuals.tolist()},
+        "samples": [
+            {"E0": one.modes_at().E0, "E_inf": one.modes_at().E_inf, "C": one.modes_at().C.tolist()}
+            for one in found.samples.materials
+        ],
         "sentences": list(found.sentences),
-        "units": _UNITS,
+        "units": _UNITS | {"load": found.friction.load_unit},
     }
 
 

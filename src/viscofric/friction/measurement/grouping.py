@@ -94,7 +94,8 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
     unknowns = ["the force cell's zero"] * (not known) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
     told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if not known:
-        advice += ", or read the force cell with ball and disc apart and give that zero (zero= in Python, --zero in the shell)"
+        zero = "(zero= in Python, --zero in the shell)"
+        advice += f", or read the force cell with ball and disc apart and give that zero {zero}"
     elif not rolls and assumed.nothing:
         advice += ", or say what Coulomb friction to assume (coulomb= in Python, --coulomb in the shell)"
     because = "slip is zero (pure rolling) and " if rolls else ""
