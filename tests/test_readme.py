@@ -14,10 +14,11 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted(path for path in [ROOT / "README.md", *ROOT.glob("docs/**/*.md")] if path.exists())
-FENCE = re.compile(r"^```([\w-]*)[^\n`]*\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^```([\w-]*)([^\n`]*)\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
 OUTPUT = {"", "text", "mermaid"}
 SHELL = {"console", "bash", "sh", "shell"}
 FETCHES_OR_MOVES = {"git", "cd", "pip", "uv", "python3.11"}  # what gets the checkout: named, not run
+COMPARED = {"printed", "roughly"}  # said after ```text: it is what the command before it prints
 STAYS = {"web"}  # serves until it is stopped: only asked for its help
 
 
@@ -27,10 +28,11 @@ class Block(NamedTuple):
     language: str
     text: str
     line: int
+    manner: str = ""
 
 
 def blocks(page: str) -> list[Block]:
-    return [Block(m[1], m[2], page.count("\n", 0, m.start()) + 2) for m in FENCE.finditer(page)]
+    return [Block(m[1], m[3], page.count("\n", 0, m.start()) + 2, m[2].strip()) for m in FENCE.finditer(page)]
 
 
 def commands(block: Block) -> list[list[str]]:
@@ -48,8 +50,8 @@ def subcommands() -> set[str]:
     return set(main.list_commands(click.Context(main)))
 
 
-def viscofric(arguments: list[str], folder: Path) -> None:
-    """Run the command line in the folder, as the installed script does."""
+def viscofric(arguments: list[str], folder: Path) -> str:
+    """Run the command line in the folder, as the installed script does; return what it prints."""
     if arguments and arguments[0] in STAYS:
         arguments = [arguments[0], "--help"]
     script = "import sys; sys.argv[0] = 'viscofric'; from viscofric.cli import main; main()"
@@ -62,6 +64,26 @@ def viscofric(arguments: list[str], folder: Path) -> None:
         check=False,
     )
     assert done.returncode == 0, f"viscofric {shlex.join(arguments)}\n{done.stdout}\n{done.stderr}"
+    return done.stdout + done.stderr
+
+
+def compare_output(block: Block, printed: str, page: Path) -> None:
+    """Compare what a page shows of an output with what was printed; … stands for what was left out.
+
+    Where the block says ``roughly``, numbers may differ, and rows of tables are not compared.
+    """
+    roughly = block.manner == "roughly"
+
+    def plain(text: str) -> str:
+        text = " ".join(text.split())
+        return re.sub(r"[\d.]+(?:e[+-]?\d+)?", "#", text) if roughly else text
+
+    found = plain(printed)
+    for line in block.text.splitlines():
+        if roughly and re.match(r"\s*\d", line):
+            continue
+        for part in filter(None, map(plain, line.split("…"))):
+            assert part in found, f"{page.name}, from line {block.line}: {part!r} is not printed, but\n{printed}"
 
 
 def thin_out(study: Path) -> None:
@@ -77,20 +99,21 @@ def thin_out(study: Path) -> None:
     runs.write_text("".join(line for line in lines if not line.startswith(cooler)), encoding="utf-8")
 
 
-def run_command(words: list[str], folder: Path) -> None:
+def run_command(words: list[str], folder: Path) -> str:
+    """Run a command of a page in the folder; return what it prints."""
     program, arguments = words[0], words[1:]
     if program in FETCHES_OR_MOVES:
-        return
+        return ""
     if program == "./run":
         known = subcommands() | {"test", "--help", "--help-all"}
         assert not arguments or arguments[0] in known, f"./run does not know {arguments[0]}"
         if arguments and arguments[0] not in ("demo", "test"):
-            viscofric(arguments, folder)
-        return
+            return viscofric(arguments, folder)
+        return ""
     assert Path(program).name == "viscofric", f"a command that this test cannot run: {shlex.join(words)}"
     if arguments[:1] == ["run"]:
         thin_out(folder / arguments[1])
-    viscofric(arguments, folder)
+    return viscofric(arguments, folder)
 
 
 def check_study(block: Block, folder: Path) -> None:
@@ -112,16 +135,19 @@ def test_what_the_page_shows_works(page: Path, tmp_path: Path, monkeypatch: pyte
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
     namespace: dict[str, Any] = {"__name__": "__main__"}
+    printed = ""
     for block in blocks(page.read_text(encoding="utf-8")):
         if block.language in {"python", "py"}:
             code = "\n" * (block.line - 1) + block.text  # so that a traceback names the page's line
             exec(compile(code, str(page), "exec"), namespace)
         elif block.language in SHELL:
             for words in commands(block):
-                run_command(words, tmp_path)
+                printed = run_command(words, tmp_path)
         elif block.language == "toml":
             if "[material]" in block.text:
                 check_study(block, tmp_path)
+        elif block.language == "text" and block.manner in COMPARED:
+            compare_output(block, printed, page)
         else:
             assert block.language in OUTPUT, f"{page.name}, line {block.line}: what is {block.language!r}?"
 
@@ -132,6 +158,15 @@ def test_readme_shows_the_two_commands() -> None:
     assert {"./run demo", "./run test"} <= set(typed)
     told = subprocess.run([sys.executable, str(ROOT / "run"), "--help"], capture_output=True, text=True, check=True)
     assert all(command in told.stdout for command in ("./run demo", "./run test"))
+
+
+def test_output_that_is_not_printed_is_found() -> None:
+    printed = "T    mu\n30  0.12\n\nover 12 points within 0.3 %; more words.\n"
+    compare_output(Block("text", "T  mu\n…\nover 12 points … more", 1, "printed"), printed, Path("a.md"))
+    compare_output(Block("text", "T  mu\n30  0.13\nover 13 points within 4e-2 %", 1, "roughly"), printed, Path("a.md"))
+    for line, manner in (("over 13 points", "printed"), ("over 13 points without", "roughly")):
+        with pytest.raises(AssertionError, match=r"over .* is not printed"):
+            compare_output(Block("text", line, 1, manner), printed, Path("a.md"))
 
 
 def test_blocks_and_commands_are_found() -> None:

@@ -51,7 +51,7 @@ Such as
 @click.option("--seed", type=int, default=0, show_default=True, help="Of the draws.")
 @click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Of each contact that is solved.")
 @click.option("--workers", type=int, default=1, show_default=True, help="Processes that share the contacts.")
-@click.option("--name", default="identified from friction", show_default=True, help="Of the rubber.")
+@click.option("--name", default="rubber identified from friction", show_default=True, help="Of the rubber.")
 @separation_options
 @click.option("--out", type=_FILE, help="Write the rubber (JSON), for `solve`, run files and `material`.")
 @click.option("--picture", type=_FILE, help="Draw the modulus with its limits (PNG, SVG or PDF).")
