@@ -89,6 +89,7 @@ def test_what_cannot_be_known_is_null_and_a_question_mark(tmp_path: Path) -> Non
     path = runs(tmp_path / "runs.csv", signs=(1,), replicates=1)
     found = record("separate", path, "--zero", "0.3 N")
     point = found["points"][0]
+    assert " ± ?" in call("separate", path, "--zero", "0.3 N").stdout.splitlines()[1]
     assert point["viscoelastic_error"] is None
     assert point["viscoelastic"] == pytest.approx(viscoelastic(30.0, 20.0), rel=1e-9)  # no noise
     assert point["coulomb"] == pytest.approx(COULOMB, rel=1e-9)
@@ -250,6 +251,15 @@ def test_law_is_not_sought_among_too_few_temperatures(tmp_path: Path) -> None:
     assert "Note: No law is fitted: 4 temperatures are too few" in told
     assert "--law" in told
     assert "No law is fitted" not in call("shift", path, "--law", "wlf").stderr
+
+
+def test_the_best_law_says_why_and_how_well_it_fits(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv", 273.15 + np.arange(30.0, 55.0, 4.0))
+    found = record("shift", path)
+    assert found["law"] is not None
+    assert found["law_explanation"]
+    assert found["law_explanation"] in call("shift", path).stdout
+    assert record("shift", path, "--law", "wlf")["law_explanation"] is None
 
 
 def test_friction_below_zero_is_told(tmp_path: Path) -> None:

@@ -140,7 +140,11 @@ def _pairs(values: Array, errors: Array | None) -> list[str]:
     """Return values with their errors, all with the decimals that the usual error leaves."""
     known = np.zeros(0) if errors is None else errors[np.isfinite(errors) & (errors > 0.0)]
     if errors is None or not known.size:
-        return [significant(float(value), 4) for value in values]
+        open_ends = [False] * len(values) if errors is None else np.isinf(errors).tolist()
+        return [
+            (significant(float(value), 4) + (" ± ?" if unknown else "")) if value or not unknown else ABSENT
+            for value, unknown in zip(values, open_ends, strict=True)
+        ]
     decimals = int(np.clip(1 - math.floor(math.log10(float(np.median(known)))), 0, 9))
     written = []
     for value, error in zip(values, errors, strict=True):

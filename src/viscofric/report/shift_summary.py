@@ -92,7 +92,7 @@ def _pairs(values: Any, errors: Any) -> list[str]:
 
 
 def shift_words(
-    master: FrictionMasterCurve, law: ParametricLaw | None, agreement: ShiftAgreement | None
+    master: FrictionMasterCurve, law: ParametricLaw | None, agreement: ShiftAgreement | None, why: str = ""
 ) -> list[tuple[str, str]]:
     """Return what is to be said of shifted friction curves, as pairs of name and value.
 
@@ -103,6 +103,8 @@ def shift_words(
         Fitted to the shift factors.
     agreement : ShiftAgreement, optional
         With those of the modulus.
+    why : str
+        Why that law was chosen, if it was.
     """
     low, high = (1e3 * end for end in master.reduced_range)
     lines = [
@@ -114,6 +116,8 @@ def shift_words(
         lines.append(("errors", told))
     if law is not None:
         lines.append(("law", str(law)))
+    if why:
+        lines.append(("", why))
     lines.append(("overlap", master.overlap_sentence))
     if agreement is not None:
         lines.append(("beside the modulus", agreement.sentence))

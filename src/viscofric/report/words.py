@@ -142,7 +142,7 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
             )
         found.append(KeyNumber("Prediction less measurement", percent(rms), remark))
     shifts = group(tree, "friction_shift_factors")
-    if shifts is not None:
+    if shifts is not None and not is_from_friction(tree):
         slope, error = (number(shifts.attrs, name) for name in ("slope", "slope_error"))
         remark = "times those of the modulus, as logarithms: 1 where both coincide"
         found.append(KeyNumber("Shift factors from friction", with_error(slope, error), remark))

@@ -79,7 +79,7 @@ def command(
         curves = friction_curves(sources, settings)
         known, vertical = (None, None) if asked["known"] is None else shifts(asked["known"])
         master = _shifted(curves, known, vertical, asked)
-        law = _law(master, asked["law"])
+        law, why = _law(master, asked["law"])
         agreement = _agreement(master, known)
         if out is not None and not master.found:
             raise click.ClickException(f"{out} is not written, for friction tells no shift factors.")
@@ -88,10 +88,10 @@ def command(
             inputs |= {"shift": asked["known"]} | {
                 name: asked[name] for name in ("reference", "law", "ball", "level_error")
             }
-            record = shift_record(master, law, agreement, inputs | settings)
+            record = shift_record(master, law, agreement, inputs | settings) | {"law_explanation": why or None}
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         else:
-            _tell(master, known, law, agreement)
+            _tell(master, known, law, why, agreement)
         tell_notes((*curves.notes, *master.notes))
         for written in _write(master, known, out, picture, synthetic):
             click.echo(written, err=as_json)
@@ -125,24 +125,25 @@ def _shifted(
         return shift_friction(curves, shift=known, reference=reference, **options)
 
 
-def _law(master: FrictionMasterCurve, kind: str) -> ParametricLaw | None:
-    """Fit a law to the shift factors; the best one only where one describes them."""
+def _law(master: FrictionMasterCurve, kind: str) -> tuple[ParametricLaw | None, str]:
+    """Fit a law to the shift factors, the best one only where one describes them, and say why it was chosen."""
     from viscofric.errors import InputError
 
     if kind == "none" or not master.found:
-        return None
+        return None, ""
     if kind != "best":
-        return master.shift_factors.law(kind)
+        return master.shift_factors.law(kind), ""
     factors = master.shift_factors
     if len(factors.temperatures) < _COMPARABLE:
         few = f"{len(factors.temperatures)} temperatures are too few to compare laws, which takes {_COMPARABLE}"
         click.echo(f"Note: No law is fitted: {few}; --law fits one that you choose.", err=True)
-        return None
+        return None, ""
     try:
-        return factors.compare_laws().best
+        compared = factors.compare_laws()
     except InputError as error:
         click.echo(f"Note: No law is fitted: {error}", err=True)
-        return None
+        return None, ""
+    return compared.best, compared.explanation
 
 
 def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgreement | None:
@@ -159,14 +160,18 @@ def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgre
 
 
 def _tell(
-    master: FrictionMasterCurve, known: ShiftLaw | None, law: ParametricLaw | None, agreement: ShiftAgreement | None
+    master: FrictionMasterCurve,
+    known: ShiftLaw | None,
+    law: ParametricLaw | None,
+    why: str,
+    agreement: ShiftAgreement | None,
 ) -> None:
     from viscofric.report.shift_summary import shift_lines, shift_words
 
     for line in shift_lines(master, known):
         click.echo(line)
     click.echo()
-    said = shift_words(master, law, agreement)
+    said = shift_words(master, law, agreement, why)
     width = max(len(name) for name, _ in said)
     for name, value in said:
         click.echo(f"{name:<{width}}  {value}")
