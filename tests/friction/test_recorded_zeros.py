@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
@@ -483,3 +484,15 @@ def test_a_zero_that_jumps_between_series_is_told_but_no_drift_is_made_of_it() -
     np.testing.assert_allclose(curves.viscoelastic, separate(runs).viscoelastic, rtol=1e-9)
     (note,) = curves.notes
     assert "moves unevenly" in note
+
+
+def test_a_given_zero_that_the_configurations_contradict_is_told() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, noise=0.02, offset=0.3)
+    (told,) = [note for note in separate(runs, zero="0.5 N").notes if "tell another one" in note]
+    assert re.search(
+        r"given, 0\.5 N, is used, though the configurations at 6 conditions tell another one, 0\.(29|30)", told
+    )
+    assert not any("tell another one" in note for note in separate(runs, zero=("0.3 N", "0.02 N")).notes)
+    # One direction of the disc tells no zero.
+    forwards = runs.select(runs.disc_speed > 0.0)
+    assert not any("tell another one" in note for note in separate(forwards, zero="0.5 N").notes)

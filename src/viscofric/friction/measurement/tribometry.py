@@ -12,6 +12,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
 from viscofric.friction.measurement.doubts import doubts
 from viscofric.friction.measurement.drift import Drift
+from viscofric.friction.measurement.given_zero import another_zero
 from viscofric.friction.measurement.grouping import Grouping
 from viscofric.friction.measurement.outliers import outliers as far_readings
 from viscofric.friction.measurement.outliers import told_of
@@ -204,6 +205,7 @@ class _Separation:
             *zeros.drift(load),
             *drift.notes(fits),
             *doubts(fits, entries, zeros),
+            *another_zero(runs, groups, zeros),
         ]
         return cls(fits, entries, places, notes)
 
