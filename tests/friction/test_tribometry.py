@@ -153,6 +153,17 @@ def test_a_known_zero_makes_two_reversed_slips_enough() -> None:
     np.testing.assert_array_equal(curves.offset, 0.1)  # type: ignore[arg-type]
 
 
+def test_configurations_at_another_disc_speed_are_named_where_they_are() -> None:
+    """The ball's speed is the same for both directions of slip, so that the disc's is not."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, temperatures=[303.15], speeds=[0.1], speed_jitter=0.0)
+    faster = np.sign(runs.disc_speed) * (runs.disc_speed - runs.ball_speed) > 0.0
+    disc = np.sign(runs.disc_speed) * np.where(faster, 0.12, 0.1)
+    runs = replace(runs, disc_speed=disc, ball_speed=np.sign(disc) * 0.11)
+    with pytest.raises(InputError, match=r"at the same disc speed \(others were measured at 1\d0 mm/s; a larger"):
+        separate(runs)
+    np.testing.assert_allclose(separate(runs, speed_tolerance=0.3).viscoelastic, 0.03, rtol=1e-9)  # no noise
+
+
 def test_two_reversed_slips_without_a_zero_are_refused() -> None:
     """Zero and viscoelastic friction cannot be told apart, though jittering loads make the fit regular."""
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[2:], temperatures=[303.15], speeds=[0.1])

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.friction.measurement.conditions import Condition, conditions, where
 from viscofric.friction.measurement.course import Course, of_both, of_the_disc
+from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+# Speeds within this part of each other may have been meant to be one.
+_NEAR = 0.5
 # (sgn u_disc, sgn(u_disc − u_ball)) in words
 _WORDS = {
     (sign, slip): f"u_disc {'<' if sign < 0 else '>'} 0 with u_disc − u_ball {'<' if slip < 0 else '>'} 0"
@@ -82,6 +85,25 @@ def _readings(groups: list[Condition]) -> int:
     return sum(group.rows.size for group in groups)
 
 
+def _at_other_speeds(one: Condition, others: list[Condition]) -> str:
+    """Say at which speed near that of a condition the signs were measured that it lacks; nothing without any."""
+    near = [
+        other.speed
+        for other in others
+        if not other.signs <= one.signs
+        and abs(other.temperature - one.temperature) <= SAME_TEMPERATURE
+        and abs(other.load - one.load) <= SAME_LOAD * one.load
+        and abs(other.speed - one.speed) <= _NEAR * one.speed
+    ]
+    if not near:
+        return ""
+    speed = min(near, key=lambda speed: abs(speed - one.speed))
+    return (
+        f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger speed_tolerance, in the "
+        "shell --speed-tolerance, takes these for one speed)"
+    )
+
+
 def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> str:
     """Say what the signs do not tell, and what to measure or give."""
     first = poor[0]
@@ -91,6 +113,8 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
     advice = f"measure also {' or '.join(missing)}"
     if rolls:
         advice = "measure also with the velocities of disc and ball reversed"
+    else:
+        advice += _at_other_speeds(first, poor)
     unknowns = ["the force cell's zero"] * (not known) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
     told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if not known:
