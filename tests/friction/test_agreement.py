@@ -208,7 +208,7 @@ def test_errors_that_are_not_known_tell_no_share() -> None:
     measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02), error=np.full(4, np.inf))
     predicted = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.03))
     none = compare(measured, predicted)
-    assert np.isnan(none.share_within_error)
+    assert none.share_within_error is None
     assert np.all(np.isnan(none.share_within_error_at))
     assert none.bias_error == np.inf
     assert "of unknown standard error" in str(none)

@@ -31,16 +31,16 @@ class Agreement:
         Mean of d: above zero where the prediction is too high.
     rms : float
         Root mean square of d.
-    share_within_error : float
+    share_within_error : float or None
         Share of the points where predicted and measured differ by at most twice the combined standard error
         √(s² + e² + m²), with s the standard error of the measured mean, e the numerical error of the prediction and m
         the standard error that the material's own leaves on it, where the prediction carries one.  Points whose s is
-        not known (infinite) do not count; NaN if there are no others.
+        not known (infinite) do not count; None if there are no others.
     points : int
     temperature : (k,) array
         Different temperatures, K, ascending.
     bias_at, rms_at, share_within_error_at : (k,) array
-        The same for the points of each temperature.
+        The same for the points of each temperature; a share is NaN where no point counts.
     points_at : (k,) array of int
     relative_difference : (n,) array
         d in the order of the measured points.
@@ -67,7 +67,7 @@ class Agreement:
 
     bias: float
     rms: float
-    share_within_error: float
+    share_within_error: float | None
     points: int
     temperature: Array
     bias_at: Array
@@ -95,7 +95,7 @@ class Agreement:
             f"{'above' if self.bias >= 0 else 'below'} the measured one on average ({error}), "
             f"{100 * self.rms:.1f} % away from it in root mean square, "
         )
-        if self.with_error:
+        if self.share_within_error is not None:
             of = "of them" if self.with_error == self.points else f"of the {self.with_error} whose error is known"
             share = f"{100 * self.share_within_error:.0f} %"
             said += f"and within twice the standard error{counted} at {share} {of}"
@@ -190,7 +190,7 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     return Agreement(
         bias=float(relative.mean()),
         rms=_rms(relative),
-        share_within_error=_share(within[told]),
+        share_within_error=float(within[told].mean()) if np.any(told) else None,
         points=len(measured),
         temperature=there,
         bias_at=np.array([relative[group].mean() for group in groups]),

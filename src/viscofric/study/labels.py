@@ -197,9 +197,10 @@ def measured_master_data(master: FrictionMasterCurve) -> xarray.Dataset:
 
 def agreement_data(agreement: Agreement, sentences: Sequence[str], left_out: int) -> xarray.Dataset:
     """Label how well prediction and measurement agree; the sentences are attributes."""
-    more = {}
-    if agreement.share_within_scatter is not None:
-        more["share_within_scatter"] = agreement.share_within_scatter
+    shares = {
+        "share_within_error": agreement.share_within_error,
+        "share_within_scatter": agreement.share_within_scatter,
+    }
     return dataset(
         "temperature",
         {
@@ -214,13 +215,12 @@ def agreement_data(agreement: Agreement, sentences: Sequence[str], left_out: int
         "temperature",
         bias=agreement.bias,
         rms=agreement.rms,
-        share_within_error=agreement.share_within_error,
         points=agreement.points,
         left_out=left_out,
         bias_error=agreement.bias_error,
         material_counted=int(agreement.material_counted),
         sentences=json.dumps(list(sentences), ensure_ascii=False),
-        **more,
+        **{name: share for name, share in shares.items() if share is not None},
     )
 
 
