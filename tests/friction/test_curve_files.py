@@ -202,4 +202,4 @@ def test_errors_that_are_not_known_go_through_master_curves(tmp_path: Path) -> N
     assert master(middle) == pytest.approx(vf.shift_friction(curves, shift=planted_law())(middle), rel=0.02)
     assert master.overlap_error == np.inf
     assert "their errors alone are unknown" in master.overlap_sentence
-        assert vf.compare(master, master).share_within_error is None
+    assert vf.compare(master, master).share_within_error is None
