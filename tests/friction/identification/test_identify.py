@@ -71,6 +71,14 @@ def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.Identified
     assert np.all((band.lower.real < planted.real) & (planted.real < band.upper.real))
 
 
+def test_what_was_found_lies_amidst_the_draws(found: vf.IdentifiedMaterial) -> None:
+    omega = np.geomspace(*found.frequency_range, 5)
+    drawn = np.log([one.complex_modulus(omega).imag for one in found.samples.materials])
+    away = np.log(found.material.complex_modulus(omega).imag) - np.median(drawn, axis=0)
+    # The median of 40 draws is known to 0.2 of their scatter; fits that end early would all err to one side.
+    assert np.all(np.abs(away) < 0.8 * drawn.std(axis=0))
+
+
 def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
     text = str(found)
     assert "The standard error of |E(ω)| is 5 % or less from" in text
