@@ -71,7 +71,12 @@ def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.Identified
     assert np.all((band.lower.real < planted.real) & (planted.real < band.upper.real))
 
 
-def test_what_was_found_lies_amidst_the_draws(found: vf.IdentifiedMaterial) -> None:
+@pytest.mark.usefixtures("closed_form")
+def test_what_was_found_lies_amidst_the_draws() -> None:
+    curves = closed_form_curves(*WARM)
+    scattered = curves.viscoelastic * (1.0 + 0.01 * np.random.default_rng(1).standard_normal(len(curves)))
+    noisy = replace(curves, viscoelastic=scattered, viscoelastic_error=0.01 * scattered)
+    found = vf.identify_material(noisy, anchor=planted_anchor(), shift=RUBBER.shift, **SETTINGS)
     omega = np.geomspace(*found.frequency_range, 5)
     drawn = np.log([one.complex_modulus(omega).imag for one in found.samples.materials])
     away = np.log(found.material.complex_modulus(omega).imag) - np.median(drawn, axis=0)
