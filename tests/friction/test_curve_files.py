@@ -107,7 +107,7 @@ def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:
 
 
 def test_a_table_without_errors_is_shifted_by_the_scatter_of_its_points(tmp_path: Path) -> None:
-    """Unknown errors are found from the curves: the factors have those that points of 2 % scatter make of them."""
+    """Errors not known are found from the curves: the factors have those that points of 2 % scatter make of them."""
     curves, law, errors = synthetic_curves(30.0, 35.0, 40.0, 46.0, noise=0.02 * np.sqrt(8)), planted_law(), []
     path = tmp_path / "bare.csv"
     vf.write_friction_curves(curves, path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING, TypeAlias
@@ -13,6 +14,7 @@ from viscofric.friction.shifting.isotherms import scatter_scale
 from viscofric.friction.shifting.pairs import FEWEST_POINTS
 from viscofric.friction.shifting.placement import arrange, groups, rivals, scan_pairs
 from viscofric.friction.shifting.refusals import Doubts, shown, too_flat
+from viscofric.friction.shifting.selection import WORTH_TELLING, widened, widenings
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.superposition.common_shifts import fitted
@@ -107,8 +109,10 @@ def found_shifts(
         members = reaching
     if scale is not None and _may_be_constant(chosen, isotherms, scale):
         raise SuperpositionError(too_flat(chosen))
+    factors = widenings(members, values, pairs)
+    covariance = widened(covariance, factors, _at_reference(chosen, kelvin)[1])
     temperatures = np.array([isotherm.temperature for isotherm in chosen])
-    notes = doubts.left_out(members)
+    notes = (*doubts.left_out(members), *_marginal(chosen, factors))
     return FoundShifts(ShiftFactors(temperatures, values, kelvin, covariance, notes), tuple(members), notes)
 
 
@@ -152,9 +156,7 @@ def _may_be_constant(chosen: Sequence[FrictionIsotherm], isotherms: Sequence[Fri
 
 def _fit(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> tuple[Array, Array]:
     """Fit log10 α (n,) of all isotherms from a start, and its covariance."""
-    temperatures = np.array([isotherm.temperature for isotherm in chosen])
-    inside = np.clip(reference, temperatures[0], temperatures[-1])
-    weights = np.array([np.interp(-1.0 / inside, -1.0 / temperatures, unit) for unit in np.eye(len(temperatures))])
+    temperatures, weights = _at_reference(chosen, reference)
     gauge = Gauge(1.0 / temperatures, weights, weights, {})
     joins = [Join(float(step), 0.0, 0.0) for step in -np.diff(start)]
     weight = np.median(np.concatenate([1.0 / isotherm.variance for isotherm in chosen]))
@@ -162,6 +164,28 @@ def _fit(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> 
     # The scatter is found from few points: shifts in units of their errors follow Student's t, whose variance is this.
     few = found.freedom / (found.freedom - 2.0) if found.freedom > 2.5 else LARGEST_FACTOR
     return found.values, min(few, LARGEST_FACTOR) * found.covariance
+
+
+def _at_reference(chosen: Sequence[FrictionIsotherm], reference: float) -> tuple[Array, Array]:
+    """Return the temperatures, and the weights with which their log10 α interpolate that of the reference."""
+    temperatures = np.array([isotherm.temperature for isotherm in chosen])
+    inside = np.clip(reference, temperatures[0], temperatures[-1])
+    weights = np.array([np.interp(-1.0 / inside, -1.0 / temperatures, unit) for unit in np.eye(len(temperatures))])
+    return temperatures, weights
+
+
+def _marginal(chosen: Sequence[FrictionIsotherm], factors: Array) -> tuple[str, ...]:
+    """Say where curves overlap so little that finding it was a matter of chance."""
+    found = np.flatnonzero(factors > WORTH_TELLING)
+    if not found.size:
+        return ()
+    places = ", ".join(f"{shown(chosen[one])} and {shown(chosen[one + 1])}" for one in found.tolist())
+    told = (
+        f"Between {places} friction curves overlap so little for their errors that chance might have hidden it; what "
+        f"is found then is off to one side, so that standard errors of the shift there are made up to "
+        f"{math.sqrt(float(factors.max())):.2g} times as large."
+    )
+    return (told,)
 
 
 def _of_levels(chosen: Sequence[FrictionIsotherm], values: Array, reference: float, level_error: float) -> Array:

@@ -51,6 +51,8 @@ class Pair:
         Squared difference of the curves at each, in units of its covariance.
     candidates : tuple of float
         Steps where the curves coincide, each bounded by contradiction on both sides.
+    margins : tuple of float
+        How clearly each is bounded, in standard deviations: above the root of `CONTRADICTION`.
     verdict : {"overlap", "rising", "flat", "apart"}
         "rising" if the curves coincide only with an α that rises with temperature.
     """
@@ -58,6 +60,7 @@ class Pair:
     steps: Array
     chi2: Array
     candidates: tuple[float, ...]
+    margins: tuple[float, ...]
     verdict: Literal["overlap", "rising", "flat", "apart"]
 
     def cost(self, step: float) -> float:
@@ -78,14 +81,15 @@ def scan(colder: FrictionIsotherm, warmer: FrictionIsotherm, scale: float) -> Pa
     """
     steps = _steps(colder, warmer)
     if not steps.size:
-        return Pair(steps, steps, (), "apart")
+        return Pair(steps, steps, (), (), "apart")
     chi2 = _chi2(colder, warmer, steps, scale)
     bounded = _bounded(steps, chi2)
-    found = tuple(step for step, highest in bounded if highest >= -WRONG_WAY)
+    found = tuple(step for step, highest, _ in bounded if highest >= -WRONG_WAY)
+    margins = tuple(margin for _, highest, margin in bounded if highest >= -WRONG_WAY)
     if bounded:
-        return Pair(steps, chi2, found, "overlap" if found else "rising")
+        return Pair(steps, chi2, found, margins, "overlap" if found else "rising")
     possible = np.mean(chi2 <= LARGEST_MISFIT)
-    return Pair(steps, chi2, (), "flat" if possible > FLAT else "apart")
+    return Pair(steps, chi2, (), (), "flat" if possible > FLAT else "apart")
 
 
 def _steps(colder: FrictionIsotherm, warmer: FrictionIsotherm) -> Array:
@@ -117,8 +121,11 @@ def _chi2(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scal
     return np.asarray(np.einsum("si,si->s", difference, np.linalg.solve(spread, difference[..., None])[..., 0]))
 
 
-def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float]]:
-    """Return the steps of least χ² that contradiction bounds on both sides, each with its upper bound, best first."""
+def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float, float]]:
+    """Return the steps of least χ² that contradiction bounds on both sides, best first.
+
+    Each with its upper bound, and by how many standard deviations it is bounded.
+    """
     found = []
     free = np.full(steps.shape, True)
     for place in np.argsort(chi2, kind="stable"):
@@ -133,5 +140,6 @@ def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float]]:
         whole = bool(np.all(free[max(first, 0) : last]))  # else it is the slope of a better one
         free[max(first, 0) : last + 1] = False
         if whole and first >= 0 and last < steps.size:
-            found.append((float(steps[place]), float(steps[last])))
+            bound = min(chi2[: first + 1].max(), chi2[last:].max()) - chi2[place]
+            found.append((float(steps[place]), float(steps[last]), float(np.sqrt(bound))))
     return found

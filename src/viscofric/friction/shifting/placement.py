@@ -66,10 +66,13 @@ def _with_those_between(places: tuple[int, int], pair: Pair, pairs: Pairs) -> Pa
         parts = np.arange(-WRONG_WAY, max(step, 0.0) + WRONG_WAY + STEP, STEP)
         return all(max(upper.cost(part), lower.cost(step - part)) > LARGEST_MISFIT for part in parts.tolist())
 
-    steps = tuple(
-        step for step in pair.candidates if 2 * sum(contradicts(one, step) for one in between) <= len(between)
-    )
-    return replace(pair, candidates=steps, verdict=pair.verdict if steps else "apart")
+    kept = [
+        (step, margin)
+        for step, margin in zip(pair.candidates, pair.margins, strict=True)
+        if 2 * sum(contradicts(one, step) for one in between) <= len(between)
+    ]
+    steps, margins = tuple(step for step, _ in kept), tuple(margin for _, margin in kept)
+    return replace(pair, candidates=steps, margins=margins, verdict=pair.verdict if steps else "apart")
 
 
 def groups(places: Iterable[int], joined: Iterable[tuple[int, int]]) -> list[list[int]]:
