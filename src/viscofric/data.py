@@ -18,12 +18,45 @@ if TYPE_CHECKING:
 #: How a dynamic mechanical analyser deformed its sample.
 Deformation: TypeAlias = Literal["tension", "shear"]
 
+#: Larger whole numbers are not told apart as floats.
+_LARGEST_WHOLE = 2**53
 
-def read_only(values: object) -> Array:
-    """Return a read-only float copy, so that frozen measurements stay frozen."""
-    column = np.array(values, dtype=float)
+
+def read_only(values: object, name: str = "a column of measurements") -> Array:
+    """Return a read-only float copy, so that frozen measurements stay frozen; name it where it holds no numbers."""
+    try:
+        column = np.array(values, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must hold numbers, and nothing else.") from None
     column.flags.writeable = False
     return column
+
+
+def whole_numbers(values: object, name: str) -> NDArray[np.int64]:
+    """Return a read-only copy as whole numbers."""
+    column = read_only(values, name)
+    if not np.all(np.abs(column) < _LARGEST_WHOLE) or np.any(column != np.rint(column)):
+        raise InputError(f"{name} must hold whole numbers.")
+    numbers = column.astype(np.int64)
+    numbers.flags.writeable = False
+    return numbers
+
+
+def picked(rows: object, count: int, noun: str) -> NDArray[np.int64]:
+    """Return the places of the rows that a mask or places pick out of so many."""
+    try:
+        places = np.asarray(rows)
+    except ValueError:
+        places = np.array(None)
+    if places.shape == (0,):
+        return np.empty(0, dtype=np.int64)
+    if places.dtype == bool and places.shape == (count,):
+        return np.flatnonzero(places)
+    if places.ndim != 1 or not np.issubdtype(places.dtype, np.integer):
+        raise InputError(f"select needs true or false for each of the {count} {noun}, or their places.")
+    if places.min() < -count or places.max() >= count:
+        raise InputError(f"select names one beyond the {count} {noun} that there are.")
+    return places.astype(np.int64)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,20 @@
 
 from __future__ import annotations
 
+_LONGEST = 80
+
+
+def brief(value: object) -> str:
+    """Return how Python writes a value, on one line and cut where it is too long for a sentence."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+
+
+def check_choice(value: object, name: str, *choices: str) -> None:
+    """Raise `InputError` unless a value is one of the choices."""
+    if not isinstance(value, str) or value not in choices:
+        raise InputError(f"{name} = {brief(value)}: must be {' or '.join(map(repr, choices))}.")
+
 
 class ViscofricError(Exception):
     """Base of all errors that viscofric raises on purpose."""

@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, InputError, brief
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -18,6 +18,13 @@ if TYPE_CHECKING:
 LARGEST_FILE = 200_000_000  # bytes
 # Below the space, but for tabs and ends of lines.
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
+
+
+def file_path(path: object) -> Path:
+    """Return the name of a file as a path; raise `InputError` where something else is given."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError(f"{brief(path)} is not the name of a file, which is text or a pathlib.Path.")
+    return Path(path)
 
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
@@ -33,9 +40,9 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
     DataFileError
         If there is no such file, it cannot be opened, is a folder, device or pipe, or is too large.
     """
+    file = file_path(path)
     shown = str(path)
     try:
-        file = Path(path)
         status = file.stat()
         if stat.S_ISDIR(status.st_mode):
             raise DataFileError(shown, "is a folder, not a data file.")

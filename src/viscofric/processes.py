@@ -19,7 +19,7 @@ import threading
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from viscofric.errors import InputError, ViscofricError
+from viscofric.errors import InputError, ViscofricError, brief
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -65,7 +65,7 @@ class Workers:
 
     def __init__(self, number: int) -> None:
         if type(number) is not int or number < 1:
-            raise InputError(f"workers = {number!r}: must be a whole number of processes above zero, such as 2.")
+            raise InputError(f"workers = {brief(number)}: must be a whole number of processes above zero, such as 2.")
         self.number = number
         self._idle: list[Child] = []
         self._started: contextlib.ExitStack | None = None

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.data import read_only
-from viscofric.errors import InputError
+from viscofric.data import picked, read_only, whole_numbers
+from viscofric.errors import InputError, brief
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -111,14 +111,14 @@ class TractionRuns:
     def __post_init__(self) -> None:
         rows = np.size(self.disc_speed)
         for name in ("disc_speed", "ball_speed", "traction_force", "load", "temperature"):
-            column = read_only(getattr(self, name))
+            column = read_only(getattr(self, name), f"{name} of traction runs")
             if column.shape != (rows,) or not np.all(np.isfinite(column)):
                 raise InputError(f"{name} of traction runs must be one row of finite numbers, one per reading.")
             object.__setattr__(self, name, column)
         for name in ("zero_force", "time", "track_radius"):
             if getattr(self, name) is None:
                 continue
-            column = read_only(getattr(self, name))
+            column = read_only(getattr(self, name), f"{name} of traction runs")
             if column.shape != (rows,) or np.any(np.isinf(column)):
                 raise InputError(
                     f"{name} of traction runs must hold one number per reading, NaN where it is not known."
@@ -127,10 +127,9 @@ class TractionRuns:
         for name in ("replicate", "step"):
             if getattr(self, name) is None and name == "step":
                 continue
-            numbers = np.array(getattr(self, name), dtype=np.int64)
+            numbers = whole_numbers(getattr(self, name), f"{name} of traction runs")
             if numbers.shape != (rows,):
                 raise InputError(f"{name} of traction runs must hold one whole number per reading.")
-            numbers.flags.writeable = False
             object.__setattr__(self, name, numbers)
         if rows and not np.all(self.load > 0):
             raise InputError("load of traction runs must be above zero in every reading.")
@@ -165,13 +164,7 @@ class TractionRuns:
         InputError
             If nothing is selected, `rows` does not fit the readings, or there are no such steps.
         """
-        chosen = np.arange(len(self)) if rows is None else np.asarray(rows)
-        if chosen.dtype == bool and chosen.shape == (len(self),):
-            chosen = np.flatnonzero(chosen)
-        elif chosen.ndim != 1 or not np.issubdtype(chosen.dtype, np.integer):
-            raise InputError(f"select needs true or false for each of the {len(self)} readings, or their places.")
-        if chosen.size and (chosen.min() < -len(self) or chosen.max() >= len(self)):
-            raise InputError(f"select names a reading beyond the {len(self)} that there are.")
+        chosen = np.arange(len(self)) if rows is None else picked(rows, len(self), "readings")
         for name, wanted, keep in (("steps", steps, True), ("except_steps", except_steps, False)):
             if wanted is not None:
                 chosen = chosen[self._in_steps(name, wanted)[chosen] == keep]
@@ -188,12 +181,12 @@ class TractionRuns:
     def _in_steps(self, name: str, wanted: int | Sequence[int]) -> NDArray[np.bool_]:
         """Tell which readings belong to some steps, all of which there must be."""
         if self.step is None:
-            raise InputError(f"{name} = {wanted!r}: these traction runs do not say what steps they are of.")
+            raise InputError(f"{name} = {brief(wanted)}: these traction runs do not say what steps they are of.")
         numbers = np.atleast_1d(np.asarray(wanted))
         known = np.isin(numbers, self.step)
         if not np.all(known):
             raise InputError(
-                f"{name} = {wanted!r}: there is no step {numbers[~known][0]}; steps go from {self.step.min()} to "
+                f"{name} = {brief(wanted)}: there is no step {numbers[~known][0]}; steps go from {self.step.min()} to "
                 f"{self.step.max()}."
             )
         return np.isin(self.step, numbers)

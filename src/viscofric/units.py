@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 
 if TYPE_CHECKING:
     import pint
@@ -86,7 +86,7 @@ def registry() -> pint.UnitRegistry[Any]:
 
 def _wrong(name: str, value: object, unit: str, reason: str, right: str = "") -> InputError:
     right = right or f"right would be, for instance, {_EXAMPLE.get(unit, f'a quantity in {unit}')}"
-    return InputError(f"{name} = {value!r}: {reason}; {right}.")
+    return InputError(f"{name} = {brief(value)}: {reason}; {right}.")
 
 
 def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
@@ -251,6 +251,14 @@ def positive(value: Quantity, unit: str, name: str) -> float:
     number = to_si(value, unit, name)
     if number <= 0.0:
         raise _wrong(name, value, unit, "must be above absolute zero" if unit == "K" else "must be above zero")
+    return number
+
+
+def share(value: Quantity, name: str, *, example: float) -> float:
+    """Convert like `to_si` and insist on a pure number between 0 and 1, such as the example."""
+    number = to_si(value, "dimensionless", name)
+    if not 0.0 < number < 1.0:
+        raise InputError(f"{name} = {brief(value)}: must lie between 0 and 1, such as {example:g}.")
     return number
 
 

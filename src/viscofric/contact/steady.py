@@ -19,13 +19,13 @@ from viscofric.contact.free.given_grid import COARSEST, LEAST_FINEST, GivenGrid
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
-from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter
+from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.contact.layers import Layer
 from viscofric.contact.motion import unit_direction
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
-from viscofric.errors import InputError
-from viscofric.rheology.material import Material
+from viscofric.errors import InputError, brief
+from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si
@@ -273,21 +273,19 @@ def _solved(
     coarsest: int = COARSEST,
 ) -> _Solved:
     """Check, and solve on nested grids; parameters as of `solve_steady`."""
-    if not isinstance(indenter, Indenter):
-        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
+    insist_on_indenter(indenter)
     velocity = _velocity(speed)
     geometry = indenter.geometry
     finest = geometry.finest if finest is None else finest
     _check_settings(accuracy, tolerance, finest)
-    if not isinstance(material, Material):
-        raise InputError(f"material = {material!r}: must be a Material, such as vf.read_card('rubber.json').")
+    insist_on_material(material)
     spectrum = material.modes_at(temperature)
     counterface = indenter_compliance(indenter_modulus, indenter_poisson_ratio)
     plane_strain = 1.0 - material.poisson_ratio**2
     compliance = plane_strain / spectrum.E0 + counterface
     toward = _toward(direction, indenter)
     if layer is not None and not isinstance(layer, Layer):
-        raise InputError(f"layer = {layer!r}: must be a Layer, such as Layer(thickness='2 mm').")
+        raise InputError(f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').")
     levelled = geometry.has_far_field or (layer is not None and counterface == 0.0)
     scale, control, given, held = _held(indenter, 1.0 / compliance, load, indentation, levelled)
     solid = _steady_material(
@@ -318,7 +316,7 @@ def _toward(direction: Sequence[float], indenter: Indenter) -> tuple[float, floa
     toward = unit_direction(direction)
     if toward[1] != 0.0 and indenter.geometry.dimension == 1:
         raise InputError(
-            f"direction = {direction!r}: a {indenter.noun} makes a line contact, which moves along x only; "
+            f"direction = {brief(direction)}: a {indenter.noun} makes a line contact, which moves along x only; "
             "right would be (1.0, 0.0) or (-1.0, 0.0)."
         )
     return toward
@@ -327,11 +325,11 @@ def _toward(direction: Sequence[float], indenter: Indenter) -> tuple[float, floa
 def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
     least = TIGHTEST / LOOSEST
     if not (isinstance(accuracy, Real) and least <= accuracy < 1.0):
-        raise InputError(f"accuracy = {accuracy!r}: must be a number from {least:g} to below 1, such as 1e-3.")
+        raise InputError(f"accuracy = {brief(accuracy)}: must be a number from {least:g} to below 1, such as 1e-3.")
     if not (isinstance(tolerance, Real) and TIGHTEST <= tolerance <= LOOSEST * accuracy):
         raise InputError(
-            f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the accuracy, which "
-            f"is {LOOSEST * accuracy:g} for accuracy = {accuracy:g}, so that it does not spoil the friction."
+            f"tolerance = {brief(tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the accuracy, "
+            f"which is {LOOSEST * accuracy:g} for accuracy = {accuracy:g}, so that it does not spoil the friction."
         )
     if not (isinstance(finest, Integral) and finest >= LEAST_FINEST):
         raise InputError(f"finest = {finest!r}: must be a whole number of at least {LEAST_FINEST} cells.")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.contact.free.scale import Scale
-from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter
+from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.flash_temperature import (
@@ -17,7 +17,7 @@ from viscofric.friction.flash_temperature import (
     ThermalProperties,
 )
 from viscofric.friction.warming import Warming
-from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material, insist_on_material
 from viscofric.units import Quantity, celsius, positive, to_si_array
 
 if TYPE_CHECKING:
@@ -130,14 +130,15 @@ def check_assumptions(
     one temperature True
     """
     insist_on_curves(curves, "curves")
-    if not isinstance(material, Material):
-        raise InputError(f"material = {material!r}: must be a Material, such as vf.read_card('rubber.json').")
+    insist_on_material(material)
     if not len(curves):
         raise InputError("friction curves hold no points; there are no contacts to check.")
-    if not isinstance(indenter, Indenter):
-        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
+    insist_on_indenter(indenter)
     if material.shift is None:
         raise InputError("material has no shift; what friction makes of warming cannot be told without α(T).")
+    for name, body in (("rubber", rubber), ("counterbody", counterbody)):
+        if not isinstance(body, ThermalProperties):
+            raise InputError(f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.")
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))
     sizes = [
         _Size.of(material, indenter, curves, row, None if radii is None else float(radii[row]))

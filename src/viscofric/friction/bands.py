@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
@@ -64,7 +64,7 @@ class DrawnMaterials:
     def __init__(self, samples: MaterialSamples, material: Material) -> None:
         if not isinstance(samples, MaterialSamples):
             raise InputError(
-                f"samples = {samples!r}: must be a MaterialSamples, as sample_materials and identify_material give."
+                f"samples = {brief(samples)}: must be MaterialSamples, as sample_materials and identify_material give."
             )
         if not isinstance(material.spectrum, RetardationSpectrum):
             raise InputError(

@@ -5,14 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import read_text, write_atomically
-from viscofric.friction.curves import FrictionCurves
+from viscofric.files import file_path, read_text, write_atomically
+from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.readers.table import Table, read_table
 from viscofric.units import CELSIUS_ZERO
 
@@ -79,7 +78,8 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
     DataFileError
         If the file cannot be written.
     """
-    if not len(curves):
+    target = file_path(path)
+    if not len(insist_on_curves(curves, "curves")):
         raise InputError("friction curves without an entry make no file.")
     text = io.StringIO()
     remarks = [("source", curves.source), ("assumption", curves.assumption)]
@@ -98,7 +98,7 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
     table = csv.writer(text, lineterminator="\n")
     table.writerow(columns)
     table.writerows(zip(*columns.values(), strict=True))
-    write_atomically(Path(path), text.getvalue().encode("utf-8"))
+    write_atomically(target, text.getvalue().encode("utf-8"))
 
 
 def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:

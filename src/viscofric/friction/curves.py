@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.data import picked, read_only, whole_numbers
+from viscofric.errors import InputError, check_choice
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
-from viscofric.units import Quantity, celsius, positive
+from viscofric.units import Quantity, celsius, positive, share
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import xarray
     from numpy.typing import NDArray
 
@@ -151,11 +151,11 @@ class FrictionCurves:
         for name in (*_REQUIRED, *_OPTIONAL):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, _column(getattr(self, name), name, shape))
-        replicates = np.array(self.replicates, dtype=np.int64)
+        replicates = whole_numbers(self.replicates, "replicates of friction curves")
         if replicates.shape != shape:
             raise InputError("replicates of friction curves must hold one whole number per speed.")
-        replicates.flags.writeable = False
         object.__setattr__(self, "replicates", replicates)
+        check_choice(self.load_unit, "load_unit", "N", "N/m")
         for name in ("speed", "temperature", "load"):
             if not np.all(getattr(self, name) > 0.0):
                 raise InputError(f"{name} of friction curves must be above zero everywhere.")
@@ -194,8 +194,15 @@ class FrictionCurves:
         InputError
             If a solution has no temperature, its speed is zero or infinite, or point and line contacts are mixed.
         """
-        solved = tuple(solutions)
+        from viscofric.contact.solution import ContactSolution
+
+        given: object = solutions
+        solved = tuple(given) if isinstance(given, Iterable) else (given,)
         for solution in solved:
+            if not isinstance(solution, ContactSolution):
+                raise InputError(
+                    f"solutions must be ContactSolutions, as solve_steady() gives them, not {type(solution).__name__}."
+                )
             if solution.temperature is None:
                 raise InputError("temperature of a contact solution is missing; friction curves need one.")
             if solution.speed == 0.0 or not math.isfinite(solution.speed):
@@ -241,12 +248,11 @@ class FrictionCurves:
         """
         from scipy.special import ndtri, stdtrit
 
-        if not 0.0 < level < 1.0:
-            raise InputError(f"level = {level!r}: must lie between 0 and 1, such as 0.95.")
-        value, error = getattr(self, of, None), getattr(self, f"{of}_error", None)
-        if of not in ("viscoelastic", "coulomb") or value is None or error is None:
+        level = share(level, "level", example=0.95)
+        check_choice(of, "of", "viscoelastic", "coulomb")
+        value, error, freedom = (getattr(self, name) for name in (of, f"{of}_error", f"{of}_freedom"))
+        if value is None or error is None:
             raise InputError(f"of = {of!r}: these friction curves hold no such coefficient with a standard error.")
-        freedom = getattr(self, f"{of}_freedom")
         freedom = np.full(len(self), np.inf) if freedom is None else freedom
         known = np.isfinite(error)
         student = known & np.isfinite(freedom) & (freedom > 0.0)
@@ -258,8 +264,9 @@ class FrictionCurves:
 
     def select(self, keep: NDArray[np.bool_] | NDArray[np.int64]) -> FrictionCurves:
         """Return the entries that a mask or row numbers pick, in that order; notes and source stay."""
+        rows = picked(keep, len(self), "entries")
         columns = {
-            field.name: getattr(self, field.name)[keep]
+            field.name: getattr(self, field.name)[rows]
             for field in fields(self)
             if isinstance(getattr(self, field.name), np.ndarray)
         }
@@ -337,7 +344,7 @@ def insist_on_curves(given: object, name: str) -> FrictionCurves:
 
 
 def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
-    column = np.array(values, dtype=float)
+    column = read_only(values, f"{name} of friction curves")
     if column.shape != shape:
         raise InputError(f"{name} of friction curves must hold one value per speed.")
     if name.endswith(("_error", "_scatter", "_freedom")):
@@ -345,7 +352,6 @@ def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
             raise InputError(f"{name} of friction curves must be zero or above everywhere.")
     elif not np.all(np.isfinite(column)):
         raise InputError(f"{name} of friction curves must be finite everywhere.")
-    column.flags.writeable = False
     return column
 
 

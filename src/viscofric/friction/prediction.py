@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
@@ -111,8 +111,7 @@ def predict_friction(
     kelvins = to_si_array(temperatures, "K", "temperatures")
     if unknown := settings.keys() - ContactSettings.__annotations__.keys():
         raise TypeError(f"predict_friction() got an unexpected keyword argument {min(unknown)!r}")
-    if not isinstance(indenter, Indenter):
-        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
+    insist_on_indenter(indenter)
     force = positive(load, indenter.geometry.load_unit, "load")
     for name, values, unit in (("speeds", velocities, "m/s"), ("temperatures", kelvins, "K")):
         if not values.size:

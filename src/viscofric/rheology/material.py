@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
@@ -192,3 +192,9 @@ class Material:
     ) -> NDArray[np.complex128]:
         """Return E(ω, T) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
         return self.at(temperature).complex_modulus(angular_frequency)
+
+
+def insist_on_material(given: object) -> None:
+    """Raise `InputError` where something else is given."""
+    if not isinstance(given, Material):
+        raise InputError(f"material = {brief(given)}: must be a Material, such as vf.read_card('rubber.json').")

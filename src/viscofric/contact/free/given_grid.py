@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from viscofric.contact.free.grids import Extent
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
@@ -39,7 +39,8 @@ class GivenGrid:
         """Check what a user gives, in SI units or with its own."""
         if cells is not None and (type(cells) is not int or cells < LEAST_FINEST):
             raise InputError(
-                f"grid = {cells!r}: must be the number of cells along the window's longer edge, {LEAST_FINEST} or more."
+                f"grid = {brief(cells)}: must be the number of cells along the window's longer edge, {LEAST_FINEST} or "
+                "more."
             )
         return cls(None if window is None else _extent(window, scale), cells)
 
@@ -67,12 +68,12 @@ class GivenGrid:
 
 def _extent(window: Sequence[Quantity], scale: Scale) -> Extent:
     names = ("rear", "front", "side")[: scale.geometry.dimension + 1]
-    if isinstance(window, str) or len(window) != len(names):
-        raise InputError(f"window = {window!r}: must be {len(names)} lengths ({', '.join(names)}).")
+    if isinstance(window, str) or not hasattr(window, "__len__") or len(window) != len(names):
+        raise InputError(f"window = {brief(window)}: must be {len(names)} lengths ({', '.join(names)}).")
     lengths = [
         to_si(length, "m", f"{name} of the window") / scale.length for length, name in zip(window, names, strict=True)
     ]
     found = Extent(*lengths, *([0.0] if len(lengths) == 2 else []))
     if not (found.rear + found.front > 0.0 and (len(lengths) == 2 or found.side > 0.0)):
-        raise InputError(f"window = {window!r}: is empty; the front must lie ahead of the rear, the sides apart.")
+        raise InputError(f"window = {brief(window)}: is empty; the front must lie ahead of the rear, the sides apart.")
     return found

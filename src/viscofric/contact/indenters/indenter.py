@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
@@ -94,6 +94,12 @@ class Indenter(ABC):
                 f"{held} the contact would be {1e3 * contact.longest:.3g} mm wide, wider than the {self.noun} "
                 f"({2e3 * self.reach:.3g} mm): the material is too soft for this; press less."
             )
+
+
+def insist_on_indenter(given: object) -> None:
+    """Raise `InputError` where something else is given."""
+    if not isinstance(given, Indenter):
+        raise InputError(f"indenter = {brief(given)}: must be an indenter, such as Ball(radius='10 mm').")
 
 
 def _too_wide(ratio: float, noun: str) -> str | None:

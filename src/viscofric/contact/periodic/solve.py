@@ -20,7 +20,7 @@ from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si
 
@@ -124,7 +124,7 @@ def solve_periodic(
     if not (isinstance(tolerance, Real) and TIGHTEST <= tolerance <= LOOSEST):
         raise InputError(f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.")
     if not (layer is None or isinstance(layer, Layer)):
-        raise InputError(f"layer = {layer!r}: must be a Layer, such as Layer(thickness='2 mm').")
+        raise InputError(f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').")
     where = Backend.of(backend)
     modulus = material.at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")

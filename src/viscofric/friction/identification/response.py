@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias, Unpack
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.contact.steady import friction_and_derivatives
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.processes import Workers, call_all
@@ -118,8 +118,7 @@ def friction_response(
     >>> response.log_speed.round(3)
     array([-0.004, -0.003])
     """
-    if not isinstance(indenter, Indenter):
-        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
+    insist_on_indenter(indenter)
     velocities, forces = contacts(indenter, speeds, load)
     material = Material(spectrum, poisson_ratio=poisson_ratio)
     calls = [

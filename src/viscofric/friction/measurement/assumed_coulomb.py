@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.nominal import SAME_LOAD
 from viscofric.units import to_si
@@ -53,8 +53,8 @@ class Assumed:
             number, deviation = -1.0, 0.0
         if number < 0.0 or deviation < 0.0:
             raise InputError(
-                f"coulomb = {coulomb!r}: must be a friction coefficient such as 0.05, it and its standard error as "
-                "(0.05, 0.01), or 'constant'."
+                f"coulomb = {brief(coulomb)}: must be a friction coefficient such as 0.05, it and its standard error "
+                "as (0.05, 0.01), or 'constant'."
             )
         return cls(number, deviation)
 

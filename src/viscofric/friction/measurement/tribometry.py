@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
 from viscofric.friction.measurement.doubts import doubts
@@ -20,13 +20,13 @@ from viscofric.friction.measurement.separation import Fit
 from viscofric.friction.measurement.uneven import Uneven
 from viscofric.friction.measurement.unnoticed_slip import unnoticed_slip
 from viscofric.friction.measurement.zeros import Zeros
-from viscofric.units import Quantity, positive
+from viscofric.traction import TractionRuns
+from viscofric.units import Quantity, positive, share
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.measurement.entry import Entry
-    from viscofric.traction import TractionRuns
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -135,19 +135,19 @@ def separate(
     >>> curves.offset.round(6), curves.viscoelastic.round(6), curves.coulomb.round(6)
     (array([0.1]), array([0.02]), array([0.04]))
     """
-    if not 0.0 < speed_tolerance < 1.0:
-        raise InputError(f"speed_tolerance = {speed_tolerance!r}: must lie between 0 and 1, such as 0.05.")
-    if outliers not in ("keep", "leave out"):
-        raise InputError(f"outliers = {outliers!r}: must be 'keep' or 'leave out'.")
+    if not isinstance(runs, TractionRuns):
+        raise InputError(f"runs must be TractionRuns, as read_mtm() gives them, not {type(runs).__name__}.")
+    check_choice(outliers, "outliers", "keep", "leave out")
+    gap = share(speed_tolerance, "speed_tolerance", example=0.05)
     assumed = Assumed.of(coulomb)
     kelvin = positive(temperature_tolerance, "delta_degC", "temperature_tolerance")
-    found = _Separation.of(runs, zero, assumed, speed_tolerance, kelvin)
+    found = _Separation.of(runs, zero, assumed, gap, kelvin)
     groups = [fit.group for fit in found.fits]
     far = far_readings(runs, groups, found.entries)
     told = told_of(runs, far, left_out=outliers == "leave out")
     if far and outliers == "leave out":
         rest = _without(runs, np.array([row for _, row in far]))
-        found = _Separation.of(rest, zero, assumed, speed_tolerance, kelvin)
+        found = _Separation.of(rest, zero, assumed, gap, kelvin)
     return found.curves(runs, assumed, told)
 
 

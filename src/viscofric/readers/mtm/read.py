@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
-from viscofric.files import read_bytes
+from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.readers.mtm import formats
 from viscofric.readers.source import Source
@@ -75,9 +75,10 @@ def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lu
     """
     if not paths:
         raise InputError("read_mtm needs at least one file.")
-    if thermometer not in ("lube", "pot"):
-        raise InputError(f"thermometer = {thermometer!r}: must be 'lube' or 'pot'.")
-    files = [str(path) for path in paths]
+    check_choice(thermometer, "thermometer", "lube", "pot")
+    if isinstance(paths[0], (list, tuple)):
+        raise InputError("read_mtm takes the files one after the other, read_mtm(*paths), not in a list.")
+    files = [str(file_path(path)) for path in paths]
     for place, path in enumerate(files):
         if any(Path(path).resolve() == Path(other).resolve() for other in files[:place] if "\0" not in path + other):
             raise DataFileError(path, "is given twice; name each file once.")

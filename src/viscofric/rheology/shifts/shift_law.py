@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, overload
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.units import to_si
+from viscofric.units import kelvin_hint, to_si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 GAS_CONSTANT = 8.31446261815324  # J/(mol K)
 LN10 = math.log(10.0)
+#: As floats go.
+_MOST_DECADES = 300
 #: A temperature is asked by its nominal value and measured to a few tenths of a kelvin: what was measured at 59.98 °C
 #: answers at 60 °C too.
 NOMINAL = 0.5  # K
@@ -83,7 +85,14 @@ class ShiftLaw(ABC):
     def __call__(self, temperature: Temperatures) -> Array: ...
     def __call__(self, temperature: Any) -> Any:
         """Return α(T); see `log10`."""
-        return 10.0 ** self.log10(temperature)
+        decades = self.log10(temperature)
+        if np.any(np.abs(decades) > _MOST_DECADES):
+            kelvin = np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))]
+            raise InputError(
+                f"temperature = {kelvin:.4g} K: the shift factor there is more than {_MOST_DECADES} decades from 1"
+                f"{kelvin_hint(float(kelvin))}."
+            )
+        return 10.0**decades
 
     @overload
     def standard_error(self, temperature: Quantity) -> float: ...

@@ -1,0 +1,150 @@
+"""What is no value of the right kind is refused in one sentence that names it, by every verb of friction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from friction.made_runs import traction_runs
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+_SPEED, _KELVIN = np.tile(np.geomspace(0.02, 0.2, 6), 3), np.repeat([303.15, 308.15, 313.15], 6)
+_LAW = vf.WLF(C1=9.0, C2=100.0, reference=303.15)
+_FRICTION = 0.01 * (1.0 + (_LAW(_KELVIN) * _SPEED / 0.02) ** -0.4)
+_COLUMNS: dict[str, Any] = {
+    "speed": _SPEED,
+    "temperature": _KELVIN,
+    "load": np.full(18, 25.0),
+    "viscoelastic": _FRICTION,
+    "viscoelastic_error": 0.01 * _FRICTION,
+    "viscoelastic_scatter": np.zeros(18),
+    "replicates": np.ones(18),
+}
+_CURVES = vf.FrictionCurves(**_COLUMNS)
+_RUNS = traction_runs(viscoelastic=lambda v, T: 0.02, replicates=1)
+_RUBBER, _BALL = vf.synthetic_fluoroelastomer(), vf.Ball(radius="9.525 mm")
+_FACTORS = vf.ShiftFactors([303.15, 313.15], [0.0, -1.0], 303.15, np.zeros((2, 2)))
+
+
+def _separate(runs: Any = _RUNS, **settings: Any) -> object:
+    return vf.separate(runs, **settings)
+
+
+def _write(curves: Any = _CURVES, path: Any = "curves.csv") -> object:
+    return vf.write_friction_curves(curves, path)
+
+
+def _check(material: Any = _RUBBER, indenter: Any = _BALL, curves: Any = _CURVES, **settings: Any) -> object:
+    return vf.check_assumptions(material, indenter, curves, **settings)
+
+
+def _predict(material: Any = _RUBBER, indenter: Any = _BALL, **given: Any) -> object:
+    return vf.predict_friction(material, indenter, **{"speeds": 0.1, "temperatures": 330.0, "load": 5.0} | given)
+
+
+def _shift(curves: Any = _CURVES, **settings: Any) -> object:
+    return vf.shift_friction(curves, **settings)
+
+
+def _compare_factors(found: Any = _FACTORS, other: Any = _LAW) -> object:
+    return vf.compare_shift_factors(found, other)
+
+
+def _compare(measured: Any = _CURVES, predicted: Any = _CURVES) -> object:
+    return vf.compare(measured, predicted)
+
+
+def _anchor(**given: Any) -> object:
+    return vf.ModulusAnchor(**{"modulus": "3 MPa", "angular_frequency": "60 rad/s", "temperature": 300.0} | given)
+
+
+#: verb -> the arguments that are tried, and of these that may be left out, for which None is right
+_VERBS: dict[Callable[..., object], tuple[str, str]] = {
+    _separate: ("runs outliers speed_tolerance temperature_tolerance", "zero coulomb"),
+    _write: ("curves path", ""),
+    vf.read_friction_curves: ("path", ""),
+    _check: ("material indenter curves rubber counterbody", "thickness contact_radius"),
+    _predict: ("material indenter speeds temperatures load accuracy workers", "samples layer window"),
+    _shift: ("curves level_error", "shift reference vertical_shift indenter load"),
+    _compare_factors: ("found other", ""),
+    _compare: ("measured predicted", ""),
+    _CURVES.interval: ("level of", ""),
+    _CURVES.select: ("keep", ""),
+    _CURVES.at_temperature: ("temperature", ""),
+    _CURVES.at_load: ("load", ""),
+    vf.FrictionCurves.from_solutions: ("solutions", ""),
+    _RUNS.select: ("", "rows steps except_steps"),
+    _anchor: ("modulus angular_frequency temperature error", ""),
+}
+#: Of no use to any argument.
+_WRONG = (
+    "5 %",
+    -1,
+    True,
+    {"a": 1},
+    object(),
+    np.array([1.0, np.nan]),
+    float("nan"),
+    ("a", "b", "c"),
+    1j,
+    np.zeros((9, 9)),
+)
+
+
+@pytest.mark.parametrize(
+    ("verb", "argument", "optional"),
+    [
+        pytest.param(verb, argument, argument in optional, id=f"{verb.__name__.strip('_')}-{argument}")
+        for verb, (needed, optional) in _VERBS.items()
+        for argument in (*needed.split(), *optional.split())
+    ],
+)
+def test_a_value_of_the_wrong_kind_is_refused(
+    verb: Callable[..., object], argument: str, optional: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    right = {("zero", -1), ("path", "5 %")}  # a reading of the force cell; a name like any other
+    for wrong in (*_WRONG, *(() if optional else (None,))):
+        if isinstance(wrong, (str, int)) and (argument, wrong) in right:
+            continue
+        with pytest.raises(vf.InputError) as refused:
+            verb(**{argument: wrong})
+        # One sentence that can be read: no array or object is printed in full.
+        assert len(str(refused.value)) < 320, argument
+        assert "\n" not in str(refused.value), argument
+
+
+@pytest.mark.parametrize("name", [*_COLUMNS, "load_unit"])
+def test_columns_of_something_else_make_no_friction_curves(name: str) -> None:
+    for wrong in ("fast", {}, object(), [1j] * 18, [b"x"] * 18, 10**400, float("nan")):
+        with pytest.raises(vf.InputError, match=name):
+            vf.FrictionCurves(**_COLUMNS | {name: wrong})
+
+
+def test_half_a_replicate_is_refused() -> None:
+    with pytest.raises(vf.InputError, match="whole numbers"):
+        vf.FrictionCurves(**_COLUMNS | {"replicates": np.full(18, 1.5)})
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: vf.separate(_CURVES), "runs must be TractionRuns, as read_mtm"),  # type: ignore[arg-type]
+        (lambda: vf.write_friction_curves(_RUNS, "x.csv"), "curves must be FrictionCurves"),  # type: ignore[arg-type]
+        (lambda: vf.read_friction_curves(None), "None is not the name of a file"),  # type: ignore[arg-type]
+        (lambda: vf.read_mtm(5), "5 is not the name of a file"),  # type: ignore[arg-type]
+        (lambda: vf.read_mtm(["a.csv", "b.csv"]), "one after the other"),  # type: ignore[arg-type]
+        (lambda: vf.separate(_RUNS, speed_tolerance="5 %"), "speed_tolerance = '5 %'"),  # type: ignore[arg-type]
+        (lambda: vf.separate(_RUNS, zero="5 mm"), "zero = '5 mm': has the wrong kind of unit"),
+        (lambda: _predict(temperatures=5.0), "plain numbers are kelvin"),
+    ],
+)
+def test_what_was_meant_is_told(call: Callable[[], object], said: str) -> None:
+    with pytest.raises(vf.InputError, match=said):
+        call()
