@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 #: Solved contacts are known to this part of their accuracy, as a rule.
 SOLVED_ERROR = 0.25
 FEWEST_SAMPLES, FEWEST_MODES = 20, 8
-LEVELS = (0.5, 0.7, 1.0, 1.4, 2.0)
+LEVELS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 
 
 @one_blas_thread

@@ -98,8 +98,8 @@ class IdentifiedMaterial:
     frequency_range : (float, float)
         Lowest and highest frequency v/a of the contacts at the reference, rad/s.
     level_range : (float, float)
-        Limits between which |E| at the middle frequency lies in 95 % of the samples, Pa.  Without an anchor they rest on
-        what is assumed of the spectrum, and do not hold the truth as often.
+        Limits between which |E| at the middle frequency lies in 95 % of the samples, Pa.  Without an anchor they rest
+        on what is assumed of the spectrum, and do not hold the truth as often.
     family : tuple of LevelFit
         Without an anchor: what friction alone cannot tell apart; empty with one.
     friction : FrictionCurves
