@@ -30,8 +30,9 @@ class Growth:
     with the own speed alone that is all there is.
 
     Where a maximum of friction was half a decade wide and the disc's speeds differed by 20 or 50 %, 95 % intervals held
-    92 to 98 % of viscoelastic friction and all of Coulomb friction at 2, 3, 4 and 6 speeds; where they differed by
-    100 %, at 6 speeds, 73 % and 83 %.  For a power of speed they are too wide, two to five times.
+    92 % or more of viscoelastic and all of Coulomb friction, at 2, 3, 4 and 6 speeds; where they differed by 100 %,
+    96 % and 99 % at 4 speeds, 73 % and 83 % at 6 with a quarter of the noise.  For a power of speed they are too wide,
+    those of Coulomb friction three times at 20 % and seven times at 100 %.
 
     Attributes
     ----------

@@ -98,7 +98,7 @@ class Uneven:
                 "is taken out as far as friction at the other speeds tells it; the rest is in the standard errors"
                 if taken
                 else "is in Coulomb friction, half of it, for want of other speeds that would tell it; the standard "
-                f"errors allow for a change as steep as speed itself, {_size(found, entries)} at most"
+                f"errors allow for a change as steep as speed itself{_size(found, entries)}"
             )
             place = where([groups[one] for one in found], len(groups))
             told.append(
@@ -109,8 +109,8 @@ class Uneven:
 
 
 def _size(found: list[int], entries: list[Entry]) -> str:
-    errors = [entries[place].error[2] for place in found]
-    return f"±{max(errors):.2g}"
+    errors = [error for error in (entries[place].error[2] for place in found) if np.isfinite(error)]
+    return f" and are up to ±{max(errors):.2g}" if errors else ""
 
 
 def _apart(runs: TractionRuns, group: Condition) -> float:
