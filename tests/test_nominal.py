@@ -26,6 +26,13 @@ def test_scatter_that_stretches_on_and_on_is_refused_by_name():
         clusters(values, np.full(values.shape, 0.05), refusal)
 
 
+def test_speeds_that_double_and_double_are_no_nominal_value_however_wide_the_gaps_allowed():
+    values = np.geomspace(0.1, 1.6, 9)  # steps of 29 % of the higher value
+    with pytest.raises(InputError, match=r"speed from 0.1 to 1.6 has no gap"):
+        clusters(values, 0.4 * values, refusal)
+    assert not clusters(values[:2], 0.4 * values[:2], refusal).any()
+
+
 def test_no_values_have_no_nominal_values():
     assert numbered(np.empty(0), np.empty(0)).size == 0
     assert clusters(np.empty(0), np.empty(0), refusal).size == 0

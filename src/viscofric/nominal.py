@@ -60,7 +60,8 @@ def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], st
     Raises
     ------
     InputError
-        If values without gaps stretch over more than four times what is allowed between neighbours.
+        If values without gaps stretch over more than four times what is allowed between neighbours, counted from each
+        to the next: what is allowed may grow with the values.
     """
     labels = numbered(values, allowed)
     order = np.argsort(values, kind="stable")
@@ -68,7 +69,8 @@ def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], st
     for first, last in zip([0, *(ends + 1)], [*ends, values.size - 1], strict=True):
         if not values.size:
             break
-        low, high = float(values[order[first]]), float(values[order[last]])
-        if high - low > LONGEST_CHAIN * max(allowed[order[first]], allowed[order[last]]):
-            raise InputError(refusal(low, high))
+        chain = order[first : last + 1]
+        widest = np.maximum(allowed[chain[1:]], allowed[chain[:-1]])
+        if np.sum(np.diff(values[chain]) / widest) > LONGEST_CHAIN:
+            raise InputError(refusal(float(values[chain[0]]), float(values[chain[-1]])))
     return labels

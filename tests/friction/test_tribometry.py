@@ -164,6 +164,23 @@ def test_configurations_at_another_disc_speed_are_named_where_they_are() -> None
     np.testing.assert_allclose(separate(runs, speed_tolerance=0.3).viscoelastic, 0.03, rtol=1e-9)  # no noise
 
 
+@pytest.mark.parametrize("tolerance", [0.3, 0.4])
+def test_a_ball_of_constant_speed_is_separated_with_a_wider_tolerance(tolerance: float) -> None:
+    """As the refusal advises.  0.4 would chain all speeds together, which are then put together by disc and ball."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.0, speeds=[0.1, 0.2, 0.4, 0.8, 1.6], temperatures=[303.15])
+    sign, slip = np.sign(runs.disc_speed), np.sign(runs.disc_speed - runs.ball_speed)
+    disc = runs.disc_speed * (1.0 + 0.15 * sign * slip)
+    force = runs.traction_force + runs.load * sign * 0.02 * np.abs(disc) ** -0.2
+    runs = replace(runs, disc_speed=disc, ball_speed=runs.disc_speed, traction_force=force)
+    with pytest.raises(InputError, match="at the same disc speed"):
+        separate(runs)
+    curves = separate(runs, speed_tolerance=tolerance)
+    np.testing.assert_allclose(curves.speed, [0.1, 0.2, 0.4, 0.8, 1.6], rtol=1e-9)
+    # Half the curvature over ±15 % of speed: 0.2 · 1.2 / 2 · 0.15² = 0.3 %.
+    np.testing.assert_allclose(curves.viscoelastic, 0.02 * curves.speed**-0.2, rtol=4e-3)
+    np.testing.assert_allclose(curves.coulomb, 0.05, rtol=0.02)  # type: ignore[arg-type]
+
+
 def test_two_reversed_slips_without_a_zero_are_refused() -> None:
     """Zero and viscoelastic friction cannot be told apart, though jittering loads make the fit regular."""
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[2:], temperatures=[303.15], speeds=[0.1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -57,7 +58,7 @@ class Gapless:
         told = f"{self.shown(low, high)} has no gap that would tell nominal values from scatter"
         if not self.option:
             return f"{told} (a gap is {100 * self.gap:g} %); {self._selection(low, high)}."
-        wide = (high - low) / LONGEST_CHAIN / (high if self.relative else 1.0)
+        wide = (math.log(high / low) if self.relative else high - low) / LONGEST_CHAIN
         # Rounded up to two digits.
         wide = float(f"{1.05 * wide:.1e}")
         one = f"if they are of one nominal value, give {self.option} = {wide:g}{self.unit}"
