@@ -186,3 +186,17 @@ def test_points_that_cannot_be_used_are_told() -> None:
     points = usable_points(unknown, BALL, None, 1e-4)
     assert len(points) == 7
     assert "1 of 8 points" in points.notes[0]
+
+
+def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:
+    """Power laws with 2 % of noise at nine temperatures of ten points: 63 degrees of freedom tell it to 9 %."""
+    speed, kelvin = np.tile(np.geomspace(0.02, 0.2, 10), 9), np.repeat(np.linspace(300.0, 360.0, 9), 10)
+    friction = 0.01 * speed**-0.2 * np.exp(0.02 * np.random.default_rng(5).standard_normal(90))
+    bare = curves_of(speed, kelvin, friction, np.inf)
+    points = usable_points(bare, BALL, None, 1e-4)
+    assert len(points) == 90
+    assert points.error[0] == pytest.approx(0.02, rel=0.3)  # three and a half times those 9 %
+    np.testing.assert_allclose(points.error, points.error[0])
+    assert "have no standard errors; " in points.notes[0]
+    with pytest.raises(InputError, match="too few points at each temperature to find the scatter from"):
+        usable_points(bare.select(np.arange(0, 90, 5)), BALL, None, 1e-4)

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 #: Fewer points than these say nothing of a spectrum's shape.
 FEWEST_POINTS = 6
+#: Coefficients of a parabola.
+PARABOLA = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,11 +100,14 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
             f"load of the friction curves is in {curves.load_unit}, but a {indenter.noun} takes a load in {unit}; "
             "give the indenter that was measured with, or load=."
         )
-    rows = np.flatnonzero(np.isfinite(curves.viscoelastic_error))
     notes = []
+    if len(curves) and not np.any(np.isfinite(curves.viscoelastic_error)):
+        curves, found = with_errors_of_neighbours(curves)
+        notes.append(found)
+    rows = np.flatnonzero(np.isfinite(curves.viscoelastic_error))
     if len(rows) < len(curves):
         notes.append(
-            f"{len(curves) - len(rows)} of {len(curves)} points have no viscoelastic friction and were left out."
+            f"{len(curves) - len(rows)} of {len(curves)} points have no standard error that is known and were left out."
         )
     if len(rows) < FEWEST_POINTS:
         raise InputError(
@@ -140,6 +145,46 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         raised=rule.strain * relative,
         rows=rows,
         notes=tuple(notes),
+    )
+
+
+def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, str]:
+    """Give curves without known errors that of the scatter about a parabola through each temperature's points.
+
+    Returns
+    -------
+    FrictionCurves
+        All with one relative error.
+    str
+        A note that says so.
+
+    Raises
+    ------
+    InputError
+        If temperatures have too few points, or friction is not above zero.
+    """
+    squares, freedom = 0.0, 0
+    for temperature in curves.temperatures:
+        mine = curves.select(curves.temperature == temperature)
+        different = np.unique(mine.speed).size
+        if different <= PARABOLA or not np.all(mine.viscoelastic > 0.0):
+            continue
+        place = np.log(mine.speed / mine.speed.mean())
+        design = np.vander(place / np.ptp(place), PARABOLA)
+        values = np.log(mine.viscoelastic)
+        left = values - design @ np.linalg.lstsq(design, values, rcond=None)[0]
+        squares += float(left @ left)
+        freedom += len(mine) - PARABOLA
+    if freedom < FEWEST_POINTS:
+        raise InputError(
+            "friction curves have no standard errors that are known, and too few points at each temperature to find "
+            "the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard error')."
+        )
+    error = float(np.sqrt(squares / freedom))
+    return (
+        replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic)),
+        f"The friction curves have no standard errors; {100.0 * error:.2g} % is taken, by which the points of each "
+        "temperature scatter about a parabola.",
     )
 
 
