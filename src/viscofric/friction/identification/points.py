@@ -181,11 +181,11 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
             "the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard error')."
         )
     error = float(np.sqrt(squares / freedom))
-    return (
-        replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic)),
+    told = (
         f"The friction curves have no standard errors; {100.0 * error:.2g} % is taken, by which the points of each "
-        "temperature scatter about a parabola.",
+        "temperature scatter about a parabola."
     )
+    return replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic)), told
 
 
 def relative_errors(curves: FrictionCurves) -> Array:
