@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import shutil
 import sys
 from contextlib import contextmanager
@@ -170,9 +169,7 @@ def _tell_verdict(outcomes: list[Outcome]) -> None:
 def _record(outcomes: list[Outcome]) -> dict[str, Any]:
     """Return everything in plain types; a number that is none is null."""
     from viscofric import __version__
-
-    def number(value: float) -> float | None:
-        return float(value) if math.isfinite(value) else None
+    from viscofric.report.numbers import finite
 
     return {
         "viscofric": __version__,
@@ -192,10 +189,10 @@ def _record(outcomes: list[Outcome]) -> dict[str, Any]:
                     {
                         "case": one.case,
                         "quantity": one.quantity,
-                        "computed": number(one.computed),
-                        "expected": number(one.expected),
+                        "computed": finite(one.computed),
+                        "expected": finite(one.expected),
                         "measure": one.measure,
-                        "error": number(one.error),
+                        "error": finite(one.error),
                         "bound": one.bound,
                         "passed": one.passed,
                     }

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from viscofric.report.contact_derivatives import derivative_record
-from viscofric.report.numbers import length, prefixed, short, significant, with_error
+from viscofric.report.numbers import finite, length, prefixed, short, significant, with_error
 
 if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution, Diagnostics
@@ -227,5 +227,4 @@ def _plain(value: Any) -> Any:
         return int(value)
     if type(value).__name__ in ("bool", "bool_"):
         return bool(value)
-    number = float(value)
-    return number if math.isfinite(number) else None
+    return finite(float(value))

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.report.numbers import ABSENT, percent, short, significant
+from viscofric.report.numbers import ABSENT, finite, percent, short, significant
+from viscofric.report.table import aligned
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -33,20 +34,20 @@ def friction_table(curves: FrictionCurves) -> list[str]:
     curves : FrictionCurves
     """
     columns = [
-        _column("T (°C)", [f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in curves.temperature]),
-        _column("speed (mm/s)", [significant(1e3 * float(speed), 4) for speed in curves.speed]),
+        ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in curves.temperature)],
+        ["speed (mm/s)", *(significant(1e3 * float(speed), 4) for speed in curves.speed)],
     ]
     if curves.slip is not None:
-        columns.append(_column("slip (mm/s)", [significant(1e3 * float(slip), 3) for slip in curves.slip]))
+        columns.append(["slip (mm/s)", *(significant(1e3 * float(slip), 3) for slip in curves.slip)])
     columns += [
-        _column(f"load ({curves.load_unit})", [significant(float(load), 4) for load in curves.load]),
-        _column("n", [str(count) for count in curves.replicates]),
+        [f"load ({curves.load_unit})", *(significant(float(load), 4) for load in curves.load)],
+        ["n", *(str(count) for count in curves.replicates)],
         *_coefficient("viscoelastic", curves.viscoelastic, curves.viscoelastic_error, curves.viscoelastic_scatter),
         *_coefficient("Coulomb", curves.coulomb, curves.coulomb_error, curves.coulomb_scatter),
     ]
     if curves.consistency is not None:
-        columns.append(_column("left over", _pairs(curves.consistency, curves.consistency_error)))
-    return ["  ".join(cells).rstrip() for cells in zip(*columns, strict=True)]
+        columns.append(["left over", *_pairs(curves.consistency, curves.consistency_error)])
+    return aligned(zip(*columns, strict=True))
 
 
 def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
@@ -103,31 +104,22 @@ def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str,
     return {
         "format": "viscofric friction curves 1",
         "inputs": inputs,
-        "points": [{name: _plain(column[row]) for name, column in columns.items()} for row in range(len(curves))],
+        "points": [
+            {name: finite(column[row].item()) for name, column in columns.items()} for row in range(len(curves))
+        ],
         "assumption": curves.assumption or None,
         "notes": list(curves.notes),
         "units": {name: UNITS.get(name, curves.load_unit if name == "load" else "1") for name in columns},
     }
 
 
-def _plain(value: Any) -> int | float | None:
-    if isinstance(value, np.integer):
-        return int(value)
-    return float(value) if math.isfinite(value) else None
-
-
-def _column(heading: str, cells: list[str]) -> list[str]:
-    width = max(map(len, [heading, *cells]))
-    return [f"{cell:>{width}}" for cell in [heading, *cells]]
-
-
 def _coefficient(name: str, value: Array | None, error: Array | None, scatter: Array | None) -> list[list[str]]:
     """Return the columns of a coefficient with its standard error, and of its scatter where it has any."""
     if value is None:
         return []
-    columns = [_column(name, _pairs(value, error))]
+    columns = [[name, *_pairs(value, error)]]
     if scatter is not None and np.any(scatter > 0.0):
-        columns.append(_column("scatter", [_share(one, of) for one, of in zip(scatter, value, strict=True)]))
+        columns.append(["scatter", *(_share(one, of) for one, of in zip(scatter, value, strict=True))])
     return columns
 
 

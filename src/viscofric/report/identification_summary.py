@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.report.numbers import significant
+from viscofric.report.table import aligned
 from viscofric.rheology.cards.native import plain
 
 if TYPE_CHECKING:
@@ -61,8 +62,7 @@ def modulus_lines(found: IdentifiedMaterial) -> list[str]:
             )
             cells += [significant(value, 4), f"{significant(low)} to {significant(high)}"]
         rows.append((*cells, _remark(found.identified, float(frequency))))
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return aligned(rows)
 
 
 def _remark(band: IdentifiedBand, frequency: float) -> str:
@@ -145,5 +145,4 @@ def family_lines(found: IdentifiedMaterial) -> list[str]:
     for fit in found.family:
         rms = f"{100.0 * fit.rms:.2g} %"
         rows.append((f"× {fit.factor:.3g}", significant(1e-6 * fit.modulus), rms, significant(fit.penalty, 2)))
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows]
+    return aligned(rows)

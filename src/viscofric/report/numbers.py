@@ -12,6 +12,11 @@ _SPACE = "\N{NO-BREAK SPACE}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+def finite(value: float | None) -> float | None:
+    """Return a number for other programs: None where it is not finite, or not there."""
+    return value if value is not None and math.isfinite(value) else None
+
+
 def significant(value: float, digits: int = 3) -> str:
     """Return a number with so many significant digits; very large and very small ones as 1.23 × 10⁻⁵."""
     if not math.isfinite(value):

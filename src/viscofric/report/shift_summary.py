@@ -9,7 +9,8 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.report.house_style import degrees
-from viscofric.report.numbers import ABSENT, significant
+from viscofric.report.numbers import ABSENT, finite, significant
+from viscofric.report.table import aligned
 from viscofric.rheology.cards.native import plain
 from viscofric.units import celsius
 
@@ -48,12 +49,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
         values, errors = _answers(known.at_reference(master.reference), temperatures)
         columns.append(["of the modulus", *_pairs(values, errors)])
         columns.append(["difference", *_pairs(found - values, np.hypot(errors, doubt))])
-    widths = [max(map(len, column)) for column in columns]
-    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in _rows(columns)]
-
-
-def _rows(columns: list[list[str]]) -> list[tuple[str, ...]]:
-    return list(zip(*columns, strict=True))
+    return aligned(zip(*columns, strict=True))
 
 
 def _factors(master: FrictionMasterCurve) -> tuple[Array, Array, Array]:
@@ -153,7 +149,7 @@ def shift_record(
         "law": None if law is None else plain(law),
         "overlap": {
             "rms": master.overlap_rms,
-            "error": _finite(master.overlap_error),
+            "error": finite(master.overlap_error),
             "points": master.overlap_points,
             "sentence": master.overlap_sentence,
         },
@@ -162,7 +158,7 @@ def shift_record(
             "reduced_speed": master.reduced_speed.tolist(),
             "temperature": master.temperature.tolist(),
             "viscoelastic": master.friction.tolist(),
-            "viscoelastic_error": [_finite(error) for error in master.error.tolist()],
+            "viscoelastic_error": [finite(error) for error in master.error.tolist()],
             "load": master.load,
         },
         "notes": list(master.notes),
@@ -177,7 +173,3 @@ def _agreement(agreement: ShiftAgreement) -> dict[str, Any]:
         "difference": agreement.difference.tolist(),
         "error": agreement.error.tolist(),
     } | {name: getattr(agreement, name) for name in names}
-
-
-def _finite(value: float | None) -> float | None:
-    return None if value is None or not math.isfinite(value) else float(value)

@@ -11,7 +11,7 @@ from viscofric.report.numbers import ABSENT, significant
 from viscofric.report.results import values
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     import xarray as xr
 
@@ -44,6 +44,13 @@ def times(factor: float, digits: int = 4) -> Callable[[float], str]:
 def whole(value: float) -> str:
     """Write a whole number."""
     return f"{value:.0f}" if np.isfinite(value) else ABSENT
+
+
+def aligned(rows: Iterable[Iterable[str]]) -> list[str]:
+    """Return rows as lines of text whose columns stand flush right."""
+    cells = [list(row) for row in rows]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells]
 
 
 def made_table(
