@@ -64,6 +64,10 @@ def _anchor(**given: Any) -> object:
     return vf.ModulusAnchor(**{"modulus": "3 MPa", "angular_frequency": "60 rad/s", "temperature": 300.0} | given)
 
 
+def _identify(curves: Any = _CURVES, indenter: Any = _BALL, **settings: Any) -> object:
+    return vf.identify_material(curves, indenter=indenter, **settings)
+
+
 #: verb -> the arguments that are tried, and of these that may be left out, for which None is right
 _VERBS: dict[Callable[..., object], tuple[str, str]] = {
     _separate: ("runs outliers speed_tolerance temperature_tolerance", "zero coulomb"),
@@ -80,7 +84,11 @@ _VERBS: dict[Callable[..., object], tuple[str, str]] = {
     _CURVES.at_load: ("load", ""),
     vf.FrictionCurves.from_solutions: ("solutions", ""),
     _RUNS.select: ("", "rows steps except_steps"),
-    _anchor: ("modulus angular_frequency temperature error", ""),
+    _identify: (
+        "curves indenter levels limit modes samples seed accuracy prior_error poisson_ratio",
+        "load shift anchor prior reference",
+    ),
+    _anchor: ("modulus angular_frequency temperature part error", ""),
 }
 #: Of no use to any argument.
 _WRONG = (
@@ -109,7 +117,8 @@ def test_a_value_of_the_wrong_kind_is_refused(
     verb: Callable[..., object], argument: str, optional: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    right = {("zero", -1), ("path", "5 %")}  # a reading of the force cell; a name like any other
+    # A reading of the force cell, a name like any other, a whole number.
+    right = {("zero", -1), ("path", "5 %"), ("seed", True)}
     for wrong in (*_WRONG, *(() if optional else (None,))):
         if isinstance(wrong, (str, int)) and (argument, wrong) in right:
             continue

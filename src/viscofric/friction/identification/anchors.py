@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, check_choice
 from viscofric.units import Quantity, positive
 from viscofric.units import angular_frequency as frequency_of
 
@@ -60,8 +60,7 @@ class ModulusAnchor:
         object.__setattr__(self, "angular_frequency", frequency)
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature"))
         object.__setattr__(self, "error", _relative(self.error))
-        if self.part not in get_args(Part):
-            raise InputError(f"part = {self.part!r}: must be one of {', '.join(map(repr, get_args(Part)))}.")
+        check_choice(self.part, "part", *get_args(Part))
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Indenter
-from viscofric.errors import InputError
-from viscofric.friction.curves import FrictionCurves
+from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
+from viscofric.errors import InputError, brief
+from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.conclusions import Outcome, conclude
 from viscofric.friction.identification.iteration import Contacts, identify
@@ -173,10 +173,8 @@ def identify_material(
 
 
 def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float) -> None:
-    if not isinstance(curves, FrictionCurves):
-        raise InputError(f"curves must be FrictionCurves, as separate() gives them, not {type(curves).__name__}.")
-    if not isinstance(indenter, Indenter):
-        raise InputError(f"indenter = {indenter!r}: must be an indenter, such as Ball(radius='10 mm').")
+    insist_on_curves(curves, "curves")
+    insist_on_indenter(indenter)
     if indenter.has_walls:
         raise InputError(f"indenter: friction of a {indenter.noun} sits on its edges and identifies no material.")
     if not 0.0 <= to_si(poisson_ratio, "dimensionless", "poisson_ratio") <= 0.5:
@@ -186,7 +184,7 @@ def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float) -> 
 def _check_numbers(**numbers: int) -> None:
     for name, fewest in (("modes", FEWEST_MODES), ("samples", FEWEST_SAMPLES), ("seed", 0)):
         if not isinstance(numbers[name], (int, np.integer)) or numbers[name] < fewest:
-            raise InputError(f"{name} = {numbers[name]!r}: must be a whole number, {fewest} or more.")
+            raise InputError(f"{name} = {brief(numbers[name])}: must be a whole number, {fewest} or more.")
 
 
 def _check_parts(levels: Sequence[float], **parts: float) -> None:
@@ -194,6 +192,6 @@ def _check_parts(levels: Sequence[float], **parts: float) -> None:
         if positive(value, "dimensionless", name) >= 1.0:
             raise InputError(f"{name} = {value!r}: must be a relative error above 0 and below 1.")
     if not isinstance(levels, (tuple, list)):
-        raise InputError(f"levels = {levels!r}: must be a list of factors of the modulus, such as (0.5, 1.0, 2.0).")
+        raise InputError(f"levels = {brief(levels)}: must be factors of the modulus, such as (0.5, 1.0, 2.0).")
     for one in levels:
         positive(one, "dimensionless", "levels")
