@@ -181,7 +181,7 @@ def test_a_line_contact_under_an_elastic_cylinder_has_its_band_too(measured) -> 
 
 def test_samples_that_do_not_fit_are_refused(measured) -> None:
     material, samples = measured
-    with pytest.raises(InputError, match="must be a MaterialSamples"):
+    with pytest.raises(InputError, match="must be MaterialSamples"):
         predicted(material, material.spectrum, 333.15, 0.1)
     compressible = replace(material, poisson_ratio=0.4)
     with pytest.raises(InputError, match=r"samples have Poisson's ratio 0\.5, the material 0\.4"):
