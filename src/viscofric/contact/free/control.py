@@ -41,7 +41,9 @@ class GivenLoad:
     ) -> ComplementaritySolution:
         """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
         load = self.load / operator.window.cell_area
-        found = solve_complementarity(operator, height, load, guess, tolerance=tolerance, patience=patience)
+        found = solve_complementarity(
+            operator, height, load, guess, tolerance=tolerance, patience=patience, inner=operator.for_corrections()
+        )
         return found.on_numpy(operator.backend)
 
 
@@ -61,6 +63,13 @@ class GivenIndentation:
     ) -> ComplementaritySolution:
         """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
         found = solve_complementarity(
-            operator, height, None, guess, indentation=self.indentation, tolerance=tolerance, patience=patience
+            operator,
+            height,
+            None,
+            guess,
+            indentation=self.indentation,
+            tolerance=tolerance,
+            patience=patience,
+            inner=operator.for_corrections(),
         )
         return found.on_numpy(operator.backend)
