@@ -16,6 +16,7 @@ from viscofric.friction.identification.known_moduli import known_part
 from viscofric.friction.identification.moduli import compliance, log_modulus
 from viscofric.friction.identification.points import moderated_variances, usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
+from viscofric.friction.identification.shifts import Shifts
 from viscofric.friction.identification.smoothness import Smoothness
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
@@ -200,3 +201,14 @@ def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:
     assert "have no standard errors; " in points.notes[0]
     with pytest.raises(InputError, match="too few points at each temperature to find the scatter from"):
         usable_points(bare.select(np.arange(0, 90, 5)), BALL, None, 1e-4)
+
+
+def test_found_shifts_are_expected_where_the_curves_overlap() -> None:
+    """Five of the standard errors about what overlap tells, and no less than 0.05 in ln α; the reference is exact."""
+    kelvin = np.array([300.0, 310.0, 320.0])
+    overlap = vf.ShiftFactors(kelvin, [0.0, -1.0, -1.8], 300.0, np.diag([0.0, 0.04, 0.01]) ** 2)
+    shifts = Shifts.unknown(kelvin, 300.0, overlap)
+    np.testing.assert_allclose(shifts.middle, np.log(10.0) * np.array([0.0, -1.0, -1.8]), atol=1e-12)
+    covariance = np.linalg.inv(shifts.whitening.T @ shifts.whitening)
+    expected = [1e-7, np.hypot(5.0 * np.log(10.0) * 0.04, 0.05), np.hypot(5.0 * np.log(10.0) * 0.01, 0.05)]
+    np.testing.assert_allclose(np.sqrt(np.diag(covariance)), expected, rtol=1e-6)

@@ -40,6 +40,9 @@ HALVINGS = 4
 TEMPERED = (1.0, 0.3, 0.1, 0.05)
 #: … and standard deviation about the first guess that ln α has in them.
 HELD = 0.2
+#: Errors of ln μ with which the first steps from solved contacts are made at the least: small ones would ask the
+#: neighbourhood of those contacts for more than it tells.
+FIRST_STEPS = (0.01, 0.003, 0.001)
 LN10 = float(np.log(10.0))
 
 
@@ -164,14 +167,11 @@ def first_fit(problem: Problem, start: Array) -> Array:
     A fit to small errors from far away would end where some points are met and others given up, with shifts that have
     run away from each other; they are held near their first guess meanwhile.
     """
-    points = problem.observations.points
     if problem.shifts.found:
         held = np.eye(len(problem.shifts.middle)) / HELD
         problem = replace(problem, shifts=replace(problem.shifts, whitening=held))
     for error in TEMPERED:
-        blurred = replace(points, error=np.hypot(points.error, error))
-        observations = replace(problem.observations, points=blurred)
-        start = descend(replace(problem, observations=observations), start, metric=problem.metric).place
+        start = descend(problem.blurred(error), start, metric=problem.metric).place
     return start
 
 
@@ -190,6 +190,8 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
     """
     here = first_fit(problem, start)
     before, least = start, np.inf
+    typical = float(np.median(problem.observations.points.error))
+    floors = iter([error for error in FIRST_STEPS if error > typical])
     for iteration in range(1, ITERATIONS + 1):
         for halving in range(HALVINGS + 1):
             try:
@@ -203,13 +205,14 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
                 if squares < 1.5 * least + 1.0 or halving == HALVINGS:
                     break
             here = 0.5 * (here + before)
-        fits = weighed(solved, here)
-        best = most_evident(fits)
         points = problem.observations.points
+        floor = next(floors, 0.0)
+        fits = weighed(solved.blurred(floor), here)
+        best = most_evident(fits)
         moved = (solved.log_friction(best.minimum.place)[0] - solved.log_friction(here)[0]) / points.error
-        problem, before, least = best.problem, here, squares
+        problem, before, least = replace(best.problem, observations=problem.observations), here, squares
         here = best.minimum.place
-        if float(np.sqrt(np.mean(moved**2))) < SETTLED:
+        if floor == 0.0 and float(np.sqrt(np.mean(moved**2))) < SETTLED:
             return fits, iteration
     raise ConvergenceError(
         f"the identification did not settle in {ITERATIONS} steps: the friction still changes by "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -69,6 +69,11 @@ class Problem:
         result = np.zeros((size, size))
         result[: self.modes, : self.modes], result[self.modes :, self.modes :] = A.T @ A, W.T @ W
         return result
+
+    def blurred(self, error: float) -> Problem:
+        """Return the problem with so large an error of ln μ at every point besides its own."""
+        points = replace(self.observations.points, error=np.hypot(self.observations.points.error, error))
+        return replace(self, observations=replace(self.observations, points=points))
 
     def split(self, unknowns: Array) -> tuple[Array, Array]:
         """Return compliances and ln α."""

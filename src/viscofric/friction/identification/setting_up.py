@@ -95,7 +95,7 @@ def shifts_of(
         if reference is not None and abs(reference - only) > SAME_TEMPERATURE:
             asked = f"reference = {celsius(reference):.1f} °C"
             raise InputError(f"{asked} was not measured, only {celsius(only):.1f} °C was; give shift=.")
-        return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]), np.zeros(1))
+        return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]))
     # Points are at one load already, as far as contacts at different loads are alike.
     alike = replace(
         curves.select(points.rows),
@@ -121,7 +121,7 @@ def shifts_of(
     if not kept.all():
         notes = (*notes, *found.notes, f"{np.count_nonzero(~kept)} points were left out with them.")
     chosen = replace(points.chosen(kept), temperatures=found.temperatures, number=number[kept], notes=notes)
-    return chosen, Shifts.unknown(found.temperatures, nearest, LN10 * found.log10_values)
+    return chosen, Shifts.unknown(found.temperatures, nearest, found)
 
 
 def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contacts: Contacts, modes: int) -> Problem:

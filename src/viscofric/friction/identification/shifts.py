@@ -20,8 +20,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-#: Standard deviation of ln α about its first guess where nothing is known of it: four decades.
-UNKNOWN = 9.0
+#: Found shifts stay where the curves overlap: within so many of the standard errors with which overlap alone tells
+#: them, and so much in ln α.  A free spectrum fits curves that have been moved apart as well.  What this expectation
+#: adds to the data's own information is one part in the square of that number.
+OVERLAPPING, OVERLAPPING_LEAST = 5.0, 0.05
 #: Known without an error, ln α may still move by rounding.
 EXACT = 1e-7
 _SAME = 1e-6  # K
@@ -55,20 +57,25 @@ class Shifts:
     exact: bool = False
 
     @classmethod
-    def unknown(cls, temperatures: Array, reference: float, start: Array) -> Shifts:
-        """Return unknown shifts at temperatures (t,), one of which is the reference; `start` is a guess of ln α."""
-        spread = np.where(np.abs(temperatures - reference) < _SAME, EXACT, UNKNOWN)
-        middle = start - float(np.interp(reference, temperatures, start))
-        return cls(temperatures, reference, middle, np.diag(1.0 / spread), True)
+    def unknown(cls, temperatures: Array, reference: float, overlap: ShiftFactors | None = None) -> Shifts:
+        """Return unknown shifts at temperatures (t,), one of which is the reference.
+
+        `overlap` is what overlap of the curves tells of them; None for one temperature.
+        """
+        if overlap is None:
+            return cls(temperatures, reference, np.zeros(1), np.eye(1) / EXACT, True)
+        about = overlap.at_reference(reference)
+        away = np.abs(temperatures - reference) >= _SAME
+        covariance = (OVERLAPPING * LN10) ** 2 * _covariance(about, temperatures) * np.outer(away, away)
+        covariance += np.diag(np.where(away, OVERLAPPING_LEAST**2, 0.0))
+        return cls(temperatures, reference, LN10 * np.asarray(about.log10(temperatures)), _whitening(covariance), True)
 
     @classmethod
     def known(cls, temperatures: Array, shift: ShiftLaw) -> Shifts:
         """Return those of a law or table at temperatures (t,), with its covariance where it has one."""
         middle = LN10 * np.asarray(shift.log10(temperatures))
         covariance = LN10**2 * _covariance(shift, temperatures)
-        values, vectors = np.linalg.eigh(covariance)
-        whitening = vectors.T / np.sqrt(np.maximum(values, 0.0) + EXACT**2)[:, None]
-        return cls(temperatures, float(shift.reference), middle, whitening, False, not covariance.any())
+        return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())
 
     def row(self, temperature: float) -> Array:
         """Return the weights (t,) of the temperatures in ln α at one of them, or between them, linear in 1/T.
@@ -91,6 +98,11 @@ class Shifts:
     def table(self, log_alpha: Array, covariance: Array) -> ShiftFactors:
         """Return the factors found, of ln α (t,) with its covariance (t, t), about the reference."""
         return ShiftFactors(self.temperatures, log_alpha / LN10, self.reference, covariance / LN10**2)
+
+
+def _whitening(covariance: Array) -> Array:
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray(vectors.T / np.sqrt(np.maximum(values, 0.0) + EXACT**2)[:, None])
 
 
 def _covariance(shift: ShiftLaw, temperatures: Array) -> Array:
