@@ -220,3 +220,33 @@ def test_the_synthetic_fluoroelastomer_comes_back_over_four_decades() -> None:
     assert np.abs(np.log(E.imag / planted.imag)).max() < 0.02
     factors = found.shift_factors
     np.testing.assert_allclose(factors.log10_values, truth.shift.log10(factors.temperatures), atol=2e-3)
+
+
+def lossy_polymer() -> vf.Material:
+    """A rubber with its transition among the contacts' frequencies: friction has a maximum."""
+    tau = 3e-7 * 2.2 ** np.arange(28)
+    away = np.log10(tau) + 0.3
+    share = np.exp(-0.5 * (away / np.where(away > 0.0, 0.55, 1.5)) ** 2)
+    spectrum = vf.RetardationSpectrum(4e6, 6e8, share / share.sum() * (1.0 / 4e6 - 1.0 / 6e8), tau)
+    return vf.Material(spectrum, vf.WLF(C1=7.5, C2=95.0, reference=REFERENCE))
+
+
+@pytest.mark.slow
+def test_curves_about_a_maximum_of_friction_stay_together() -> None:
+    """A spectrum with two maxima fits curves moved apart by 2.4 decades as well, and is not what was planted."""
+    rubber, ball, kelvin = lossy_polymer(), vf.Ball(radius=9.525e-3), REFERENCE + np.array([0.0, 8.0, 16.0, 25.0, 35.0])
+    exact = vf.predict_friction(
+        rubber, ball, speeds=np.geomspace(0.02, 0.2, 7), temperatures=kelvin, load=25.0, accuracy=1e-2
+    )
+    scattered = exact.viscoelastic * (1.0 + 0.05 * np.random.default_rng(0).standard_normal((8, len(exact))))
+    error = scattered.std(axis=0, ddof=1) / np.sqrt(8.0)
+    curves = replace(exact, viscoelastic=scattered.mean(axis=0), viscoelastic_error=error)
+    modulus = float(abs(rubber.complex_modulus(1.0, REFERENCE)))
+    anchor = vf.ModulusAnchor(modulus, 1.0, REFERENCE, error=1e-3)
+    found = vf.identify_material(
+        curves, indenter=ball, anchor=anchor, reference=REFERENCE, accuracy=1e-2, samples=20, modes=20
+    )
+    factors = found.shift_factors
+    assert factors is not None
+    # Their standard errors are about 0.03 decades.
+    np.testing.assert_allclose(factors.log10(kelvin), rubber.shift.log10(kelvin), atol=0.12)
