@@ -223,7 +223,7 @@ def test_the_synthetic_fluoroelastomer_comes_back_over_four_decades() -> None:
 
 
 def lossy_polymer() -> vf.Material:
-    """A rubber with its transition among the contacts' frequencies: friction has a maximum."""
+    """Return a rubber with its transition among the contacts' frequencies: friction has a maximum."""
     tau = 3e-7 * 2.2 ** np.arange(28)
     away = np.log10(tau) + 0.3
     share = np.exp(-0.5 * (away / np.where(away > 0.0, 0.55, 1.5)) ** 2)
@@ -239,8 +239,14 @@ def test_curves_about_a_maximum_of_friction_stay_together() -> None:
         rubber, ball, speeds=np.geomspace(0.02, 0.2, 7), temperatures=kelvin, load=25.0, accuracy=1e-2
     )
     scattered = exact.viscoelastic * (1.0 + 0.05 * np.random.default_rng(0).standard_normal((8, len(exact))))
-    error = scattered.std(axis=0, ddof=1) / np.sqrt(8.0)
-    curves = replace(exact, viscoelastic=scattered.mean(axis=0), viscoelastic_error=error)
+    scatter = scattered.std(axis=0, ddof=1)
+    curves = replace(
+        exact,
+        viscoelastic=scattered.mean(axis=0),
+        viscoelastic_error=scatter / np.sqrt(8.0),
+        viscoelastic_scatter=scatter,
+        replicates=np.full(len(exact), 8),
+    )
     modulus = float(abs(rubber.complex_modulus(1.0, REFERENCE)))
     anchor = vf.ModulusAnchor(modulus, 1.0, REFERENCE, error=1e-3)
     found = vf.identify_material(
