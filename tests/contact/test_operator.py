@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import viscofric as vf
 from contact.dense_reference import displacement_coefficients, displacement_matrix
 from viscofric.contact.free.grids import Window
 from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial, collocation_shift
@@ -235,3 +236,17 @@ def test_dissipated_energy_of_a_smooth_pressure_is_the_same_on_rectangles(aspect
     # Cells spread the pressure over their length and width, at most 1/2 here: (q h)²/24 of the result each.
     error = HalfSpaceOperator(window, material).dissipated_force(pressure) / energy_integral(material) - 1.0
     assert abs(error) < 0.05 * max(window.spacing, window.width) ** 2 + 1e-4
+
+
+def test_corrections_in_single_precision_cost_no_digits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are taken on fine grids, here on all: the contact is the same to the solver's tolerance of 1e-8."""
+    rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e8, tau=1e-2)
+    asked = {"speed": 0.1, "load": 1.0, "grid": 128}
+    double = vf.solve_steady(rubber, vf.Ball(radius=0.01), **asked)
+    monkeypatch.setattr("viscofric.contact.operators.convolution._FEWEST_SINGLE", 0)
+    single = vf.solve_steady(rubber, vf.Ball(radius=0.01), **asked)
+    assert single.diagnostics.complementarity <= 1e-8
+    assert single.friction_coefficient != double.friction_coefficient  # rounding tells that it was taken
+    # Gaps of 1e-8 of the indentation, where either solve may end, move pressures by a hundred times that at most.
+    np.testing.assert_allclose(single.pressure, double.pressure, atol=1e-6 * double.max_pressure)
+    assert single.friction_coefficient == pytest.approx(double.friction_coefficient, rel=1e-6)

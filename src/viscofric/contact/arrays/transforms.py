@@ -64,8 +64,7 @@ class ScipyTransforms:
     def inverse(self, spectrum: AnyArray, shape: Shape) -> AnyArray:
         """Real values of the given shape."""
         # One axis after the other: irfft2 would take a copy of the spectrum, whose pages cost as much as the transform.
-        lines = self._fft.ifft(spectrum, axis=0, overwrite_x=True, workers=self._threads)
-        return self._fft.irfft(lines, shape[1], axis=1, workers=self._threads)  # type: ignore[no-any-return]
+        return self.inverse_cropped(spectrum, shape, shape)
 
     def forward_padded(self, values: AnyArray, padded: Shape) -> AnyArray:
         """Spectrum of real values with zeros behind them up to a shape."""
