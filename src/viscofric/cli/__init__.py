@@ -16,6 +16,7 @@ try:
     import click
 
     from viscofric.cli.lazy import LazyGroup
+    from viscofric.cli.overview import COMMANDS, write_overview
 except KeyboardInterrupt:  # the user may change their mind while Python still loads
     sys.stderr.write("Interrupted.\n")
     sys.exit(INTERRUPTED)
@@ -23,18 +24,6 @@ except KeyboardInterrupt:  # the user may change their mind while Python still l
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
-
-# command, which is also the module of this package that defines it -> what the overview says
-_COMMANDS = {
-    "demo": "Run the built-in example (synthetic data) from start to end.",
-    "run": "Run a study: DMA sweeps in, friction, figures and a report out.",
-    "new": "Write a run file to start from, with synthetic data to replace.",
-    "friction": "Separate measured friction, shift it onto one curve, find the rubber behind it.",
-    "material": "Make a rubber of DMA sweeps, look at one, write it for other programs.",
-    "solve": "Solve one contact: friction, indentation, pressure, a picture.",
-    "verify": "Check the contact engine on this machine, in less than a minute.",
-    "report": "Write figures and report of a finished study again.",
-}
 
 
 class Terminated(KeyboardInterrupt):
@@ -44,6 +33,10 @@ class Terminated(KeyboardInterrupt):
 class _Program(LazyGroup):
     """The whole program: what its commands leave behind becomes an exit status."""
 
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the overview, which fits a screen."""
+        write_overview(formatter)
+
     def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
         """Run the command line; an interruption at any moment is one sentence and its own exit status."""
         run: Any = super().main
@@ -52,6 +45,7 @@ class _Program(LazyGroup):
         try:
             with _signals():
                 status = run(*args, standalone_mode=False, **extra)
+                sys.stdout.flush()
         except click.ClickException as error:
             error.show()
             sys.exit(error.exit_code)
@@ -60,6 +54,9 @@ class _Program(LazyGroup):
             terminated = isinstance(stop, Terminated) or isinstance(stop.__cause__, Terminated)
             click.echo("Terminated." if terminated else "Interrupted.", err=True)
             sys.exit(TERMINATED if terminated else INTERRUPTED)
+        except BrokenPipeError:  # `viscofric … | head` has read enough
+            _give_up_output()
+            sys.exit(1)
         except OSError as error:
             _give_up_output()
             click.echo(f"Error: {error.filename or 'the output'}: {error.strerror or error}.", err=True)
@@ -102,19 +99,14 @@ def _keep_matplotlib_here() -> None:
 @click.group(
     cls=_Program,
     package=__name__,
-    summaries=_COMMANDS,
+    summaries=COMMANDS,
     context_settings={"help_option_names": ["-h", "--help"]},
     invoke_without_command=True,
 )
 @click.version_option(package_name="viscofric", prog_name="viscofric")
 @click.pass_context
 def main(ctx: click.Context) -> None:
-    """Viscoelastic friction of rubber, at any speed and temperature, from laboratory data.
-
-    Exit status: 0 all went well; 1 something is wrong with the input or could not be solved (one sentence says
-    what); 2 the command was called wrongly; 3 the study ran, but some of its cases failed; 130 interrupted;
-    143 terminated.
-    """
+    """Viscoelastic friction of rubber, at any speed and temperature, from laboratory data."""
     _keep_matplotlib_here()
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from viscofric.cli.files import plainly
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
     import xarray
 
@@ -22,7 +23,7 @@ def told() -> Iterator[None]:
     try:
         yield
     except ViscofricError as error:
-        raise click.ClickException(str(error)) from error
+        raise click.ClickException(plainly(str(error))) from error
 
 
 def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
@@ -35,7 +36,9 @@ def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
             click.echo(f"Warning: {check.name}: {readable(check.words)}", err=True)
 
 
-def refuse_to_overwrite(target: Path, inputs: Iterable[Path]) -> None:
-    """Stop where a file to be written is one that is read: measurements are not to be lost."""
-    if any(target.resolve() == path.resolve() for path in inputs):
-        raise click.ClickException(f"{target} is an input and would be overwritten; choose another name.")
+def tell_notes(notes: Iterable[str]) -> None:
+    """Print notes on the data, where they do not mix with the result."""
+    from viscofric.report.messages import readable
+
+    for note in notes:
+        click.echo(f"Note: {plainly(readable(note))}", err=True)

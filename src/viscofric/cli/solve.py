@@ -18,7 +18,8 @@ from viscofric.cli.contact_options import (
     chosen_rubber,
     contact_options,
 )
-from viscofric.cli.errors import refuse_to_overwrite, told
+from viscofric.cli.errors import told
+from viscofric.cli.files import PICTURES, check_ending, refuse_to_overwrite
 
 if TYPE_CHECKING:
     from viscofric.cli.contact_options import NamedIndenter, NamedRubber
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
-_PICTURES, _FIELDS = (".png", ".svg", ".pdf"), (".nc", ".csv")
+_FIELDS = (".nc", ".csv")
 _INFINITE = ("inf", "infinite", "infinity", "∞")
 #: Options that are settings of `solve_steady` as they stand.
 _SETTINGS = (
@@ -85,8 +86,8 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
 
     Quantities carry their unit.  Every result comes with the error that the refinement of the grid lets expect.
     """
-    _check_name(picture, "--picture", _PICTURES)
-    _check_name(output, "--output", _FIELDS)
+    check_ending(picture, "--picture", PICTURES)
+    check_ending(output, "--output", _FIELDS)
     read = [path for path in (asked["height_map"], asked["profile"]) if path is not None]
     if asked["material"] is not None and Path(asked["material"]).is_file():
         read.append(Path(asked["material"]))
@@ -119,11 +120,6 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
             _tell(name, rubber, solution, seconds)
         for written in _write(name, rubber, shape, solution, picture, output):
             click.echo(written, err=as_json)
-
-
-def _check_name(path: Path | None, option: str, endings: tuple[str, ...]) -> None:
-    if path is not None and path.suffix.lower() not in endings:
-        raise click.BadParameter(f"{path}: must end in {', '.join(endings)}.", param_hint=option)
 
 
 def _poisson_ratio(asked: dict[str, Any]) -> float:

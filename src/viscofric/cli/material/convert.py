@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from viscofric.cli.errors import refuse_to_overwrite, told
+from viscofric.cli.errors import told
+from viscofric.cli.files import refuse_to_overwrite
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat

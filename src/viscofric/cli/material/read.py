@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscofric.cli.errors import refuse_to_overwrite, told
+from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.files import Source, refuse_to_overwrite
 from viscofric.cli.material.options import reading_options
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command(name="read")
-@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.argument("files", nargs=-1, required=True, type=Source())
 @reading_options
 @click.option(
     "--csv",
@@ -44,8 +45,7 @@ def command(
         click.echo(f"{sweeps.format}; moduli in {sweeps.deformation}; {len(sweeps)} isotherms")
         for line in _isotherms(sweeps):
             click.echo(line)
-        for note in sweeps.notes:
-            click.echo(f"Note: {note}", err=True)
+        tell_notes(sweeps.notes)
         if table is not None:
             from viscofric.study.tables import write_sweeps
 

@@ -1,4 +1,4 @@
-"""``viscofric friction identify SOURCES``: the rubber behind measured friction, as far as friction tells it."""
+"""``viscofric identify SOURCES``: the rubber behind measured friction, as far as friction tells it."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.anchor_options import anchor_options, check_anchor, make_anchor
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
-from viscofric.cli.errors import refuse_to_overwrite, told
-from viscofric.cli.friction.anchors import anchor_options, check_anchor, make_anchor
-from viscofric.cli.friction.files import JSON, PICTURES, check_ending, tell_notes
-from viscofric.cli.friction.options import separation_options, settings_of
+from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.files import JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
+from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -26,13 +26,13 @@ _FILE = click.Path(path_type=Path, dir_okay=False)
 _SETTINGS = ("load", "reference", "poisson_ratio", "modes", "samples", "seed", "accuracy", "name", "workers")
 _EXAMPLE = """\b
 Such as
-  viscofric friction identify curves.csv --ball "9.525 mm" --out rubber.json \\
+  viscofric identify curves.csv --ball "9.525 mm" --out rubber.json \\
       --anchor-modulus "8 MPa" --anchor-frequency "1 Hz" --anchor-temperature "30 degC"
 """
 
 
 @click.command(name="identify", epilog=_EXAMPLE)
-@click.argument("sources", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.argument("sources", nargs=-1, required=True, type=Source())
 @indenter_options
 @click.option("--load", metavar="F", help="Normal load of all points, such as '25 N' [default: each point's own].")
 @click.option(
@@ -69,8 +69,9 @@ def command(
 ) -> None:
     """Identify the rubber behind friction: its modulus, as far as friction tells it, and its shift factors.
 
-    SOURCES are tables of friction curves (CSV, as `viscofric friction separate --out` writes them) or files of a
-    tribometer.  Friction alone hardly tells the level of the modulus: give an anchor, or a prior.
+    SOURCES are tables of friction curves (CSV, as `viscofric measure --out` writes them) or files of a
+    tribometer, or `-` for standard input.  Friction alone hardly tells the level of the modulus: give an anchor, or a
+    prior.
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(out, "--out", JSON)
@@ -81,7 +82,7 @@ def command(
         raise click.UsageError("--beside is drawn into the --picture, which is not asked for.")
     settings, anchor = settings_of(asked), check_anchor(asked)
     with told():
-        from viscofric.cli.friction.sources import friction_curves, shifts
+        from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.cli.material.rubbers import find_rubber
         from viscofric.friction.identification.identify import identify_material
         from viscofric.report.identification_summary import identification_record
@@ -98,7 +99,7 @@ def command(
         with _progress(quiet=as_json) as progress:
             found = identify_material(curves, indenter=shape.indenter, progress=progress, **options)
         if as_json:
-            inputs = {"sources": [str(path) for path in sources], "indenter": shape.record}
+            inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
             inputs |= chosen(asked) | settings
             record = identification_record(found, inputs)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False, default=str))

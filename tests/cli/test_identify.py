@@ -1,4 +1,4 @@
-"""``viscofric friction identify``: the planted rubber comes back, as a table, JSON, a file and a picture."""
+"""``viscofric identify``: the planted rubber comes back, as a table, JSON, a file and a picture."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SPEEDS = np.geomspace(0.02, 2.0, 6)
 
 
 def call(*words: object) -> Result:
-    return CliRunner().invoke(main, ["friction", "identify", *map(str, words)], standalone_mode=True)
+    return CliRunner().invoke(main, ["identify", *map(str, words)], standalone_mode=True)
 
 
 def curves(path: Path) -> Path:
@@ -98,7 +98,7 @@ def test_the_rubber_is_read_back_by_the_other_commands(found: tuple[Path, dict[s
     ],
 )
 def test_the_size_of_a_contact_is_an_anchor_too(option: str, text: str, name: str, value: float) -> None:
-    from viscofric.cli.friction.anchors import check_anchor, make_anchor
+    from viscofric.cli.anchor_options import check_anchor, make_anchor
 
     names = ("modulus", "frequency", "indentation", "area", "half_width", "speed", "load", "temperature", "error")
     asked: dict[str, Any] = {f"anchor_{one}": None for one in names}

@@ -70,7 +70,7 @@ def separation_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def settings_of(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of `viscofric.cli.friction.sources.separated` among what was asked for.
+    """Return the settings of `viscofric.cli.friction_sources.separated` among what was asked for.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""``viscofric friction shift SOURCES``: one master curve of friction, and the shift factors that friction tells."""
+"""``viscofric master SOURCES``: one master curve of friction, and the shift factors that friction tells."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import refuse_to_overwrite, told
-from viscofric.cli.friction.files import CSV, PICTURES, check_ending, tell_notes
-from viscofric.cli.friction.options import separation_options, settings_of
+from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.files import CSV, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
+from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
@@ -26,12 +26,12 @@ _LAWS = ("best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none
 _COMPARABLE = 5
 _EXAMPLE = """\b
 Such as
-  viscofric friction shift curves.csv --shift rubber.json --reference "30 degC" --out alpha.csv
+  viscofric master curves.csv --shift rubber.json --reference "30 degC" --out alpha.csv
 """
 
 
-@click.command(name="shift", epilog=_EXAMPLE)
-@click.argument("sources", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.command(name="master", epilog=_EXAMPLE)
+@click.argument("sources", nargs=-1, required=True, type=Source())
 @click.option(
     "--shift",
     "known",
@@ -62,9 +62,9 @@ def command(
 ) -> None:
     """Shift the friction curves of several temperatures onto one, and find α(T) from friction alone.
 
-    SOURCES are tables of friction curves (CSV, as `viscofric friction separate --out` writes them) or files of a
-    tribometer.  Where the curves do not overlap, friction tells no shift factor: with --shift they are then shifted by
-    the modulus's, without it that is an error.
+    SOURCES are tables of friction curves (CSV, as `viscofric measure --out` writes them) or files of a tribometer, or
+    `-` for standard input.  Where the curves do not overlap, friction tells no shift factor: with --shift they are
+    then shifted by the modulus's, without it that is an error.
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(out, "--out", CSV)
@@ -73,7 +73,7 @@ def command(
             refuse_to_overwrite(target, sources)
     settings = settings_of(asked)
     with told():
-        from viscofric.cli.friction.sources import friction_curves, shifts
+        from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.report.shift_summary import shift_record
 
         curves = friction_curves(sources, settings)
@@ -84,7 +84,7 @@ def command(
         if out is not None and not master.found:
             raise click.ClickException(f"{out} is not written, for friction tells no shift factors.")
         if as_json:
-            inputs = {"sources": [str(path) for path in sources]}
+            inputs = {"sources": [plainly(str(path)) for path in sources]}
             inputs |= {"shift": asked["known"]} | {
                 name: asked[name] for name in ("reference", "law", "ball", "level_error")
             }

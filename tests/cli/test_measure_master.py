@@ -1,4 +1,4 @@
-"""``viscofric friction …``: what the commands print and write, and how they fail."""
+"""``viscofric measure`` and ``master``: what the commands print and write, and how they fail."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ HEADER = "temperature (degC),replicate,disc speed (mm/s),ball speed (mm/s),load 
 
 
 def call(*words: object) -> Result:
-    return CliRunner().invoke(main, ["friction", *map(str, words)], standalone_mode=True)
+    return CliRunner().invoke(main, [*map(str, words)], standalone_mode=True)
 
 
 def viscoelastic(celsius: float, speed: float) -> float:
@@ -59,9 +59,9 @@ def record(*words: object) -> dict[str, Any]:
     return found
 
 
-def test_separate_gives_what_python_gives(tmp_path: Path) -> None:
+def test_measure_gives_what_python_gives(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", noise=0.01)
-    found, curves = record("separate", path), vf.separate(vf.read_mtm(path))
+    found, curves = record("measure", path), vf.separate(vf.read_mtm(path))
     assert found["format"] == "viscofric friction curves 1"
     for name in ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "coulomb", "consistency"):
         assert [point[name] for point in found["points"]] == getattr(curves, name).tolist(), name
@@ -69,8 +69,8 @@ def test_separate_gives_what_python_gives(tmp_path: Path) -> None:
     assert found["inputs"]["runs"] == [str(path)]
 
 
-def test_separate_prints_each_condition_with_its_friction(tmp_path: Path) -> None:
-    done = call("separate", runs(tmp_path / "runs.csv", noise=0.01))
+def test_measure_prints_each_condition_with_its_friction(tmp_path: Path) -> None:
+    done = call("measure", runs(tmp_path / "runs.csv", noise=0.01))
     assert done.exit_code == 0, done.output
     heading, *rows = done.stdout.split("\n\n")[0].splitlines()
     assert heading.split()[:4] == ["T", "(°C)", "speed", "(mm/s)"]
@@ -87,28 +87,28 @@ def test_separate_prints_each_condition_with_its_friction(tmp_path: Path) -> Non
 
 def test_what_cannot_be_known_is_null_and_a_question_mark(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", signs=(1,), replicates=1)
-    found = record("separate", path, "--zero", "0.3 N")
+    found = record("measure", path, "--zero", "0.3 N")
     point = found["points"][0]
-    assert " ± ?" in call("separate", path, "--zero", "0.3 N").stdout.splitlines()[1]
+    assert " ± ?" in call("measure", path, "--zero", "0.3 N").stdout.splitlines()[1]
     assert point["viscoelastic_error"] is None
     assert point["viscoelastic"] == pytest.approx(viscoelastic(30.0, 20.0), rel=1e-9)  # no noise
     assert point["coulomb"] == pytest.approx(COULOMB, rel=1e-9)
     assert "consistency" not in point
     assert found["inputs"]["zero"] == "0.3 N"
-    assert call("separate", path, "--zero", "0.3 N").exit_code == 0
+    assert call("measure", path, "--zero", "0.3 N").exit_code == 0
 
 
 def test_several_files_make_one_test(tmp_path: Path) -> None:
     back, forth = runs(tmp_path / "back.csv", signs=(-1,)), runs(tmp_path / "forth.csv", signs=(1,))
-    assert "the signs of the velocities do not tell" in call("separate", back).output
+    assert "the signs of the velocities do not tell" in call("measure", back).output
     # One test was measured in two files: forwards in one, backwards in the other.
-    found = record("separate", back, forth)
+    found = record("measure", back, forth)
     np.testing.assert_allclose([point["offset"] for point in found["points"]], ZERO_FORCE, rtol=1e-9)  # no noise
 
 
 def test_separated_curves_are_read_back_as_they_are(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", noise=0.01)
-    done = call("separate", path, "--out", tmp_path / "curves.csv")
+    done = call("measure", path, "--out", tmp_path / "curves.csv")
     assert done.exit_code == 0, done.output
     assert f"curves   {tmp_path / 'curves.csv'}" in done.stdout
     curves, again = vf.separate(vf.read_mtm(path)), vf.read_friction_curves(tmp_path / "curves.csv")
@@ -118,17 +118,17 @@ def test_separated_curves_are_read_back_as_they_are(tmp_path: Path) -> None:
 
 def test_one_direction_of_slip_needs_an_assumption_which_is_told(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", slips=(1,))
-    assert call("separate", path).exit_code == 1
-    found = record("separate", path, "--coulomb", COULOMB, "--coulomb-error", "0.001")
+    assert call("measure", path).exit_code == 1
+    found = record("measure", path, "--coulomb", COULOMB, "--coulomb-error", "0.001")
     assert found["assumption"]
     for point in found["points"]:
         celsius, speed = point["temperature"] - 273.15, 1e3 * point["speed"]
         assert point["viscoelastic"] == pytest.approx(viscoelastic(celsius, speed), rel=1e-9)  # no noise
-    assert "assumed" in call("separate", path, "--coulomb", COULOMB).stdout
+    assert "assumed" in call("measure", path, "--coulomb", COULOMB).stdout
 
 
 def test_coulomb_friction_that_is_not_needed_is_told(tmp_path: Path) -> None:
-    done = call("separate", runs(tmp_path / "runs.csv"), "--coulomb", "45")
+    done = call("measure", runs(tmp_path / "runs.csv"), "--coulomb", "45")
     assert done.exit_code == 0, done.output
     assert "that was given is not used" in done.stderr
 
@@ -142,18 +142,18 @@ def test_steps_that_are_not_steady_are_left_out(tmp_path: Path) -> None:
         for load, sign, slip in product(np.linspace(5.0, 25.0, 60).round(3), (-1, 1), (-1, 1))
     ]
     (tmp_path / "steps.csv").write_text("\n".join([f"{heading},step", *steady, *rising]), encoding="utf-8")
-    alone = call("separate", tmp_path / "steps.csv")
+    alone = call("measure", tmp_path / "steps.csv")
     assert alone.exit_code == 1
     assert "--except-steps 99 in the shell" in alone.output
-    found = record("separate", tmp_path / "steps.csv", "--except-steps", "99")
+    found = record("measure", tmp_path / "steps.csv", "--except-steps", "99")
     assert found["inputs"]["except_steps"] == [99]
-    whole = record("separate", tmp_path / "runs.csv")
+    whole = record("measure", tmp_path / "runs.csv")
     assert [point["viscoelastic"] for point in found["points"]] == [point["viscoelastic"] for point in whole["points"]]
 
 
-def test_separate_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -> None:
+def test_measure_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv")
-    done = call("separate", path, "--picture", tmp_path / "curves.svg", "--synthetic")
+    done = call("measure", path, "--picture", tmp_path / "curves.svg", "--synthetic")
     assert done.exit_code == 0, done.output
     assert done.stdout.splitlines()[-1] == f"picture  {tmp_path / 'curves.svg'}"
     assert (tmp_path / "curves.svg").stat().st_size > 0
@@ -162,18 +162,18 @@ def test_separate_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) 
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [
-        (["separate"], 2, "Missing argument"),
-        (["separate", "nothing.csv"], 1, "nothing.csv: no such file"),
-        (["separate", "runs.csv", "--zero", "0.1 mm"], 1, "wrong kind of unit"),
-        (["separate", "runs.csv", "--speed-tolerance", "2"], 1, "between 0 and 1"),
-        (["separate", "runs.csv", "--picture", "a.txt"], 2, "must end in .png, .svg, .pdf"),
-        (["separate", "runs.csv", "--coulomb", "much"], 2, "'constant'"),
-        (["separate", "runs.csv", "--zero-error", "0.1 N"], 2, "which is not given"),
-        (["separate", "runs.csv", "--coulomb", "constant", "--coulomb-error", "0.1"], 2, "goes with a number"),
-        (["separate", "runs.csv", "--except-steps", "two"], 2, "numbers of steps"),
-        (["separate", "runs.csv", "--except-steps", "2"], 1, "step"),
-        (["separate", "runs.csv", "--out", "runs.csv"], 1, "would be overwritten"),
-        (["separat"], 2, "Did you mean 'separate'?"),
+        (["measure"], 2, "Missing argument"),
+        (["measure", "nothing.csv"], 1, "nothing.csv: no such file"),
+        (["measure", "runs.csv", "--zero", "0.1 mm"], 1, "wrong kind of unit"),
+        (["measure", "runs.csv", "--speed-tolerance", "2"], 1, "between 0 and 1"),
+        (["measure", "runs.csv", "--picture", "a.txt"], 2, "must end in .png, .svg, .pdf"),
+        (["measure", "runs.csv", "--coulomb", "much"], 2, "'constant'"),
+        (["measure", "runs.csv", "--zero-error", "0.1 N"], 2, "which is not given"),
+        (["measure", "runs.csv", "--coulomb", "constant", "--coulomb-error", "0.1"], 2, "goes with a number"),
+        (["measure", "runs.csv", "--except-steps", "two"], 2, "numbers of steps"),
+        (["measure", "runs.csv", "--except-steps", "2"], 1, "step"),
+        (["measure", "runs.csv", "--out", "runs.csv"], 1, "would be overwritten"),
+        (["measur"], 2, "Did you mean 'measure'?"),
     ],
 )
 def test_mistakes_are_one_sentence(
@@ -207,7 +207,7 @@ def curves(path: Path, temperatures: Any = TEMPERATURES, noise: float = 0.01, lo
 
 def test_shift_finds_the_planted_factors_and_writes_them(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv")
-    found = record("shift", path, "--reference", "30 degC", "--out", tmp_path / "alpha.csv")
+    found = record("master", path, "--reference", "30 degC", "--out", tmp_path / "alpha.csv")
     assert found["found"]
     planted = LAW.log10(np.array(found["temperature"]))
     apart = np.abs(found["log10_shift_factor"] - planted)
@@ -223,7 +223,7 @@ def test_shift_finds_the_planted_factors_and_writes_them(tmp_path: Path) -> None
 def test_shift_lays_the_modulus_beside(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv")
     vf.ShiftFactors(TEMPERATURES, LAW.log10(TEMPERATURES), "30 degC").save(tmp_path / "dma.csv")
-    words = ("shift", path, "--shift", tmp_path / "dma.csv", "--law", "arrhenius")
+    words = ("master", path, "--shift", tmp_path / "dma.csv", "--law", "arrhenius")
     found = record(*words)
     assert found["reference"] == pytest.approx(303.15)  # that of the modulus
     assert found["law"]["kind"] == "Arrhenius"
@@ -238,53 +238,53 @@ def test_shift_lays_the_modulus_beside(tmp_path: Path) -> None:
 
 def test_curves_without_errors_say_what_the_errors_of_their_shift_are(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", noise=0.0)
-    done = call("shift", path)
+    done = call("master", path)
     assert done.exit_code == 0, done.output
     assert "follow from how the points scatter about one curve" in done.stdout
     assert "± 0.000" not in done.stdout
-    assert "follow from how" not in call("shift", curves(tmp_path / "noisy.csv")).stdout
+    assert "follow from how" not in call("master", curves(tmp_path / "noisy.csv")).stdout
 
 
 def test_law_is_not_sought_among_too_few_temperatures(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv")
-    told = call("shift", path).stderr
+    told = call("master", path).stderr
     assert "Note: No law is fitted: 4 temperatures are too few" in told
     assert "--law" in told
-    assert "No law is fitted" not in call("shift", path, "--law", "wlf").stderr
+    assert "No law is fitted" not in call("master", path, "--law", "wlf").stderr
 
 
 def test_the_best_law_says_why_and_how_well_it_fits(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", 273.15 + np.arange(30.0, 55.0, 4.0))
-    found = record("shift", path)
+    found = record("master", path)
     assert found["law"] is not None
     assert found["law_explanation"]
-    assert found["law_explanation"] in call("shift", path).stdout
-    assert record("shift", path, "--law", "wlf")["law_explanation"] is None
+    assert found["law_explanation"] in call("master", path).stdout
+    assert record("master", path, "--law", "wlf")["law_explanation"] is None
 
 
 def test_friction_below_zero_is_told(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv")
     measured = vf.read_friction_curves(path)
     vf.write_friction_curves(replace(measured, viscoelastic=-measured.viscoelastic), path)
-    done = call("shift", path)
+    done = call("master", path)
     assert "Viscoelastic friction is below zero at 32 of 32 points" in done.output
 
 
 def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", [303.15, 363.15])
-    alone = call("shift", path)
+    alone = call("master", path)
     assert alone.exit_code == 1
     assert "do not overlap" in alone.output
-    beside = call("shift", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
+    beside = call("master", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
     assert beside.exit_code == 0, beside.output
     assert "No shift factors from friction" in beside.output
-    told = record("shift", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
+    told = record("master", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
     law = vf.synthetic_fluoroelastomer().shift
     assert law is not None
     assert not told["found"]
     assert told["covariance"] is None
     np.testing.assert_allclose(told["log10_shift_factor"], law.log10(np.array([303.15, 363.15])), atol=1e-12)
-    refused = call("shift", path, "--shift", "synthetic fluoroelastomer", "--out", tmp_path / "alpha.csv")
+    refused = call("master", path, "--shift", "synthetic fluoroelastomer", "--out", tmp_path / "alpha.csv")
     assert refused.exit_code == 1
     assert "alpha.csv is not written" in refused.output
     assert not (tmp_path / "alpha.csv").exists()
@@ -292,35 +292,35 @@ def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
 
 def test_curves_of_one_temperature_are_shifted_by_given_factors(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", [363.15])
-    assert "hold no shift factor" in call("shift", path).output
-    assert call("shift", path, "--shift", "synthetic fluoroelastomer").exit_code == 0
+    assert "hold no shift factor" in call("master", path).output
+    assert call("master", path, "--shift", "synthetic fluoroelastomer").exit_code == 0
 
 
 def test_runs_are_separated_before_they_are_shifted(tmp_path: Path) -> None:
-    done = call("shift", runs(tmp_path / "runs.csv", noise=0.01), "--shift", "synthetic fluoroelastomer")
+    done = call("master", runs(tmp_path / "runs.csv", noise=0.01), "--shift", "synthetic fluoroelastomer")
     assert done.exit_code == 0, done.output
     assert "60.0" in done.stdout
 
 
 def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
     one, other = curves(tmp_path / "one.csv"), curves(tmp_path / "other.csv", load=35.0)
-    assert "a master curve holds at one load" in call("shift", one, other).output
-    assert call("shift", one, other, "--ball", "9.525 mm").exit_code == 0
+    assert "a master curve holds at one load" in call("master", one, other).output
+    assert call("master", one, other, "--ball", "9.525 mm").exit_code == 0
 
 
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [
-        (["shift", "nothing.csv"], 1, "nothing.csv: no such file"),
-        (["shift", "curves.csv", "runs.csv"], 1, "runs.csv is none"),
-        (["shift", "curves.csv", "--shift", "no rubber"], 1, "no rubber"),
-        (["shift", "curves.csv", "--reference", "90 degC"], 1, "lies outside the friction curves"),
-        (["shift", "curves.csv", "--zero", "0.1 N"], 2, "--zero: only runs are separated"),
-        (["shift", "curves.csv", "--leave-out-outliers"], 2, "--leave-out-outliers: only runs"),
+        (["master", "nothing.csv"], 1, "nothing.csv: no such file"),
+        (["master", "curves.csv", "runs.csv"], 1, "runs.csv is none"),
+        (["master", "curves.csv", "--shift", "no rubber"], 1, "no rubber"),
+        (["master", "curves.csv", "--reference", "90 degC"], 1, "lies outside the friction curves"),
+        (["master", "curves.csv", "--zero", "0.1 N"], 2, "--zero: only runs are separated"),
+        (["master", "curves.csv", "--leave-out-outliers"], 2, "--leave-out-outliers: only runs"),
         (["identify", "curves.csv", "--ball", "1 mm", "--speed-tolerance", "0.2"], 2, "--speed-tolerance: only runs"),
-        (["shift", "mu.csv"], 1, "has a column 'viscoelastic friction'"),
-        (["shift", "curves.csv", "--out", "alpha.json"], 2, "must end in .csv"),
-        (["shift", "curves.csv", "--out", "curves.csv"], 1, "would be overwritten"),
+        (["master", "mu.csv"], 1, "has a column 'viscoelastic friction'"),
+        (["master", "curves.csv", "--out", "alpha.json"], 2, "must end in .csv"),
+        (["master", "curves.csv", "--out", "curves.csv"], 1, "would be overwritten"),
     ],
 )
 def test_mistakes_of_shifting_are_one_sentence(
@@ -334,7 +334,3 @@ def test_mistakes_of_shifting_are_one_sentence(
     assert done.exit_code == status, done.output
     assert told in done.output
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
-
-
-def test_nothing_asked_is_answered_with_the_help() -> None:
-    assert call().output == call("--help").output

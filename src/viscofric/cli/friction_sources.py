@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +37,7 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
     click.UsageError
         If something of a separation was chosen for friction curves.
     """
-    from viscofric.cli.friction.options import refuse_settings
+    from viscofric.cli.separation_options import refuse_settings
     from viscofric.errors import DataFileError, InputError
     from viscofric.friction.curve_files import read_friction_curves
 
@@ -56,7 +56,7 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
             "a tribometer."
         )
     refuse_settings(settings, tables[0])
-    return joined([read_friction_curves(path) for path in tables])
+    return joined([_plain(read_friction_curves(path)) for path in tables])
 
 
 def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
@@ -78,7 +78,14 @@ def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves
 
     runs, settings = read_mtm(*paths), dict(settings)
     steps = settings.pop("except_steps")
-    return separate(runs if steps is None else runs.select(except_steps=steps), **settings)
+    return _plain(separate(runs if steps is None else runs.select(except_steps=steps), **settings))
+
+
+def _plain(curves: FrictionCurves) -> FrictionCurves:
+    """Return friction curves that do not name the file in which standard input was kept."""
+    from viscofric.cli.files import plainly
+
+    return replace(curves, source=plainly(curves.source), notes=tuple(map(plainly, curves.notes)))
 
 
 def _holds_curves(path: Path) -> bool:

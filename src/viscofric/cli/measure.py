@@ -1,4 +1,4 @@
-"""``viscofric friction separate RUNS``: viscoelastic and Coulomb friction of tribometer files."""
+"""``viscofric measure RUNS``: viscoelastic and Coulomb friction of tribometer files."""
 
 from __future__ import annotations
 
@@ -8,23 +8,33 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import refuse_to_overwrite, told
-from viscofric.cli.friction.files import CSV, PICTURES, check_ending, tell_notes
-from viscofric.cli.friction.options import separation_options, settings_of
+from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.files import (
+    CSV,
+    DASH,
+    OUT,
+    PICTURES,
+    Source,
+    check_ending,
+    plainly,
+    refuse_to_overwrite,
+    to_be_written,
+)
+from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
 
 _EXAMPLE = """\b
 Such as
-  viscofric friction separate run1.txt run2.txt --out curves.csv --picture curves.svg
+  viscofric measure run1.txt run2.txt --out curves.csv --picture curves.svg
 """
 
 
-@click.command(name="separate", epilog=_EXAMPLE)
-@click.argument("runs", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.command(name="measure", epilog=_EXAMPLE)
+@click.argument("runs", nargs=-1, required=True, type=Source())
 @separation_options
-@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="Write the friction curves (CSV).")
+@click.option("--out", type=OUT, help="Write the friction curves (CSV); `-` prints them instead of the table.")
 @click.option(
     "--picture",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -38,7 +48,8 @@ def command(
     """Separate viscoelastic from Coulomb friction in RUNS, files of a mini-traction machine (MTM, ETM).
 
     Every reading's force is split by the signs of the surface speeds: viscoelastic friction turns with the motion of
-    the rubber, Coulomb friction with the slip, the zero of the force cell with neither.  Several files make one test.
+    the rubber, Coulomb friction with the slip, the zero of the force cell with neither.  Several files make one
+    test; `-` is standard input.
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(out, "--out", CSV)
@@ -47,19 +58,19 @@ def command(
             refuse_to_overwrite(target, runs)
     settings = settings_of(asked)
     with told():
-        from viscofric.cli.friction.sources import separated
+        from viscofric.cli.friction_sources import separated
         from viscofric.report.friction_summary import friction_record
 
         curves = separated(runs, settings)
         if as_json:
-            inputs = {"runs": [str(path) for path in runs], **settings}
+            inputs = {"runs": [plainly(str(path)) for path in runs], **settings}
             record = friction_record(curves, inputs)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
-        else:
+        elif out != DASH:
             _tell(curves)
         tell_notes(curves.notes)
         for written in _write(curves, out, picture, synthetic):
-            click.echo(written, err=as_json)
+            click.echo(written, err=as_json or out == DASH)
 
 
 def _tell(curves: FrictionCurves) -> None:
@@ -81,8 +92,9 @@ def _write(curves: FrictionCurves, out: Path | None, picture: Path | None, synth
     if out is not None:
         from viscofric.friction.curve_files import write_friction_curves
 
-        write_friction_curves(curves, out)
-        said.append(f"curves   {out}")
+        with to_be_written(out) as path:
+            write_friction_curves(curves, path)
+        said += [] if out == DASH else [f"curves   {out}"]
     if picture is not None:
         from viscofric.report.friction_pictures import draw_friction
 

@@ -1,0 +1,76 @@
+"""Files named on the command line: what their names must end in, that none is lost, and `-` for what is piped."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+PICTURES, CSV, JSON = (".png", ".svg", ".pdf"), (".csv",), (".json",)
+#: What the command line calls standard input and standard output.
+DASH = Path("-")
+_INPUT = "standard input"
+
+
+def check_ending(path: Path | None, option: str, endings: tuple[str, ...]) -> None:
+    """Stop where the name of a file to be written does not say what goes into it."""
+    if path is not None and path != DASH and path.suffix.lower() not in endings:
+        raise click.BadParameter(f"{path}: must end in {', '.join(endings)}.", param_hint=option)
+
+
+def refuse_to_overwrite(target: Path, inputs: Iterable[Path]) -> None:
+    """Stop where a file to be written is one that is read: measurements are not to be lost."""
+    if any(target.resolve() == path.resolve() for path in inputs):
+        raise click.ClickException(f"{target} is an input and would be overwritten; choose another name.")
+
+
+#: A file to be written, or `-` for standard output.
+OUT = click.Path(path_type=Path, dir_okay=False, allow_dash=True)
+
+
+class Source(click.Path):
+    """A file to be read, or `-` for standard input, which is then kept in a file for as long as the command runs."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path, allow_dash=True)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path of what is to be read."""
+        found = super().convert(value, param, ctx)
+        return _kept_input(ctx) if found == DASH and ctx is not None else found
+
+
+def _kept_input(ctx: click.Context) -> Path:
+    """Return the file that holds what came from standard input, read once."""
+    if _INPUT not in ctx.meta:
+        folder = Path(ctx.with_resource(TemporaryDirectory(prefix="viscofric-")))
+        ctx.meta[_INPUT] = folder / _INPUT
+        ctx.meta[_INPUT].write_bytes(sys.stdin.buffer.read())
+    path: Path = ctx.meta[_INPUT]
+    return path
+
+
+def plainly(sentence: str) -> str:
+    """Name standard input in a sentence as what it is, not as the file that it was kept in."""
+    ctx = click.get_current_context(silent=True)
+    kept = None if ctx is None else ctx.meta.get(_INPUT)
+    return sentence if kept is None else sentence.replace(kept.as_posix(), _INPUT).replace(str(kept), _INPUT)
+
+
+@contextmanager
+def to_be_written(path: Path) -> Iterator[Path]:
+    """Give the file to write to: the one named, or for `-` one that is then printed."""
+    if path != DASH:
+        yield path
+        return
+    with TemporaryDirectory(prefix="viscofric-") as folder:
+        target = Path(folder) / "standard output.csv"
+        yield target
+        click.echo(target.read_bytes(), nl=False)
