@@ -1,147 +1,65 @@
-"""Options that say what is in contact: the rubber and the indenter, as text of the command line."""
+"""Options of a contact besides rubber, indenter and speed: shared by the commands that solve one or many."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
-import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.layers import Layer
-    from viscofric.rheology.material import Material
-
-_FILE = click.Path(path_type=Path, dir_okay=False)
-
-_MATERIAL = (
+_OPTIONS = (
     click.option(
-        "--material",
-        metavar="NAME|FILE",
-        help="Name of the catalogue, a rubber's file (JSON or a card), or a run file (TOML) for its [material].",
+        "--direction",
+        metavar="ANGLE|DX,DY",
+        default="1,0",
+        show_default=True,
+        help="Of the motion over the indenter's own axes: from its x towards its y, such as '30 deg' or '0,1'.",
     ),
-    click.option("--E0", "rubber_modulus", metavar="E", help="Instead: one retardation time; rubber modulus, '1 MPa'."),
-    click.option("--E-inf", "glass_modulus", metavar="E", help="Glass modulus, such as '10 MPa'."),
-    click.option("--tau", metavar="TIME", help="Retardation time, such as '1 ms'."),
-    click.option("--poisson-ratio", type=float, metavar="ν", help="Poisson's ratio with --E0 [default: 0.5]."),
-    click.option("--layer", metavar="H", help="Thickness of the rubber on a rigid base [default: a half-space]."),
-    click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of sticking to it."),
+    click.option("--indenter-modulus", metavar="E", help="Of an elastic indenter, such as '200 GPa' [default: rigid]."),
+    click.option("--indenter-poisson-ratio", type=float, metavar="ν", help="Of an elastic indenter [default: 0.3]."),
+    click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Relative error of the friction."),
+    click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda."),
 )
-_INDENTER = (
-    click.option("--ball", metavar="RADIUS", help="A ball, such as '9.525 mm'."),
-    click.option("--cylinder", metavar="RADIUS", help="A long cylinder across the motion; its load is per length."),
-    click.option(
-        "--ellipsoid",
-        metavar="RX,RY",
-        help="Radii of curvature along its x, the way of the motion by default, and its y.",
-    ),
-    click.option("--cone", metavar="ANGLE", help="A cone; angle between flank and surface, such as '5 deg'."),
-    click.option("--punch", metavar="RADIUS", help="A flat circular punch with a sharp edge."),
-    click.option(
-        "--height-map",
-        type=_FILE,
-        help="A table of heights (text or .npy); a line is one position along the motion. Needs --spacing.",
-    ),
-    click.option("--profile", type=_FILE, help="One column of heights along the motion: a line contact."),
-    click.option("--spacing", metavar="LENGTH", help="Of the heights: '5 um', or '5 um,10 um' along and across."),
-    click.option("--height-unit", metavar="UNIT", help="Of the heights in the file [default: m]."),
-)
-#: Options, one of which says what shape it is.
-SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
 
 
 def contact_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of rubber and indenter."""
-    for option in reversed(_MATERIAL + _INDENTER):
-        function = option(function)
+    """Add the options of a contact."""
+    for one in reversed(_OPTIONS):
+        function = one(function)
     return function
 
 
-def indenter_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of the indenter alone."""
-    for option in reversed(_INDENTER):
-        function = option(function)
-    return function
+def inputs_of(asked: dict[str, Any]) -> list[Path]:
+    """Return the files that rubber and indenter are read from."""
+    rubber = [] if asked["material"] is None else [Path(asked["material"])]
+    shapes = [path for path in (asked["height_map"], asked["profile"]) if path is not None]
+    return [path for path in (*rubber, *asked["dma"], *shapes) if path.is_file()]
 
 
-def option(name: str) -> str:
-    """Return an option as it is typed."""
-    return "--" + {"rubber_modulus": "E0", "glass_modulus": "E-inf"}.get(name, name.replace("_", "-"))
-
-
-class NamedRubber(NamedTuple):
-    """A rubber, what it is called, and what was assumed in reading it."""
-
-    material: Material
-    name: str
-    synthetic: bool
-
-
-def chosen_rubber(asked: dict[str, Any]) -> NamedRubber:
-    """Return the rubber that the options name.
+def contact_settings(asked: dict[str, Any]) -> dict[str, Any]:
+    """Return the settings of `solve_steady` that the options ask for.
 
     Raises
     ------
     click.UsageError
-        If they name none, or more than one.
+        If something is given that goes with something else, or the direction is none.
     InputError
-        If it cannot be used.
+        If a quantity has no unit.
     """
-    single = [name for name in ("rubber_modulus", "glass_modulus", "tau") if asked[name] is not None]
-    if asked["material"] is not None:
-        if single or asked["poisson_ratio"] is not None:
-            other = option(single[0] if single else "poisson_ratio")
-            raise click.UsageError(f"--material and {other} are both given; the rubber comes from one of them.")
-        return _named(str(asked["material"]))
-    if len(single) < 3:
-        raise click.UsageError("nothing says what the rubber is; give --material, or --E0, --E-inf and --tau.")
-    from viscofric.rheology.material import Material
-
-    ratio = 0.5 if asked["poisson_ratio"] is None else asked["poisson_ratio"]
-    material = Material.standard_linear_solid(asked["rubber_modulus"], asked["glass_modulus"], asked["tau"], ratio)
-    return NamedRubber(material, material.name, False)
-
-
-def _named(name: str) -> NamedRubber:
-    if Path(name).suffix.lower() == ".toml":
-        from viscofric.study.rubber import make_rubber
-        from viscofric.study.run_file import load_study
-
-        study = load_study(name)
-        rubber = make_rubber(study.material)
-        for note in rubber.notes:
-            click.echo(f"Note: {note}", err=True)
-        synthetic = rubber.synthetic or study.data_origin == "synthetic"
-        return NamedRubber(rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic)
-    from viscofric.cli.material.rubbers import find_rubber
-    from viscofric.rheology import catalogue
-
-    material = find_rubber(name)
-    synthetic = any(entry.kind == "SYNTHETIC" and entry.make().name == material.name for entry in catalogue())
-    return NamedRubber(material, material.name or f"the rubber of {Path(name).name}", synthetic)
-
-
-def chosen_layer(asked: dict[str, Any]) -> Layer | None:
-    """Return the layer that the options ask for; none for a half-space.
-
-    Raises
-    ------
-    click.UsageError
-        If there is a base without a layer.
-    InputError
-        If the thickness is not a length above zero.
-    """
-    if asked["layer"] is None:
-        if asked["sliding_base"]:
-            raise click.UsageError("--sliding-base is for --layer only; a half-space has no base.")
-        return None
-    from viscofric.contact.layers import Layer
-
-    return Layer(asked["layer"], not asked["sliding_base"])
+    if asked["indenter_poisson_ratio"] is not None and asked["indenter_modulus"] is None:
+        raise click.UsageError("--indenter-poisson-ratio is for --indenter-modulus only; a rigid indenter has none.")
+    ratio = asked["indenter_poisson_ratio"]
+    return {
+        "direction": chosen_direction(asked["direction"]),
+        "indenter_modulus": asked["indenter_modulus"],
+        "indenter_poisson_ratio": 0.3 if ratio is None else float(ratio),
+        "accuracy": asked["accuracy"],
+        "backend": asked["backend"],
+    }
 
 
 def chosen_direction(text: str) -> tuple[float, float]:
@@ -165,87 +83,3 @@ def chosen_direction(text: str) -> tuple[float, float]:
     angle = to_si(text, "rad", "direction")
     # So that a right angle is one, and 180° is motion along x.
     return round(math.cos(angle), 15), round(math.sin(angle), 15)
-
-
-class NamedIndenter(NamedTuple):
-    """An indenter, and what it is in words and in plain types."""
-
-    indenter: Indenter
-    words: str
-    record: dict[str, Any]
-
-
-def chosen_indenter(asked: dict[str, Any]) -> NamedIndenter:
-    """Return the indenter that the options name.
-
-    Raises
-    ------
-    click.UsageError
-        If they name none, or more than one.
-    InputError
-        If it cannot be used.
-    """
-    given = [name for name in SHAPES if asked[name] is not None]
-    if len(given) != 1:
-        if not given:
-            raise click.UsageError(f"nothing says what the indenter is; give {', '.join(map(option, SHAPES))}.")
-        raise click.UsageError(f"{' and '.join(map(option, given))} are both given; there is one indenter.")
-    (shape,) = given
-    if shape in ("height_map", "profile"):
-        return _mapped(shape, asked)
-    for name in ("spacing", "height_unit"):
-        if asked[name] is not None:
-            raise click.UsageError(f"{option(name)} is for --height-map and --profile only.")
-    return _simple(shape, asked[shape])
-
-
-def _simple(shape: str, text: str) -> NamedIndenter:
-    from viscofric.contact.indenters.indenter import Ball, Cylinder
-    from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
-    from viscofric.report.numbers import length
-
-    if shape == "ellipsoid":
-        parts = text.split(",")
-        if len(parts) != 2:
-            raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along x and y: '10 mm,40 mm'.")
-        ellipsoid = Ellipsoid(*(part.strip() for part in parts))
-        x, y = float(ellipsoid.radius_x), float(ellipsoid.radius_y)
-        words = f"Ellipsoid, radii {length(x)} along x and {length(y)} along y"
-        return NamedIndenter(ellipsoid, words, {"shape": shape, "radius_x": x, "radius_y": y})
-    if shape == "cone":
-        cone = Cone(text)
-        angle = float(cone.angle)
-        return NamedIndenter(cone, f"Cone with flanks of {math.degrees(angle):.4g}°", {"shape": shape, "angle": angle})
-    kinds: dict[str, tuple[Any, str]] = {
-        "ball": (Ball, "Ball"),
-        "cylinder": (Cylinder, "Cylinder"),
-        "punch": (FlatPunch, "Flat punch"),
-    }
-    kind, noun = kinds[shape]
-    round_one = kind(text)
-    radius = float(round_one.radius)
-    return NamedIndenter(round_one, f"{noun} of radius {length(radius)}", {"shape": shape, "radius": radius})
-
-
-def _mapped(shape: str, asked: dict[str, Any]) -> NamedIndenter:
-    from viscofric.contact.indenters.height_map import HeightMap, Profile
-    from viscofric.errors import InputError
-    from viscofric.readers.height_table import read_heights
-
-    path: Path = asked[shape]
-    if asked["spacing"] is None:
-        raise click.UsageError(f"{option(shape)} needs --spacing, the distance of its heights, such as '5 um'.")
-    heights = read_heights(path, asked["height_unit"] or "m")
-    steps = tuple(part.strip() for part in asked["spacing"].split(","))
-    if shape == "profile" and (min(heights.shape) > 1 or len(steps) > 1):
-        raise click.UsageError(f"--profile is one column of heights with one spacing; {path} holds a map.")
-    try:
-        one = steps if len(steps) > 1 else steps[0]
-        made = Profile(heights.ravel(), steps[0]) if shape == "profile" else HeightMap(heights, one)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-    points = [heights.size] if shape == "profile" else list(heights.shape)
-    spacing = [float(step) for step in np.atleast_1d(made.spacing)]
-    noun = "Profile" if shape == "profile" else "Height map"
-    words = f"{noun} of {path.name}, {' × '.join(map(str, points))} points"
-    return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import json
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.anchor_options import anchor_options, check_anchor, make_anchor
-from viscofric.cli.contact_options import chosen_indenter, indenter_options
+from viscofric.cli.contact_bar import contact_bar
 from viscofric.cli.errors import tell_notes, told
 from viscofric.cli.files import JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
+from viscofric.cli.indenter_options import chosen_indenter, indenter_options
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from viscofric.friction.identification.result import IdentifiedMaterial
     from viscofric.rheology.material import Material
 
@@ -96,8 +94,12 @@ def command(
         if asked["shift"] is not None:
             options["shift"], _ = shifts(asked["shift"])
         curves = friction_curves(sources, settings)
-        with _progress(quiet=as_json) as progress:
-            found = identify_material(curves, indenter=shape.indenter, progress=progress, **options)
+        with contact_bar("Shift factors", quiet=as_json) as bar:
+
+            def tell(step: int, done: int, total: int) -> None:
+                bar(done, total, f"Step {step}: contacts of a rubber")
+
+            found = identify_material(curves, indenter=shape.indenter, progress=tell, **options)
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
             inputs |= chosen(asked) | settings
@@ -132,23 +134,6 @@ def _prior(asked: dict[str, Any]) -> dict[str, Any]:
             raise click.BadParameter("give two frequencies: '0.1 Hz,10 Hz'.", param_hint="--prior-band")
         prior["prior_band"] = tuple(angular_frequency(end.strip(), "--prior-band") for end in ends)
     return prior
-
-
-@contextmanager
-def _progress(quiet: bool) -> Iterator[Callable[[int, int, int], None] | None]:
-    """Show on a terminal which contacts are solved; say nothing elsewhere."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(bar_width=24), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
-        task = bars.add_task("Shift factors", total=None)
-
-        def tell(step: int, done: int, total: int) -> None:
-            bars.update(task, description=f"Step {step}: contacts of a rubber", completed=done, total=total)
-
-        yield tell
 
 
 def _tell(found: IdentifiedMaterial) -> None:

@@ -21,6 +21,7 @@ GROUPS = {
     },
     "Contact": {
         "solve": "Solve one contact: friction, pressure, a picture.",
+        "curve": "Predict friction against speed at some temperatures.",
     },
     "Friction": {
         "measure": "Separate viscoelastic friction in tribometer files.",

@@ -11,37 +11,22 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.contact_options import (
-    chosen_direction,
-    chosen_indenter,
-    chosen_layer,
-    chosen_rubber,
-    contact_options,
-)
+from viscofric.cli.contact_options import contact_options, contact_settings, inputs_of
 from viscofric.cli.errors import told
 from viscofric.cli.files import PICTURES, check_ending, refuse_to_overwrite
+from viscofric.cli.indenter_options import chosen_indenter, indenter_options
+from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
-    from viscofric.cli.contact_options import NamedIndenter, NamedRubber
-    from viscofric.contact.layers import Layer
+    from viscofric.cli.indenter_options import NamedIndenter
+    from viscofric.cli.rubber_options import NamedRubber
     from viscofric.contact.solution import ContactSolution
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _FIELDS = (".nc", ".csv")
 _INFINITE = ("inf", "infinite", "infinity", "∞")
 #: Options that are settings of `solve_steady` as they stand.
-_SETTINGS = (
-    "load",
-    "indentation",
-    "temperature",
-    "indenter_modulus",
-    "accuracy",
-    "tolerance",
-    "finest",
-    "grid",
-    "backend",
-    "derivatives",
-)
+_SETTINGS = ("load", "indentation", "temperature", "tolerance", "finest", "grid", "derivatives")
 
 _EXAMPLE = """\b
 Such as
@@ -51,23 +36,15 @@ Such as
 
 
 @click.command(name="solve", epilog=_EXAMPLE)
-@contact_options
+@rubber_options
+@indenter_options
 @click.option("--speed", required=True, metavar="V", help="Such as '100 mm/s'; '0 m/s' and 'infinite' are elastic.")
-@click.option(
-    "--direction",
-    metavar="ANGLE|DX,DY",
-    default="1,0",
-    show_default=True,
-    help="Of the motion over the indenter's own axes: from its x towards its y, such as '30 deg' or '0,1'.",
-)
 @click.option(
     "--load", metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.  It or --indentation."
 )
 @click.option("--indentation", metavar="DEPTH", help="Instead of the load: depth of the lowest point.")
 @click.option("--temperature", metavar="T", help="Such as '60 degC' [default: the rubber's reference].")
-@click.option("--indenter-modulus", metavar="E", help="Of an elastic indenter, such as '200 GPa' [default: rigid].")
-@click.option("--indenter-poisson-ratio", type=float, metavar="ν", help="Of an elastic indenter [default: 0.3].")
-@click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Relative error of the friction.")
+@contact_options
 @click.option("--tolerance", type=float, default=1e-8, show_default=True, help="Gap left, over the indentation.")
 @click.option("--finest", type=int, help="Most cells along the window's longer edge.")
 @click.option(
@@ -76,7 +53,6 @@ Such as
 @click.option(
     "--window", metavar="REAR,FRONT,SIDE", help="Of the cells, from the axis: '3 mm,3 mm,3 mm' [default: found]."
 )
-@click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda.")
 @click.option("--derivatives", is_flag=True, help="How the friction changes with speed, load and each mode.")
 @click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
 @click.option("--picture", type=_FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
@@ -88,29 +64,23 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(output, "--output", _FIELDS)
-    read = [path for path in (asked["height_map"], asked["profile"]) if path is not None]
-    if asked["material"] is not None and Path(asked["material"]).is_file():
-        read.append(Path(asked["material"]))
     for target in (picture, output):
         if target is not None:
-            refuse_to_overwrite(target, read)
+            refuse_to_overwrite(target, inputs_of(asked))
     if (asked["load"] is None) == (asked["indentation"] is None):
         raise click.UsageError("give either --load or --indentation, one of them.")
-    if asked["indenter_poisson_ratio"] is not None and asked["indenter_modulus"] is None:
-        raise click.UsageError("--indenter-poisson-ratio is for --indenter-modulus only; a rigid indenter has none.")
     with told():
         from viscofric.contact.steady import solve_steady
 
         rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
-        settings = {name: asked[name] for name in _SETTINGS}
-        settings |= {"layer": chosen_layer(asked), "direction": chosen_direction(asked["direction"])}
-        settings["indenter_poisson_ratio"] = _poisson_ratio(asked)
+        settings = {name: asked[name] for name in _SETTINGS} | contact_settings(asked)
+        settings["layer"] = chosen_layer(asked)
         settings["window"] = asked["window"] and [length.strip() for length in asked["window"].split(",")]
         began = time.perf_counter()
         solution = solve_steady(rubber.material, shape.indenter, speed=_speed(asked["speed"]), **settings)
         seconds = time.perf_counter() - began
         solution = replace(solution, warnings=(*solution.warnings, *_beyond_known(rubber, solution)))
-        name = _named(rubber, shape, settings["layer"])
+        name = in_contact(shape.words, rubber, settings["layer"])
         if as_json:
             from viscofric.report.contact_summary import contact_record
 
@@ -120,11 +90,6 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
             _tell(name, rubber, solution, seconds)
         for written in _write(name, rubber, shape, solution, picture, output):
             click.echo(written, err=as_json)
-
-
-def _poisson_ratio(asked: dict[str, Any]) -> float:
-    """Of the indenter."""
-    return 0.3 if asked["indenter_poisson_ratio"] is None else float(asked["indenter_poisson_ratio"])
 
 
 def _speed(text: str) -> float | str:
@@ -159,22 +124,12 @@ def _inputs(
     """Return what was asked for, in SI units; an infinite speed is the word."""
     from viscofric.units import to_si
 
-    spectrum = rubber.material.modes_at(solution.temperature)
     modulus, layer = asked["indenter_modulus"], chosen_layer(asked)
     elastic = None
     if modulus is not None:
-        elastic = {"modulus": to_si(modulus, "Pa"), "poisson_ratio": _poisson_ratio(asked)}
+        elastic = {"modulus": to_si(modulus, "Pa"), "poisson_ratio": contact_settings(asked)["indenter_poisson_ratio"]}
     return {
-        "material": {
-            "name": rubber.name,
-            "synthetic": rubber.synthetic,
-            "poisson_ratio": rubber.material.poisson_ratio,
-            "modes": len(spectrum),
-            "E0": spectrum.E0,
-            "E_inf": spectrum.E_inf,
-            "C": [float(one) for one in spectrum.C],
-            "tau": [float(one) for one in spectrum.tau],
-        },
+        "material": rubber.record(solution.temperature),
         "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
         "indenter": shape.record | {"elastic": elastic},
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
@@ -191,16 +146,6 @@ def _inputs(
         "backend": asked["backend"],
         "derivatives": asked["derivatives"],
     }
-
-
-def _named(rubber: NamedRubber, shape: NamedIndenter, layer: Layer | None) -> str:
-    """Return what is in contact, in words."""
-    if layer is None:
-        return f"{shape.words} on {rubber.name}"
-    from viscofric.report.numbers import length
-
-    base = "bonded" if layer.bonded else "sliding on its base"
-    return f"{shape.words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
 
 
 def _tell(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:

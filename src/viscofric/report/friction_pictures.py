@@ -66,6 +66,17 @@ def draw_friction(path: Path, curves: FrictionCurves, *, synthetic: bool = False
     save_picture(path, lambda: friction_figure(curves), name="friction", synthetic=synthetic)
 
 
+def draw_predicted(path: Path, curves: FrictionCurves, *, synthetic: bool = False) -> None:
+    """Draw predicted friction against speed into a file, with its bands where it has any; see `draw_friction`."""
+
+    def figure() -> Figure:
+        whole = new_figure(_WIDTH, _HEIGHT)
+        plot_friction_curves(whole.subplots(), curves)
+        return whole
+
+    save_picture(path, figure, name="friction", synthetic=synthetic)
+
+
 def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None) -> Figure:
     """Return a figure of a friction master curve, and of its shift factors below it where they were found from it.
 

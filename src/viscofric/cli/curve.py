@@ -1,0 +1,224 @@
+"""``viscofric curve``: predicted friction against speed, at one or several temperatures."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.contact_bar import contact_bar
+from viscofric.cli.contact_options import contact_options, contact_settings, inputs_of
+from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.files import CSV, DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, to_be_written
+from viscofric.cli.indenter_options import chosen_indenter, indenter_options
+from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+
+if TYPE_CHECKING:
+    from viscofric.cli.rubber_options import NamedRubber
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+
+_MOST_POINTS = 10_000
+_ROOM = "20 degC"
+_EXAMPLE = """\b
+Such as
+  viscofric curve --material "synthetic fluoroelastomer" --ball "9.525 mm" --load "25 N" \\
+      --speed "20 mm/s to 200 mm/s" --points 5 --temperature "30 degC, 60 degC"
+"""
+
+
+@click.command(name="curve", epilog=_EXAMPLE)
+@rubber_options
+@indenter_options
+@click.option(
+    "--speed",
+    "speeds",
+    required=True,
+    multiple=True,
+    metavar="V",
+    help="One, several ('20 mm/s, 50 mm/s'), or a range: '1 mm/s to 1 m/s'.",
+)
+@click.option(
+    "--points",
+    type=click.IntRange(2, _MOST_POINTS),
+    default=13,
+    show_default=True,
+    help="Speeds of a range, evenly spread in log v.",
+)
+@click.option(
+    "--temperature",
+    "temperatures",
+    multiple=True,
+    metavar="T",
+    help="One or several, such as '30 degC, 60 degC' [default: the rubber's reference].",
+)
+@click.option("--load", required=True, metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.")
+@contact_options
+@click.option(
+    "--samples",
+    type=click.IntRange(0, 10_000),
+    default=0,
+    show_default=True,
+    help="Draws of a rubber made of sweeps, for the 95 % band of its friction, 20 or more; 0 for none.",
+)
+@click.option("--workers", type=int, default=1, show_default=True, help="Processes that share the contacts.")
+@click.option("--out", type=OUT, help="Write the friction curves (CSV); `-` prints them instead of the table.")
+@click.option(
+    "--picture", type=click.Path(path_type=Path, dir_okay=False), help="Draw friction against speed (PNG, SVG or PDF)."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
+def command(
+    speeds: tuple[str, ...],
+    points: int,
+    temperatures: tuple[str, ...],
+    out: Path | None,
+    picture: Path | None,
+    as_json: bool,
+    **asked: Any,
+) -> None:
+    """Predict viscoelastic friction against speed, at one or several temperatures.
+
+    Quantities carry their unit.  Each contact is solved to the accuracy asked for.
+    """
+    check_ending(picture, "--picture", PICTURES)
+    check_ending(out, "--out", CSV)
+    for target in (out, picture):
+        if target is not None:
+            refuse_to_overwrite(target, inputs_of(asked))
+    with told():
+        from viscofric.friction.prediction import predict_friction
+
+        velocities = [speed for text in speeds for speed in _speeds(text, points)]
+        rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
+        kelvins = _kelvins(rubber.material, temperatures)
+        settings = contact_settings(asked) | {"layer": chosen_layer(asked)}
+        samples = _samples(rubber, asked["samples"])
+        name = in_contact(shape.words, rubber, settings["layer"])
+        with contact_bar("Contacts", quiet=as_json) as bar:
+            curves = predict_friction(
+                _at_one_temperature(rubber.material, kelvins),
+                shape.indenter,
+                speeds=velocities,
+                temperatures=kelvins,
+                load=asked["load"],
+                samples=samples,
+                workers=asked["workers"],
+                progress=bar,
+                **settings,
+            )
+        if as_json:
+            click.echo(json.dumps(_record(curves, rubber, shape.record, asked), indent=2, ensure_ascii=False))
+        elif out != DASH:
+            _tell(name, rubber, curves)
+        tell_notes(curves.notes)
+        for written in _write(curves, out, picture, rubber.synthetic):
+            click.echo(written, err=as_json or out == DASH)
+
+
+def _speeds(text: str, points: int) -> list[float]:
+    """Return the speeds (m/s) that a list or a range names."""
+    import numpy as np
+
+    from viscofric.units import positive
+
+    ends = [end.strip() for end in text.split(" to ")]
+    if len(ends) == 1:
+        return [positive(one.strip(), "m/s", "--speed") for one in text.split(",")]
+    if len(ends) > 2:
+        raise click.BadParameter(f"{text!r}: a range has two ends: '1 mm/s to 1 m/s'.", param_hint="--speed")
+    first, last = (positive(end, "m/s", "--speed") for end in ends)
+    return [float(speed) for speed in np.geomspace(first, last, points)]
+
+
+def _kelvins(material: Material, texts: tuple[str, ...]) -> list[float]:
+    """Return the temperatures asked for, K; of a rubber at one temperature only, the one it is said to have."""
+    from viscofric.units import positive
+
+    given = [positive(one.strip(), "K", "--temperature") for text in texts for one in text.split(",")]
+    if material.reference is None:
+        if len(given) > 1:
+            raise click.UsageError(
+                "this rubber has no shift factors, so that it serves at one temperature; give one --temperature."
+            )
+        return given or [positive(_ROOM, "K", "--temperature")]
+    return given or [material.reference]
+
+
+def _at_one_temperature(material: Material, kelvins: list[float]) -> Material:
+    """Return a rubber without shift factors as one at the temperature that it is said to have.
+
+    Any law does, as it is asked for nothing but its reference, where it is one.
+    """
+    if material.shift is not None:
+        return material
+    from viscofric.rheology.shifts.laws import Arrhenius
+
+    return replace(material, shift=Arrhenius(activation_energy=1.0, reference=kelvins[0]))
+
+
+def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
+    """Draw the rubber as other sweeps of it might have given it."""
+    if count == 0:
+        return None
+    from viscofric.study.bands import draw_rubber
+
+    drawn = None if rubber.made is None else draw_rubber(rubber.made, count)
+    if drawn is None:
+        raise click.UsageError("--samples is for a rubber made of sweeps (--dma, or a run file): they tell its errors.")
+    tell_notes(drawn.notes)
+    return drawn
+
+
+def _record(
+    curves: FrictionCurves, rubber: NamedRubber, indenter: dict[str, Any], asked: dict[str, Any]
+) -> dict[str, Any]:
+    from viscofric.report.friction_summary import friction_record
+
+    names = ("layer", "sliding_base", *contact_settings(asked), "load", "samples", "workers")
+    told = {"material": rubber.record(None), "indenter": indenter} | {name: asked[name] for name in names}
+    return friction_record(curves, told)
+
+
+def _tell(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
+    """Print a table of friction: a line for each speed, a column for each temperature."""
+    from viscofric.report.numbers import percent, significant
+    from viscofric.report.table import aligned
+    from viscofric.units import celsius
+
+    synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
+    click.echo(f"{name}{synthetic}, {significant(float(curves.load[0]), 4)} {curves.load_unit}\n")
+    kelvins = list(dict.fromkeys(curves.temperature.tolist()))
+    count = len(curves) // len(kelvins)
+    columns = [["speed (mm/s)", *(significant(1e3 * speed, 4) for speed in curves.speed[:count].tolist())]]
+    for number, kelvin in enumerate(kelvins):
+        rows = slice(number * count, (number + 1) * count)
+        heading = f"μ at {celsius(kelvin):z.4g} °C".replace("-", "−")
+        columns.append([heading, *(significant(value, 4) for value in curves.viscoelastic[rows].tolist())])
+        if curves.viscoelastic_lower is not None and curves.viscoelastic_upper is not None:
+            ends = zip(curves.viscoelastic_lower[rows].tolist(), curves.viscoelastic_upper[rows].tolist(), strict=True)
+            columns.append(["95 % band", *(f"{significant(low, 4)} to {significant(high, 4)}" for low, high in ends)])
+    for line in aligned(zip(*columns, strict=True)):
+        click.echo(line)
+    worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
+    click.echo(f"\nnumerical error  {percent(worst)} at most")
+
+
+def _write(curves: FrictionCurves, out: Path | None, picture: Path | None, synthetic: bool) -> list[str]:
+    """Write the files that were asked for, and return what to say of them."""
+    said = []
+    if out is not None:
+        from viscofric.friction.curve_files import write_friction_curves
+
+        with to_be_written(out) as path:
+            write_friction_curves(curves, path)
+        said += [] if out == DASH else [f"curves   {out}"]
+    if picture is not None:
+        from viscofric.report.friction_pictures import draw_predicted
+
+        draw_predicted(picture, curves, synthetic=synthetic)
+        said.append(f"picture  {picture}")
+    return said

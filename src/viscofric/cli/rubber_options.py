@@ -1,0 +1,185 @@
+"""Options that say what the rubber is and how thick, as text of the command line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+
+from viscofric.cli.errors import tell_notes
+from viscofric.cli.files import DASH, Source, plainly
+from viscofric.cli.indenter_options import option
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.contact.layers import Layer
+    from viscofric.rheology.material import Material
+    from viscofric.study.rubber import Rubber
+
+
+def _piped(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Let `-` stand for a rubber's file on standard input."""
+    return str(Source().convert(value, param, ctx)) if value == str(DASH) else value
+
+
+_MATERIAL = (
+    click.option(
+        "--material",
+        metavar="NAME|FILE",
+        callback=_piped,
+        help="Name of the catalogue, a rubber's file (JSON or a card; `-`: piped), or a run file for its [material].",
+    ),
+    click.option(
+        "--dma",
+        multiple=True,
+        type=Source(),
+        metavar="FILE",
+        help="Instead: sweeps that a rubber is made of; several files, each with --dma, make one set.",
+    ),
+    click.option("--reference", metavar="T", help="With --dma: of the master curve, within the sweeps, '30 degC'."),
+    click.option(
+        "--deformation",
+        type=click.Choice(["tension", "shear"]),
+        help="With --dma: how moduli were measured, where no file says it.",
+    ),
+    click.option("--synthetic", is_flag=True, help="With --dma: the data were made, not measured."),
+    click.option("--E0", "rubber_modulus", metavar="E", help="Instead: one retardation time; rubber modulus, '1 MPa'."),
+    click.option("--E-inf", "glass_modulus", metavar="E", help="Glass modulus, such as '10 MPa'."),
+    click.option("--tau", metavar="TIME", help="Retardation time, such as '1 ms'."),
+    click.option("--poisson-ratio", type=float, metavar="ν", help="Poisson's ratio with --E0 or --dma [default: 0.5]."),
+    click.option("--layer", metavar="H", help="Thickness of the rubber on a rigid base [default: a half-space]."),
+    click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of sticking to it."),
+)
+
+
+_SINGLE = ("rubber_modulus", "glass_modulus", "tau")
+
+
+def rubber_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of the rubber."""
+    for one in reversed(_MATERIAL):
+        function = one(function)
+    return function
+
+
+class NamedRubber(NamedTuple):
+    """A rubber, what it is called, whether it is made up, and what it was made of, where that is known."""
+
+    material: Material
+    name: str
+    synthetic: bool
+    made: Rubber | None = None
+
+    def record(self, temperature: float | None) -> dict[str, Any]:
+        """Return it in plain types, with its modes at a temperature (K)."""
+        spectrum = self.material.modes_at(temperature)
+        return {
+            "name": self.name,
+            "synthetic": self.synthetic,
+            "poisson_ratio": self.material.poisson_ratio,
+            "modes": len(spectrum),
+            "E0": spectrum.E0,
+            "E_inf": spectrum.E_inf,
+            "C": [float(one) for one in spectrum.C],
+            "tau": [float(one) for one in spectrum.tau],
+        }
+
+
+def chosen_rubber(asked: dict[str, Any]) -> NamedRubber:
+    """Return the rubber that the options name.
+
+    Raises
+    ------
+    click.UsageError
+        If they name none, or more than one.
+    ViscofricError
+        If it cannot be used.
+    """
+    single = [name for name in _SINGLE if asked[name] is not None]
+    given = [name for name in ("material", "dma") if asked[name]] + single[:1]
+    if len(given) > 1:
+        raise click.UsageError(
+            f"{option(given[0])} and {option(given[1])} are both given; the rubber comes from one of them."
+        )
+    if given == ["material"] and asked["poisson_ratio"] is not None:
+        raise click.UsageError("--material and --poisson-ratio are both given; the rubber comes from one of them.")
+    for name in ("reference", "deformation", "synthetic"):
+        if asked[name] and given != ["dma"]:
+            raise click.UsageError(f"{option(name)} is for --dma only.")
+    if given == ["material"]:
+        return _named(str(asked["material"]))
+    if given == ["dma"]:
+        return _of_sweeps(asked)
+    if len(single) < len(_SINGLE):
+        raise click.UsageError("nothing says what the rubber is; give --material, --dma, or --E0, --E-inf and --tau.")
+    from viscofric.rheology.material import Material
+
+    ratio = 0.5 if asked["poisson_ratio"] is None else asked["poisson_ratio"]
+    material = Material.standard_linear_solid(asked["rubber_modulus"], asked["glass_modulus"], asked["tau"], ratio)
+    return NamedRubber(material, material.name, False)
+
+
+def _of_sweeps(asked: dict[str, Any]) -> NamedRubber:
+    from viscofric.study.rubber import make_rubber
+    from viscofric.study.run_file import material_of
+
+    if asked["reference"] is None:
+        raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
+    wanted = {"dma": [str(path) for path in asked["dma"]], "reference_temperature": asked["reference"]}
+    wanted |= {name: asked[name] for name in ("deformation", "poisson_ratio") if asked[name] is not None}
+    made = make_rubber(material_of(wanted))
+    tell_notes(made.notes)
+    first, *more = asked["dma"]
+    name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")
+    return NamedRubber(made.material, name, asked["synthetic"], made)
+
+
+def _named(name: str) -> NamedRubber:
+    if Path(name).suffix.lower() == ".toml":
+        from viscofric.study.rubber import make_rubber
+        from viscofric.study.run_file import load_study
+
+        study = load_study(name)
+        rubber = make_rubber(study.material)
+        tell_notes(rubber.notes)
+        synthetic = rubber.synthetic or study.data_origin == "synthetic"
+        return NamedRubber(
+            rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic, rubber
+        )
+    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.rheology import catalogue
+
+    material = find_rubber(name)
+    synthetic = any(entry.kind == "SYNTHETIC" and entry.make().name == material.name for entry in catalogue())
+    return NamedRubber(material, material.name or f"the rubber of {Path(name).name}", synthetic)
+
+
+def chosen_layer(asked: dict[str, Any]) -> Layer | None:
+    """Return the layer that the options ask for; none for a half-space.
+
+    Raises
+    ------
+    click.UsageError
+        If there is a base without a layer.
+    InputError
+        If the thickness is not a length above zero.
+    """
+    if asked["layer"] is None:
+        if asked["sliding_base"]:
+            raise click.UsageError("--sliding-base is for --layer only; a half-space has no base.")
+        return None
+    from viscofric.contact.layers import Layer
+
+    return Layer(asked["layer"], not asked["sliding_base"])
+
+
+def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
+    """Return what is in contact, in words: those of the indenter, the rubber, and how thick it is."""
+    if layer is None:
+        return f"{words} on {rubber.name}"
+    from viscofric.report.numbers import length
+
+    base = "bonded" if layer.bonded else "sliding on its base"
+    return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"

@@ -1,0 +1,110 @@
+"""``viscofric curve``: what Python predicts, as a table, CSV, JSON and a picture, and how it fails."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+import viscofric as vf
+from viscofric.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+DMA = str(files("viscofric") / "example" / "dma.csv")
+RUBBER = ("--material", "synthetic fluoroelastomer")
+SINGLE = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
+BALL = ("--ball", "9.525 mm", "--load", "25 N", "--accuracy", "0.02")
+
+
+def call(*words: object) -> Result:
+    return CliRunner().invoke(main, ["curve", *map(str, words)])
+
+
+def test_table_file_and_json_hold_what_python_predicts(tmp_path: Path) -> None:
+    words = (*RUBBER, *BALL, "--speed", "20 mm/s to 200 mm/s", "--points", 3, "--temperature", "60 degC, 90 degC")
+    expected = vf.predict_friction(
+        vf.synthetic_fluoroelastomer(),
+        vf.Ball("9.525 mm"),
+        speeds=np.geomspace(0.02, 0.2, 3),
+        temperatures=["60 degC", "90 degC"],
+        load="25 N",
+        accuracy=0.02,
+    )
+    done = call(*words, "--out", tmp_path / "curves.csv", "--picture", tmp_path / "curves.svg")
+    assert done.exit_code == 0, done.output
+    np.testing.assert_array_equal(vf.read_friction_curves(tmp_path / "curves.csv").viscoelastic, expected.viscoelastic)
+    assert (tmp_path / "curves.svg").stat().st_size > 0
+    table = done.stdout.split("\n\n")[1].splitlines()
+    assert table[0].split() == ["speed", "(mm/s)", "μ", "at", "60", "°C", "μ", "at", "90", "°C"]
+    shown = np.array([[float(cell) for cell in row.split()] for row in table[1:]])
+    np.testing.assert_allclose(shown[:, 1:].T.ravel(), expected.viscoelastic, rtol=5e-4)  # four digits are shown
+    assert "SYNTHETIC" in done.stdout
+
+
+def test_json_tells_inputs_and_points() -> None:
+    words = (*SINGLE, "--cylinder", "10 mm", "--load", "100 N/m", "--speed", "1 m/s", "--accuracy", "0.02")
+    done = call(*words, "--temperature", "40 degC", "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert found["format"] == "viscofric friction curves 1"
+    assert found["units"]["load"] == "N/m"
+    (point,) = found["points"]
+    rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+    alone = vf.solve_steady(rubber, vf.Cylinder("10 mm"), speed="1 m/s", load="100 N/m", accuracy=0.02)
+    # A rubber without shift factors is at the temperature that it is said to be at.
+    assert point["viscoelastic"] == alone.friction_coefficient
+    assert point["temperature"] == pytest.approx(313.15)
+    assert found["inputs"]["material"]["E0"] == 1e6
+
+
+def test_a_rubber_of_sweeps_has_bands_about_its_friction() -> None:
+    words = ("--dma", DMA, "--reference", "30 degC", *BALL, "--speed", "100 mm/s", "--temperature", "60 degC")
+    done = call(*words, "--samples", 20, "--synthetic")
+    assert done.exit_code == 0, done.output
+    *_, friction, lower, _, upper = done.stdout.split("\n\n")[1].splitlines()[1].split()
+    assert float(lower) < float(friction) < float(upper)
+    known = vf.solve_steady(
+        vf.synthetic_fluoroelastomer(),
+        vf.Ball("9.525 mm"),
+        speed="100 mm/s",
+        load="25 N",
+        temperature="60 degC",
+        accuracy=0.02,
+    )
+    # 2 % of the contact, 1 % noise of the sweeps
+    assert float(friction) == pytest.approx(known.friction_coefficient, rel=0.03)
+
+
+def test_curves_go_into_a_pipe_without_the_table() -> None:
+    done = call(*SINGLE, "--ball", "10 mm", "--load", "1 N", "--speed", "1 m/s", "--accuracy", "0.1", "--out", "-")
+    assert done.exit_code == 0, done.output
+    assert done.stdout.startswith("# viscofric friction curves")
+    assert len(done.stdout.splitlines()) == 4
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        ([*BALL, "--speed", "1 m/s"], 2, "nothing says what the rubber is"),
+        ([*RUBBER, "--dma", DMA, *BALL, "--speed", "1 m/s"], 2, "the rubber comes from one of them"),
+        ([*RUBBER, "--reference", "20 degC", *BALL, "--speed", "1 m/s"], 2, "--reference is for --dma only"),
+        (["--dma", DMA, *BALL, "--speed", "1 m/s"], 2, "--dma needs --reference"),
+        ([*RUBBER, *BALL, "--speed", "1 m"], 1, "wrong kind of unit"),
+        ([*RUBBER, *BALL, "--speed", "0 m/s"], 1, "above zero"),
+        ([*RUBBER, *BALL, "--speed", "1 m/s to 2 m/s to 3 m/s"], 2, "a range has two ends"),
+        ([*RUBBER, *BALL, "--speed", "1 m/s", "--samples", "20"], 2, "made of sweeps"),
+        ([*SINGLE, *BALL, "--speed", "1 m/s", "--temperature", "20 degC, 30 degC"], 2, "one --temperature"),
+        ([*RUBBER, *BALL, "--speed", "1 m/s", "--out", "curves.txt"], 2, "must end in .csv"),
+    ],
+)
+def test_mistakes_are_one_sentence(words: list[str], status: int, told: str) -> None:
+    done = call(*words)
+    assert done.exit_code == status, done.output
+    assert told in " ".join(done.output.split())
+    assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
