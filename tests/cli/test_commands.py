@@ -35,7 +35,8 @@ temperature = "90 degC"
 [solver]
 accuracy = 1e-2
 master_curve_points = 2
-samples = 0
+[uncertainty]
+draws = 0
 """
 
 
@@ -201,13 +202,17 @@ def test_nothing_asked_is_answered_with_the_help() -> None:
 
 def test_template_names_every_key_of_a_run_file() -> None:
     from viscofric.study.run_file import TABLES, Study
+    from viscofric.study.run_file_errors import keys
 
     text = (EXAMPLE / "study.toml").read_text(encoding="utf-8")
-    behind_comments = "\n".join(line.removeprefix("# ") if " = " in line else line for line in text.splitlines())
+    commented = ("# [", *(f"# {key} = " for table in TABLES.values() for key in keys(table)))
+    behind_comments = "\n".join(
+        line.removeprefix("# ") if line.startswith(commented) else line for line in text.splitlines()
+    )
     written = tomllib.loads(behind_comments)
-    for key in Study.model_fields:
+    for key in keys(Study):
         assert key in written
-        for name in getattr(TABLES.get(key), "model_fields", {}):
+        for name in keys(TABLES[key]) if key in TABLES else ():
             assert name in written[key], f"[{key}] {name}"
 
 

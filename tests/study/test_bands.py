@@ -28,7 +28,8 @@ temperature = "60 degC"
 [solver]
 accuracy = 1e-2
 master_curve_points = 2
-samples = {samples}
+[uncertainty]
+draws = {samples}
 """
 SWEEPS = f'dma = "{DMA}"\ndeformation = "tension"\nreference_temperature = "30 degC"\npoisson_ratio = 0.45'
 
@@ -122,5 +123,5 @@ def test_friction_is_kept_where_only_its_band_fails(tmp_path: Path, monkeypatch:
 
 
 def test_too_few_samples_are_told(tmp_path: Path) -> None:
-    with pytest.raises(vf.StudyError, match=r"solver.samples: 5 is too few; give 20 or more, or 0 for no bands"):
+    with pytest.raises(vf.StudyError, match=r"uncertainty.draws: 5 is too few; give 20 or more, or 0 for no bands"):
         load_study(write(tmp_path, samples=5))

@@ -31,7 +31,8 @@ speed = {{ from = "{slowest}", to = "{fastest}", points = {points} }}
 temperature = ["0 degC", "30 degC", "60 degC"]
 [solver]
 master_curve_points = 5
-samples = 0
+[uncertainty]
+draws = 0
 """
 
 
@@ -238,7 +239,7 @@ def _small_study(folder: Path, **changes: str) -> Path:
         "temperature": 'temperature = "90 degC"',
         "accuracy": "[solver]\naccuracy = 1e-2",
         "master_curve_points": "master_curve_points = 2",
-        "samples": "samples = 0",
+        "draws": "[uncertainty]\ndraws = 0",
     }
     path = folder / "study.toml"
     path.write_text("\n".join(["[material]", *{**lines, **changes}.values()]), encoding="utf-8")

@@ -72,6 +72,8 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
     path = Path(path)
     text = read_study_text(path)
     study = parse_study(text, path)
+    _refuse_what_is_not_solved_yet(study, path)
+    (radius,), (load,) = study.indenter.axes["radius"], study.conditions.load
     folder = path.with_suffix(".results") if output is None else Path(output)
 
     hashes = input_hashes(study.inputs)
@@ -82,16 +84,16 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
         progress("measurement", 1, 1)
     progress("material", 0, 1)
     rubber = make_rubber(study.material)
-    bands = FrictionBands(rubber, study.solver.samples)
+    bands = FrictionBands(rubber, study.uncertainty.draws)
     progress("material", 1, 1)
     shift = _shift(rubber)
     # Temperatures without a shift factor are told now, not case by case.
     shift(np.array(study.conditions.temperature))
-    ball = Ball(study.indenter.radius)
+    ball = Ball(radius)
     measured = None
     if curves is not None:
         progress("shift", 0, 1)
-        measured = Measurement(curves, rubber.material, ball, study.conditions.load)
+        measured = Measurement(curves, rubber.material, ball, load)
         progress("shift", 1, 1)
 
     store = CaseStore(folder / CASES_FOLDER)
@@ -108,16 +110,37 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
         "warnings": _listed([*_doubts(study, rubber, shift), *solver.warnings]),
         "failures": _listed(solver.failures),
         **rubber.attributes,
-        "indenter": f"ball of radius {1e3 * study.indenter.radius:.6g} mm",
-        "indenter_radius": study.indenter.radius,
+        "indenter": f"ball of radius {1e3 * radius:.6g} mm",
+        "indenter_radius": radius,
         **({} if solver.frequency_range is None else {"frequency_range": solver.frequency_range}),
-        "load": study.conditions.load,
+        "load": load,
         "accuracy": study.solver.accuracy,
         "input_hashes": hashes,
         **provenance(),
     }
     save_results(tree, folder)
     return StudyResults(tree, folder)
+
+
+def _refuse_what_is_not_solved_yet(study: Study, path: Path) -> None:
+    """Raise `StudyError` where a run file asks for more than the cases of one ball at one load."""
+    asked = {
+        "several materials": len(study.materials) > 1,
+        f'shape = "{study.indenter.shape}"': study.indenter.shape != "ball",
+        "several radii": len(next(iter(study.indenter.axes.values()))) > 1,
+        "an elastic indenter": study.indenter.modulus is not None,
+        "[layer]": study.layer is not None,
+        "several loads": len(study.conditions.load) > 1,
+        "uncertainty.members": study.uncertainty.members > 0,
+        "uncertainty.seed": study.uncertainty.seed > 0,
+        "outputs.fields": "fields" in study.outputs.model_fields_set,
+        "outputs.formats": bool(study.outputs.formats),
+        "[cluster]": study.cluster is not None,
+        "solver.cases": "cases" in study.solver.model_fields_set,
+    }
+    wanted = [name for name, is_asked in asked.items() if is_asked]
+    if wanted:
+        raise StudyError(f"{path}: {' and '.join(wanted)} can be checked, but not be run yet.")
 
 
 def _listed(sentences: Iterable[str]) -> str:
@@ -169,10 +192,9 @@ def _solved(
 ) -> dict[str, xarray.Dataset]:
     """Solve all cases: those asked for, those measured, and those along the friction master curve."""
     conditions, groups = study.conditions, {}
-    temperature, speed = (
-        grid.ravel() for grid in np.meshgrid(conditions.temperature, conditions.speeds(), indexing="ij")
-    )
-    records = kept(solver.solve("friction", temperature, speed, np.full(len(speed), conditions.load)))
+    (load,) = conditions.load
+    temperature, speed = (grid.ravel() for grid in np.meshgrid(conditions.temperature, conditions.speed, indexing="ij"))
+    records = kept(solver.solve("friction", temperature, speed, np.full(len(speed), load)))
     if not records:
         raise StudyError(f"no case could be solved; the first one failed: {solver.failures[0]}")
     groups["/prediction"] = _prediction(records, solver, bands)
@@ -184,7 +206,7 @@ def _solved(
     # A little beyond, so that rounding leaves no point outside.
     ends = reduced.min() * (1.0 - _ROUNDING), reduced.max() * (1.0 + _ROUNDING)
     master_speeds = np.geomspace(*ends, study.solver.master_curve_points)
-    same = np.full(len(master_speeds), shift.reference), master_speeds, np.full(len(master_speeds), conditions.load)
+    same = np.full(len(master_speeds), shift.reference), master_speeds, np.full(len(master_speeds), load)
     at_reference = kept(solver.solve("master curve", *same))
     groups["/prediction_master"] = _prediction(at_reference, solver, bands)
     if measured is not None:

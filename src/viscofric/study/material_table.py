@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, FiniteFloat, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, FiniteFloat
 
 from viscofric.study.quantities import Table, Temperature, kelvin
 from viscofric.units import conversion
@@ -14,11 +14,12 @@ from viscofric.units import conversion
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from viscofric.study.quantities import Problem
+
 #: Keys that say where the rubber comes from, one of them in every run file.
 SOURCES = ("dma", "master_curve", "file", "catalogue")
 #: Keys that say how sweeps are made into a rubber, without meaning for one that is ready …
 _HOW = (
-    "name",
     "deformation",
     "temperature",
     "modulus_unit",
@@ -83,14 +84,12 @@ class MaterialTable(Table):
     modes: int | None = Field(default=None, ge=1, le=200)
     tau_ratio: float = Field(default=math.e, gt=1.0, le=100.0)
 
-    @model_validator(mode="after")
-    def _fits_together(self) -> Self:
-        problems = list(self._problems())
-        if problems:
-            raise ValueError("; ".join(problems))
-        return self
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        for words in self._doubts():
+            yield "", words
 
-    def _problems(self) -> Iterator[str]:
+    def _doubts(self) -> Iterator[str]:
         given = [name for name in SOURCES if getattr(self, name) is not None]
         if not given:
             yield (

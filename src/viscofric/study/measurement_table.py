@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from pathlib import Path  # noqa: TC003 - pydantic looks at it
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field
 
 from viscofric.study.material_table import files_of, listed
 from viscofric.study.quantities import Force, SignedForce, Table, TemperatureStep
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from viscofric.study.quantities import Problem
 
 
 def _number_or_word(value: object) -> object:
@@ -43,14 +45,12 @@ class MeasurementTable(Table):
     speed_tolerance: float = Field(default=0.05, gt=0.0, lt=1.0)
     temperature_tolerance: TemperatureStep = 1.0
 
-    @model_validator(mode="after")
-    def _fits_together(self) -> Self:
-        problems = list(self._problems())
-        if problems:
-            raise ValueError("; ".join(problems))
-        return self
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        for words in self._doubts():
+            yield "", words
 
-    def _problems(self) -> Iterator[str]:
+    def _doubts(self) -> Iterator[str]:
         if not self.mtm and self.curves is None:
             yield 'nothing says what was measured; give mtm = "runs.txt" (or friction curves, curves = "curves.csv")'
         if self.mtm and self.curves is not None:

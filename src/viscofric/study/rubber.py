@@ -129,6 +129,8 @@ def _ready(wanted: MaterialTable) -> Rubber:
         material, notes, source = card.material, tuple(card.notes), f"the file {wanted.file.name}"
     if wanted.reference_temperature is not None:
         material = material.at_reference(wanted.reference_temperature)
+    if wanted.name:
+        material = replace(material, name=wanted.name)
     return Rubber(material, notes=notes, source=source, synthetic=synthetic)
 
 

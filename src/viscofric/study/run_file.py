@@ -2,108 +2,102 @@
 
 from __future__ import annotations
 
-import difflib
+import functools
+import re
 import tomllib
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import numpy as np
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    Discriminator,
-    Field,
-    Tag,
-    ValidationError,
-    model_validator,
-)
+from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
 from viscofric.errors import StudyError
-from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
+from viscofric.study.contact_tables import (
+    SHAPES,
+    ConditionsTable,
+    IndenterTable,
+    LayerTable,
+)
 from viscofric.study.material_table import MaterialTable
 from viscofric.study.measurement_table import MeasurementTable
-from viscofric.study.quantities import VALUE, Force, Length, Speed, Table, Temperature
+from viscofric.study.quantities import RANGE, SpeedRange, Table
+from viscofric.study.relations import relations
+from viscofric.study.run_file_errors import place, sentences, told
+from viscofric.study.settings_tables import ClusterTable, OutputsTable, SolverTable, SweepTable, UncertaintyTable
+from viscofric.study.sweep import Sweep, sweep_of
 
-_MOST_POINTS = 10_000
-_MOST_SAMPLES = 10_000
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
+    from viscofric.study.quantities import Problem
 
-class SpeedRange(Table):
-    """Speeds from one to another."""
-
-    first: Speed = Field(alias="from")
-    last: Speed = Field(alias="to")
-    points: int = Field(ge=2, le=_MOST_POINTS)
-    spacing: Literal["log", "linear"] = "log"
-
-    def speeds(self) -> tuple[float, ...]:
-        """All speeds, m/s."""
-        spread = np.geomspace if self.spacing == "log" else np.linspace
-        return tuple(float(speed) for speed in spread(self.first, self.last, self.points))
+#: A run file is far shorter; what is longer is something else.
+LONGEST_RUN_FILE = 1_000_000  # characters
+#: Tables and lists within each other that a run file may need, and a little more.
+_DEEPEST = 10
+_MOST_MATERIALS = 100
 
 
-class IndenterTable(Table):
-    """[indenter]: what slides or rolls over the rubber."""
-
-    shape: Literal["ball"] = "ball"
-    radius: Length
-
-
-class ConditionsTable(Table):
-    """[conditions]: load, speeds and temperatures to predict friction at, and how thick the rubber is."""
-
-    load: Force
-    speed: Annotated[
-        Annotated[SpeedRange, Tag("range")] | Annotated[tuple[Speed, ...], Tag("list"), Field(min_length=1)],
-        Discriminator(lambda value: "range" if isinstance(value, dict | SpeedRange) else "list"),
-    ]
-    temperature: tuple[Temperature, ...] = Field(min_length=1)
-    thickness: Length | None = None
-
-    @model_validator(mode="before")
-    @classmethod
-    def _one_is_a_list(cls, values: Any) -> Any:
-        if isinstance(values, dict):
-            values = dict(values)
-            for key in ("speed", "temperature"):
-                if isinstance(values.get(key), str):
-                    values[key] = [values[key]]
-        return values
-
-    def speeds(self) -> tuple[float, ...]:
-        """All speeds, m/s."""
-        return self.speed.speeds() if isinstance(self.speed, SpeedRange) else self.speed
-
-
-def _enough(value: int) -> int:
-    if 0 < value < FEWEST_SAMPLES:
-        raise ValueError(f"{value} is too few; give {FEWEST_SAMPLES} or more, or 0 for no bands")
-    return value
-
-
-class SolverTable(Table):
-    """[solver]: how accurate the friction is to be, and how many rubbers are drawn for its bands."""
-
-    accuracy: float = Field(default=1e-3, ge=1e-4, le=0.1, allow_inf_nan=False)
-    master_curve_points: int = Field(default=41, ge=2, le=_MOST_POINTS)
-    samples: Annotated[int, AfterValidator(_enough)] = Field(default=200, ge=0, le=_MOST_SAMPLES)
+def _several(value: object) -> object:
+    return [value] if isinstance(value, dict | MaterialTable) else value
 
 
 class Study(Table):
     """A whole run file; quantities in SI, paths resolved against the run file's folder."""
 
-    title: str = "Viscoelastic friction"
-    data_origin: Literal["measured", "synthetic"] = "measured"
-    material: MaterialTable
-    indenter: IndenterTable
-    conditions: ConditionsTable
-    measurement: MeasurementTable | None = None
-    solver: SolverTable = SolverTable()
+    title: str = Field("Viscoelastic friction", max_length=300, description="Of the report.")
+    data_origin: Literal["measured", "synthetic"] = Field(
+        "measured", description="Whether the data were measured or made up; report and figures then say so."
+    )
+    materials: Annotated[
+        tuple[MaterialTable, ...], BeforeValidator(_several), Field(min_length=1, max_length=_MOST_MATERIALS)
+    ] = Field(alias="material", description="The rubber; [[material]] for each of several, with a name of its own.")
+    indenter: IndenterTable = Field(description="What slides or rolls over the rubber.")
+    layer: LayerTable | None = Field(None, description="Rubber of finite thickness; a half-space without this table.")
+    conditions: ConditionsTable = Field(description="Loads, speeds and temperatures to predict friction at.")
+    sweep_table: SweepTable = Field(SweepTable(), alias="sweep", description="Which axes go together.")
+    measurement: MeasurementTable | None = Field(None, description="Measured friction to lay beside the prediction.")
+    solver: SolverTable = Field(SolverTable(), description="How accurate the friction is to be.")
+    uncertainty: UncertaintyTable = Field(UncertaintyTable(), description="How well the rubber is known.")
+    outputs: OutputsTable = Field(OutputsTable(), description="What is kept of the solved cases.")
+    cluster: ClusterTable | None = Field(None, description="Jobs of a SLURM cluster to solve the cases.")
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together between the tables."""
+        yield from relations({field.alias or name: getattr(self, name) for name, field in FIELDS.items()})
+
+    @property
+    def material(self) -> MaterialTable:
+        """The material; the first of several."""
+        return self.materials[0]
 
     @property
     def inputs(self) -> tuple[Path, ...]:
         """All data files."""
-        return (*self.material.inputs, *(self.measurement.inputs if self.measurement else ()))
+        files = [path for material in self.materials for path in material.inputs]
+        return (*dict.fromkeys(files), *(self.measurement.inputs if self.measurement else ()))
+
+    def sweep(self) -> Sweep:
+        """Return all cases that the study asks for, with their axes."""
+        return sweep_of(self)
+
+
+FIELDS = Study.model_fields
+#: Key of a run file, or branch of a choice -> the table behind it; "" is the whole file.
+TABLES: dict[str, type[BaseModel]] = {
+    "": Study,
+    "material": MaterialTable,
+    "indenter": SHAPES["ball"],
+    **{f"<{shape}>": table for shape, table in SHAPES.items()},
+    "layer": LayerTable,
+    "conditions": ConditionsTable,
+    RANGE: SpeedRange,
+    "sweep": SweepTable,
+    "measurement": MeasurementTable,
+    "solver": SolverTable,
+    "uncertainty": UncertaintyTable,
+    "outputs": OutputsTable,
+    "cluster": ClusterTable,
+}
 
 
 def load_study(path: str | Path) -> Study:
@@ -130,7 +124,9 @@ def load_study(path: str | Path) -> Study:
 def read_study_text(path: Path) -> str:
     """Return the text of a run file."""
     try:
-        return path.read_text(encoding="utf-8-sig")
+        with path.open("rb") as file:
+            data = file.read(4 * LONGEST_RUN_FILE)
+        return data.decode("utf-8-sig")
     except FileNotFoundError:
         raise StudyError(f"{path}: no such file.") from None
     except IsADirectoryError:
@@ -143,15 +139,13 @@ def read_study_text(path: Path) -> str:
 
 def parse_study(text: str, path: Path) -> Study:
     """Check the text of a run file; see `load_study`."""
-    try:
-        values = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise StudyError(f"{path}: is not valid TOML: {error}.") from None
+    values = _toml(text, path)
     try:
         study = Study.model_validate(values)
     except ValidationError as error:
-        raise StudyError(f"{path}: {_sentences(error)}") from None
-    return _resolve_paths(study, path.parent)
+        found = [*sentences(error, values, TABLES), *_of_sound_tables(error, values)]
+        raise StudyError(_joined(path, list(dict.fromkeys(found)))) from None
+    return _resolve_paths(study, path)
 
 
 def material_of(values: dict[str, Any]) -> MaterialTable:
@@ -165,61 +159,77 @@ def material_of(values: dict[str, Any]) -> MaterialTable:
     try:
         return MaterialTable.model_validate(values)
     except ValidationError as error:
-        raise StudyError(_sentences(error)) from None
+        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": MaterialTable}))) from None
 
 
-def _sentences(error: ValidationError) -> str:
-    """Say all that pydantic found."""
-    found = error.errors()
-    # A list whose entries are wrong counts as empty too: say only what is wrong with the entries.
-    inside = {problem["loc"][:depth] for problem in found for depth in range(len(problem["loc"]))}
-    return " ".join(dict.fromkeys(_sentence(problem) for problem in found if problem["loc"] not in inside))
+def _toml(text: str, path: Path) -> dict[str, Any]:
+    if len(text) > LONGEST_RUN_FILE:
+        raise StudyError(f"{path}: has more than {LONGEST_RUN_FILE:,} characters; is this a run file?")
+    try:
+        values = tomllib.loads(text)
+    except RecursionError:
+        raise StudyError(f"{path}: lists or tables lie within each other too deeply for a run file.") from None
+    except ValueError as error:  # of TOML, and of whole numbers with thousands of digits
+        where, words = str(path), str(error)
+        if at := re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)$", words):
+            where += f", line {at[1]}, column {at[2]}" if at[1] else ", at its end"
+            words = words[: at.start()]
+        raise StudyError(f"{where}: is not valid TOML: {words}.") from None
+    if _depth(values) > _DEEPEST:
+        raise StudyError(f"{path}: tables lie within each other too deeply for a run file.")
+    return values
 
 
-def _resolve_paths(study: Study, folder: Path) -> Study:
-    material = study.material.beside(folder)
-    measurement = None if study.measurement is None else study.measurement.beside(folder)
-    return study.model_copy(update={"material": material, "measurement": measurement})
+def _depth(values: dict[str, Any]) -> int:
+    """Return how deeply lists and tables lie within each other; dotted keys make them as deep as they like."""
+    depth, level = 0, list(values.values())
+    while level and depth <= _DEEPEST:
+        depth += 1
+        level = [
+            entry
+            for one in level
+            if isinstance(one, dict | list)
+            for entry in (one.values() if isinstance(one, dict) else one)
+        ]
+    return depth
 
 
-def _sentence(problem: Any) -> str:
-    """One problem that pydantic found, as a sentence that names the field and what would be right."""
-    keys = [part for part in problem["loc"] if part not in _BRANCHES]
-    field = ".".join(str(key) for key in keys)
-    match problem["type"]:
-        case "extra_forbidden":
-            known = _known_keys(keys[:-1])
-            near = difflib.get_close_matches(str(keys[-1]), known, n=1, cutoff=0.5)
-            hint = f"did you mean '{near[0]}'?" if near else f"known keys are {', '.join(known)}."
-            return f"{field}: unknown key; {hint}"
-        case "missing":
-            return f"{field}: is missing."
-        case "too_short":
-            return f"{field}: is empty; at least one value is wanted."
-        case "tuple_type":
-            return f"{field}: {problem['input']!r} is neither text with a unit, nor a list of such, nor a table."
-        case "model_type":
-            return f"{field}: {problem['input']!r} is not a table; write [{field}] with its keys below it."
-    message = problem["msg"].removeprefix("Value error, ").removeprefix(f"{VALUE} = ")
-    place = f"{field}: " if field else ""
-    return f"{place}{message}" + ("" if message.endswith((".", "?")) else ".")
+@functools.cache
+def _adapter(name: str) -> TypeAdapter[Any]:
+    field = FIELDS[name]
+    whole: Any = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    return TypeAdapter(whole)
 
 
-def _known_keys(path: list[Any]) -> list[str]:
-    """Keys that the table at a path may hold, as the user writes them."""
-    model: type[BaseModel] = Study
-    for part in path:
-        model = TABLES.get(part, model)
-    return [field.alias or name for name, field in model.model_fields.items()]
+def _of_sound_tables(error: ValidationError, values: dict[str, Any]) -> list[str]:
+    """Say what does not fit together between the tables that are right in themselves."""
+    wrong = {problem["loc"][0] for problem in error.errors() if problem["loc"]}
+    if any(problem["type"] == "relation" and len(problem["loc"]) < 1 for problem in error.errors()):
+        return []
+    sound: dict[str, Any] = {}
+    for name, field in FIELDS.items():
+        key = field.alias or name
+        if key not in wrong:
+            sound[key] = _adapter(name).validate_python(values[key]) if key in values else field.get_default()
+    return [told(place(_parts(key), values), words) for key, words in relations(sound)]
 
 
-TABLES: dict[Any, type[BaseModel]] = {
-    "material": MaterialTable,
-    "indenter": IndenterTable,
-    "conditions": ConditionsTable,
-    "speed": SpeedRange,
-    "measurement": MeasurementTable,
-    "solver": SolverTable,
-}
-# Names of the branches of a choice between types: they appear in pydantic's locations, not in the file.
-_BRANCHES = {"range", "list"}
+def _parts(key: str) -> list[str | int]:
+    return [int(part) if part.isdigit() else part for part in key.split(".")] if key else []
+
+
+def _joined(path: Path, found: list[str]) -> str:
+    """Return one sentence as it is; of several, each on a line of its own."""
+    if len(found) == 1:
+        return f"{path}: {found[0]}"
+    return "\n  ".join([f"{path}: {len(found)} things are wrong:", *found])
+
+
+def _resolve_paths(study: Study, path: Path) -> Study:
+    folder = path.parent
+    try:
+        materials = tuple(material.beside(folder) for material in study.materials)
+        measurement = None if study.measurement is None else study.measurement.beside(folder)
+    except (OSError, ValueError) as error:
+        raise StudyError(f"{path}: {getattr(error, 'strerror', None) or error}.") from None
+    return study.model_copy(update={"materials": materials, "measurement": measurement})

@@ -1,0 +1,146 @@
+"""[indenter], [layer] and [conditions] of a run file: what is in contact, and under what it is to be solved."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from viscofric.contact.indenters.indenter import Ball, Cylinder
+from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.study.quantities import Angles, Length, Lengths, Loads, Modulus, Number, Speeds, Table, Temperatures
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.study.quantities import Problem
+
+_SHAPE = "Its shape; each has lengths or an angle of its own."
+
+
+class _IndenterTable(Table, ABC):
+    """[indenter]: what slides or rolls over the rubber."""
+
+    modulus: Modulus | None = Field(None, description="Young's modulus of an elastic indenter; rigid without it.")
+    poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
+
+    #: Keys whose values are axes of the study.
+    AXES: ClassVar[tuple[str, ...]]
+    #: Whether its load is per length.
+    LINE: ClassVar[bool] = False
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        if "poisson_ratio" in self.model_fields_set and self.modulus is None:
+            yield "poisson_ratio", "is for an elastic indenter, whose modulus is not given; a rigid one has none"
+
+    @property
+    def axes(self) -> dict[str, tuple[float, ...]]:
+        """Lengths (m) or angles (rad) that make the shape, each with all its values."""
+        return {name: getattr(self, name) for name in self.AXES}
+
+    @abstractmethod
+    def indenter(self, *values: float) -> Indenter:
+        """Return the indenter of one value for each axis, in their order."""
+
+
+class BallTable(_IndenterTable):
+    """[indenter]: a ball."""
+
+    shape: Literal["ball"] = Field("ball", description=_SHAPE)
+    radius: Lengths = Field(description="Radius of the ball.")
+    AXES = ("radius",)
+
+    def indenter(self, *values: float) -> Indenter:
+        """Return the indenter of one value for each axis, in their order."""
+        return Ball(*values)
+
+
+class CylinderTable(_IndenterTable):
+    """[indenter]: a long cylinder across the motion, whose load is per length."""
+
+    shape: Literal["cylinder"] = Field(description=_SHAPE)
+    radius: Lengths = Field(description="Radius of the cylinder.")
+    AXES = ("radius",)
+    LINE = True
+
+    def indenter(self, *values: float) -> Indenter:
+        """Return the indenter of one value for each axis, in their order."""
+        return Cylinder(*values)
+
+
+class EllipsoidTable(_IndenterTable):
+    """[indenter]: a surface with two radii of curvature."""
+
+    shape: Literal["ellipsoid"] = Field(description=_SHAPE)
+    radius_x: Lengths = Field(description="Radius of curvature along the motion.")
+    radius_y: Lengths = Field(description="Radius of curvature across the motion.")
+    AXES = ("radius_x", "radius_y")
+
+    def indenter(self, *values: float) -> Indenter:
+        """Return the indenter of one value for each axis, in their order."""
+        return Ellipsoid(*values)
+
+
+class ConeTable(_IndenterTable):
+    """[indenter]: a blunt cone."""
+
+    shape: Literal["cone"] = Field(description=_SHAPE)
+    angle: Angles = Field(description="Between the flank and the undeformed surface; small for linear contact.")
+    AXES = ("angle",)
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        yield from super().problems()
+        if max(self.angle) >= 0.5 * math.pi:
+            yield "angle", f"{math.degrees(max(self.angle)):.4g}° is not less than a right angle, such as '10 deg'"
+
+    def indenter(self, *values: float) -> Indenter:
+        """Return the indenter of one value for each axis, in their order."""
+        return Cone(*values)
+
+
+#: What a run file calls a shape -> its table.
+SHAPES: dict[str, type[_IndenterTable]] = {
+    "ball": BallTable,
+    "cylinder": CylinderTable,
+    "ellipsoid": EllipsoidTable,
+    "cone": ConeTable,
+}
+
+
+def _shape(value: object) -> object:
+    shape = value.get("shape", "ball") if isinstance(value, dict) else getattr(value, "shape", "ball")
+    return f"<{shape}>" if isinstance(shape, str) else None
+
+
+IndenterTable = Annotated[
+    Annotated[BallTable, Tag("<ball>")]
+    | Annotated[CylinderTable, Tag("<cylinder>")]
+    | Annotated[EllipsoidTable, Tag("<ellipsoid>")]
+    | Annotated[ConeTable, Tag("<cone>")],
+    Discriminator(_shape),
+]
+
+
+class LayerTable(Table):
+    """[layer]: rubber of finite thickness on a rigid base; a half-space without this table."""
+
+    thickness: Lengths = Field(description="Thickness of the rubber on its rigid base.")
+    base: Literal["bonded", "sliding"] = Field(
+        "bonded", description="Whether the layer sticks to its base, or slides on it without friction."
+    )
+
+
+class ConditionsTable(Table):
+    """[conditions]: loads, speeds and temperatures to predict friction at."""
+
+    load: Loads = Field(description="Normal load; that of a cylinder is per length, such as '2 N/mm'.")
+    speed: Speeds = Field(description="Speed at which the rubber is deformed; above zero.")
+    temperature: Temperatures = Field(description="Temperature of the rubber.")
+    thickness: Length | None = Field(
+        None, description="Thickness of the rubber, to check that it is a half-space; for one that is not, see [layer]."
+    )

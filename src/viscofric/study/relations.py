@@ -1,0 +1,161 @@
+"""What the tables of a run file ask of each other."""
+
+from __future__ import annotations
+
+import difflib
+from collections import Counter
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from viscofric.study.contact_tables import BallTable
+from viscofric.study.quantities import PerLength
+from viscofric.study.sweep import MOST_CASES, axes_of, count_cases
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from viscofric.study.quantities import Problem
+
+    #: Tables that are right in themselves, by their names in the file; what is wrong or left out is not there.
+    Tables: TypeAlias = Mapping[str, Any]
+
+
+def relations(tables: Tables) -> Iterator[Problem]:
+    """Yield what does not fit together between tables, each with its path in the file.
+
+    Parameters
+    ----------
+    tables : mapping of str to Table
+        Those that are right in themselves, by their names in the run file.
+    """
+    yield from _names_of_materials(tables)
+    yield from _loads(tables)
+    yield from _thickness(tables)
+    wrong = list(_sweep(tables))
+    yield from wrong
+    if not wrong:
+        yield from _size(tables)
+    yield from _measurement(tables)
+
+
+def _names_of_materials(tables: Tables) -> Iterator[Problem]:
+    materials = tables.get("material", ())
+    if len(materials) < 2:
+        return
+    times = Counter(material.name for material in materials)
+    for number, material in enumerate(materials):
+        if not material.name:
+            yield f"material.{number}.name", "is missing; several materials are told apart by their names"
+        elif times[material.name] > 1:
+            yield f"material.{number}.name", f"{material.name!r} is the name of {times[material.name]} materials"
+
+
+def _loads(tables: Tables) -> Iterator[Problem]:
+    if "indenter" not in tables or "conditions" not in tables:
+        return
+    indenter, loads = tables["indenter"], tables["conditions"].load
+    wrong = [(place, load) for place, load in enumerate(loads) if isinstance(load, PerLength) != indenter.LINE]
+    for place, load in wrong[:1] if len(wrong) == len(loads) else wrong:
+        if indenter.LINE:
+            words = f"{load:.6g} N is a force; the load of a cylinder is per length, such as '2 N/mm'"
+        else:
+            words = f"{load:.6g} N/m is a load per length; the load of a {indenter.shape} is a force, such as '25 N'"
+        yield "conditions.load" if len(wrong) == len(loads) else f"conditions.load.{place}", words
+
+
+def _thickness(tables: Tables) -> Iterator[Problem]:
+    if tables.get("layer") is not None and getattr(tables.get("conditions"), "thickness", None) is not None:
+        words = "checks that the rubber is a half-space, which that of [layer] is not; leave it out"
+        yield "conditions.thickness", words
+
+
+def _known(tables: Tables) -> dict[str, tuple[Any, ...]]:
+    """Return all that can be stepped together, as far as the tables tell it."""
+    known: dict[str, tuple[Any, ...]] = {}
+    if "material" in tables:
+        known["material"] = tuple(material.name for material in tables["material"])
+    if "uncertainty" in tables:
+        known["sample"] = tuple(range(tables["uncertainty"].members + 1))
+    if "indenter" in tables:
+        known |= tables["indenter"].axes
+    if tables.get("layer") is not None:
+        known["thickness"] = tables["layer"].thickness
+    if "conditions" in tables:
+        known |= {name: getattr(tables["conditions"], name) for name in ("load", "temperature", "speed")}
+    return known
+
+
+def _sweep(tables: Tables) -> Iterator[Problem]:
+    known = _known(tables)
+    whole = all(name in tables for name in ("material", "indenter", "conditions", "layer"))
+    choices = [name for name in known if name != "sample"]
+    for number, group in enumerate(tables["sweep"].together if "sweep" in tables else ()):
+        for place, name in enumerate(group):
+            if name not in choices and whole:
+                near = difflib.get_close_matches(name, choices, n=1, cutoff=0.5)
+                hint = f"did you mean {near[0]!r}?" if near else f"the axes are {', '.join(choices)}"
+                yield f"sweep.together.{number}.{place}", f"{name!r} is no axis of this study; {hint}"
+        lengths = {name: len(known[name]) for name in group if name in choices}
+        if len(set(lengths.values())) > 1:
+            told = ", ".join(f"{name} has {count}" for name, count in lengths.items())
+            yield f"sweep.together.{number}", f"what is stepped together has equally many values, but {told}"
+    if whole:
+        yield from _twice(tables, known)
+
+
+def _twice(tables: Tables, known: dict[str, tuple[Any, ...]]) -> Iterator[Problem]:
+    """Yield axes that hold a point twice."""
+    grouped = tables["sweep"].together if "sweep" in tables else ()
+    if any(name not in known for group in grouped for name in group):
+        return
+    for axis in axes_of(known, grouped):
+        if "material" in axis.columns:
+            continue  # told by their names
+        points = list(zip(*axis.columns.values(), strict=False))
+        twice = _repeated(points)
+        if twice:
+            places = " and ".join(_PLACES.get(name, f"indenter.{name}") for name in axis.columns)
+            where = f" (entry {twice[0] + 1})" if len(twice) == 1 else f" ({len(twice)} entries)"
+            yield places, f"holds the same value twice{where}; each is solved once"
+
+
+def _repeated(points: list[tuple[Any, ...]]) -> list[int]:
+    seen: set[tuple[Any, ...]] = set()
+    again = []
+    for place, point in enumerate(points):
+        if point in seen:
+            again.append(place)
+        seen.add(point)
+    return again
+
+
+def _size(tables: Tables) -> Iterator[Problem]:
+    known = _known(tables)
+    count = count_cases(axes_of(known, tables["sweep"].together if "sweep" in tables else ()))
+    if count > MOST_CASES:
+        told = " × ".join(f"{len(values):,} {name}" for name, values in known.items() if len(values) > 1)
+        yield (
+            "",
+            f"asks for {count:,} cases ({told}), more than {MOST_CASES:,}; give fewer points, or several run files",
+        )
+
+
+def _measurement(tables: Tables) -> Iterator[Problem]:
+    if tables.get("measurement") is None:
+        return
+    if len(tables.get("material", ())) > 1:
+        yield "measurement", f"is of one rubber, but there are {len(tables['material'])} materials"
+    indenter = tables.get("indenter")
+    if indenter is not None and not isinstance(indenter, BallTable):
+        yield "measurement", f"is of a ball, but the indenter is a {indenter.shape}"
+    elif indenter is not None and len(indenter.radius) > 1:
+        yield "measurement", f"is of one ball, but indenter.radius has {len(indenter.radius)} values"
+    if tables.get("layer") is not None:
+        yield "measurement", "is compared on a half-space, but there is a [layer]"
+
+
+_PLACES = {
+    "load": "conditions.load",
+    "temperature": "conditions.temperature",
+    "speed": "conditions.speed",
+    "thickness": "layer.thickness",
+}

@@ -1,0 +1,157 @@
+"""What is wrong in a run file, in sentences: each with its path in the file and the nearest right word."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import brief
+from viscofric.study.quantities import VALUE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from pydantic import BaseModel, ValidationError
+
+_LONGEST_LIST = 12
+
+
+def sentences(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> list[str]:
+    """Say all that pydantic found.
+
+    Parameters
+    ----------
+    error : ValidationError
+    values : object
+        What was checked, as TOML gave it.
+    tables : mapping of str to type
+        Key of the file, or branch of a choice -> the table behind it; "" is the whole file.
+    """
+    found = error.errors()
+    # A list whose entries are wrong counts as empty too: say only what is wrong with the entries.
+    inside = {problem["loc"][:depth] for problem in found for depth in range(len(problem["loc"]))}
+    told_once = [problem for problem in found if problem["loc"] not in inside or problem["type"] != "too_short"]
+    # A key that is misspelt is missing, too: that it is unknown says both.
+    unknown = [problem["loc"] for problem in found if problem["type"] == "extra_forbidden"]
+    meant = {(*loc[:-1], near) for loc in unknown for near in _near(str(loc[-1]), keys(_table(loc[:-1], tables)))}
+    told_once = [problem for problem in told_once if problem["type"] != "missing" or problem["loc"] not in meant]
+    return list(dict.fromkeys(_sentence(problem, values, tables) for problem in told_once))
+
+
+def place(parts: Iterable[str | int], values: object) -> str:
+    """Return a path in the file: ``conditions.temperature[2]``.
+
+    Branches of choices between types are left out, and so is the number of an entry where one stands for a list.
+    """
+    path = ""
+    here: Any = values
+    for part in parts:
+        if isinstance(part, int):
+            if not isinstance(here, list):
+                continue
+            path += f"[{part}]"
+            here = here[part] if part < len(here) else None
+        elif not _is_branch(part):
+            shown = part if _is_bare(part) else brief(part)
+            path += f".{shown}" if path else shown
+            here = here.get(part) if isinstance(here, dict) else None
+    return path
+
+
+def told(where: str, words: str) -> str:
+    """Return a sentence about a place in the file."""
+    whole = f"{where}: {words}" if where else words
+    return whole if whole.endswith((".", "?")) else f"{whole}."
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return the end of a sentence that names the nearest right word, or all of them."""
+    known = list(known)
+    if near := _near(word, known):
+        return f"did you mean '{near[0]}'?"
+    return f"right would be {' or '.join(known) if len(known) < 3 else ', '.join(known[:_LONGEST_LIST])}"
+
+
+def _is_branch(part: str) -> bool:
+    return part.startswith("<") and part.endswith(">")
+
+
+def _is_bare(part: str) -> bool:
+    return 0 < len(part) <= 60 and part.isascii() and part.replace("_", "").replace("-", "").isalnum()
+
+
+def _sentence(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]) -> str:
+    where = place(problem["loc"], values)
+    kind = problem["type"]
+    if kind == "extra_forbidden":
+        return told(where, f"unknown key; {_right_key(problem['loc'], tables)}")
+    shown, limit = brief(problem["input"]), problem.get("ctx", {})
+    words: dict[str, Callable[[], str]] = {
+        "missing": lambda: "is missing",
+        "too_short": lambda: _too_short(limit),
+        "too_long": lambda: f"has {limit['actual_length']} entries; at most {limit['max_length']:,} can be given",
+        "tuple_type": lambda: f"{shown} is not a list",
+        "model_type": lambda: f"{shown} is not a table; write [{where}] with its keys below it",
+        "dict_type": lambda: f"{shown} is not a table",
+        "string_type": lambda: f"{shown} is not text; text stands between quotes",
+        "string_too_short": lambda: "is empty",
+        "string_too_long": lambda: f"is longer than {limit['max_length']:,} characters",
+        "string_pattern_mismatch": lambda: f"{shown} holds an end of line or a control character",
+        "int_type": lambda: f"{shown} is not a whole number",
+        "float_type": lambda: f"{shown} is not a number",
+        "finite_number": lambda: f"{shown} is not a finite number",
+        "bool_type": lambda: f"{shown} is neither true nor false",
+        "greater_than_equal": lambda: f"{shown} is too small; it must be {limit['ge']:,} or more",
+        "greater_than": lambda: f"{shown} is too small; it must be above {limit['gt']:,}",
+        "less_than_equal": lambda: f"{shown} is too large; it must be {limit['le']:,} or less",
+        "less_than": lambda: f"{shown} is too large; it must be below {limit['lt']:,}",
+        "literal_error": lambda: _right_word(problem["input"], limit),
+        "union_tag_invalid": lambda: _right_word(problem["input"].get("shape"), limit, "shape = "),
+        "union_tag_not_found": lambda: 'shape is not text; write shape = "ball"',
+        "path_type": lambda: f"{shown} is not the name of a file, which is text",
+    }
+    if kind in words:
+        return told(where, words[kind]())
+    return told(where, problem["msg"].removeprefix("Value error, ").removeprefix(f"{VALUE} = "))
+
+
+def _too_short(limit: dict[str, Any]) -> str:
+    if limit["min_length"] == 1:
+        return "is empty; at least one value is wanted"
+    return f"has {limit['actual_length']} entries; at least {limit['min_length']} are wanted"
+
+
+def _right_word(given: object, limit: dict[str, Any], before: str = "") -> str:
+    choices = limit.get("expected") or limit["expected_tags"]
+    known = [word.strip("<>") for word in choices.replace(" or ", ", ").replace("'", "").split(", ")]
+    hint = nearest(given, known) if isinstance(given, str) else f"right would be {', '.join(known)}"
+    return f"{before}{brief(given)} is not known; {hint}"
+
+
+def _right_key(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> str:
+    """Return what the unknown key at the end of a path may have been meant for."""
+    known, wrong = keys(_table(parts[:-1], tables)), str(parts[-1])
+    if near := _near(wrong, known):
+        return f"did you mean '{near[0]}'?"
+    homes = [name for name, table in tables.items() if name and not _is_branch(name) and wrong in keys(table)]
+    if homes:
+        return f"it belongs below [{homes[0]}]"
+    return f"known keys are {', '.join(known)}"
+
+
+def _table(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> type[BaseModel]:
+    """Return the table at a path."""
+    model = tables[""]
+    for part in parts:
+        model = tables.get(part, model) if isinstance(part, str) else model
+    return model
+
+
+def _near(word: str, known: Iterable[str]) -> list[str]:
+    """Return the known word that is most like one, if any is."""
+    return difflib.get_close_matches(word[:100].lower(), list(known), n=1, cutoff=0.5)
+
+
+def keys(model: type[BaseModel]) -> list[str]:
+    """Return the keys that a table may hold, as the user writes them."""
+    return [field.alias or name for name, field in model.model_fields.items()]

@@ -1,0 +1,179 @@
+"""The cases of a study: every combination of its axes, each one contact."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.layers import Layer
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.study.run_file import Study
+
+    Values: TypeAlias = tuple[float | str, ...]
+
+#: A study asks for as many cases at most.
+MOST_CASES = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One contact, SI.
+
+    Parameters
+    ----------
+    material : int
+        Its number in `Study.materials`, from 0.
+    indenter : Indenter
+        Ball, Cylinder, Ellipsoid or Cone.
+    temperature : float
+        K.
+    speed : float
+        m/s.
+    load : float
+        N; N/m for a cylinder.
+    layer : Layer, optional
+        A half-space without.
+    indenter_modulus : float, optional
+        Young's modulus of an elastic indenter, Pa; rigid without.
+    indenter_poisson_ratio : float
+        Of an elastic indenter.
+    sample : int, optional
+        Member of the material's posterior that it is solved with, from 1; the best estimate if None.
+    """
+
+    material: int
+    indenter: Indenter
+    temperature: float
+    speed: float
+    load: float
+    layer: Layer | None = None
+    indenter_modulus: float | None = None
+    indenter_poisson_ratio: float = 0.3
+    sample: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """One dimension of the results.
+
+    Parameters
+    ----------
+    name : str
+        "material", "sample", "radius" ("radius_x", "radius_y", "angle"), "thickness", "load", "temperature" or "speed";
+        of several that are stepped together, joined: "load_radius".
+    columns : dict of str to tuple
+        Each coordinate's values, one for each point of the axis, SI; names of materials, numbers of samples (0: the
+        best estimate).
+    """
+
+    name: str
+    columns: dict[str, Values]
+
+    def __len__(self) -> int:
+        return len(next(iter(self.columns.values())))
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """All cases of a study.
+
+    Parameters
+    ----------
+    axes : tuple of Axis
+        In the order material, sample, shape of the indenter, thickness, load, temperature, speed; those of one point
+        included.
+    cases : tuple of Case
+        One for each combination of the axes' points; the last axis runs fastest.
+    """
+
+    axes: tuple[Axis, ...]
+    cases: tuple[Case, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Points of each axis."""
+        return tuple(map(len, self.axes))
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Names of the axes."""
+        return tuple(axis.name for axis in self.axes)
+
+
+def coordinates(study: Study) -> dict[str, Values]:
+    """Return all that a study may vary, each with its values, in the order of the axes."""
+    layer = {} if study.layer is None else {"thickness": study.layer.thickness}
+    return {
+        "material": tuple(material.name for material in study.materials),
+        "sample": tuple(range(study.uncertainty.members + 1)),
+        **study.indenter.axes,
+        **layer,
+        "load": study.conditions.load,
+        "temperature": study.conditions.temperature,
+        "speed": study.conditions.speed,
+    }
+
+
+def axes_of(known: Mapping[str, Values], together: Sequence[Sequence[str]]) -> tuple[Axis, ...]:
+    """Join the coordinates that are stepped together; such an axis stands where its first coordinate would."""
+    group_of = {name: tuple(group) for group in together for name in group}
+    groups = dict.fromkeys(group_of.get(name, (name,)) for name in known)
+    return tuple(Axis("_".join(group), {name: known[name] for name in group}) for group in groups)
+
+
+def count_cases(axes: Sequence[Axis]) -> int:
+    """Return how many cases all combinations of the axes' points make."""
+    return math.prod(map(len, axes))
+
+
+def sweep_of(study: Study) -> Sweep:
+    """Return all cases of a study; see `Study.sweep`."""
+    axes = axes_of(coordinates(study), study.sweep_table.together)
+    column = _columns(axes)
+    made: dict[tuple[float, ...], Indenter] = {}
+    layers: dict[float, Layer] = {}
+
+    def indenter(*values: float) -> Indenter:
+        if values not in made:
+            made[values] = study.indenter.indenter(*values)
+        return made[values]
+
+    def layer(thickness: float) -> Layer:
+        if thickness not in layers:
+            layers[thickness] = Layer(thickness, bonded=study.layer is None or study.layer.base == "bonded")
+        return layers[thickness]
+
+    cases = map(
+        Case,
+        column["material"],
+        map(indenter, *(column[name] for name in study.indenter.axes)),
+        column["temperature"],
+        column["speed"],
+        map(float, column["load"]),
+        itertools.repeat(None) if study.layer is None else map(layer, column["thickness"]),
+        itertools.repeat(study.indenter.modulus),
+        itertools.repeat(study.indenter.poisson_ratio),
+        (number or None for number in column["sample"]),
+    )
+    return Sweep(axes, tuple(cases))
+
+
+def _columns(axes: Sequence[Axis]) -> dict[str, list[Any]]:
+    """Return each coordinate of all cases; a material's is its number."""
+    shape = [len(axis) for axis in axes]
+    columns = {}
+    for place, axis in enumerate(axes):
+        point = np.arange(len(axis)).reshape([-1 if place == other else 1 for other in range(len(axes))])
+        points = np.broadcast_to(point, shape).ravel().tolist()
+        for name, values in axis.columns.items():
+            of_point = range(len(axis)) if name == "material" else values
+            columns[name] = [of_point[number] for number in points]
+    return columns
