@@ -10,13 +10,15 @@ from pydantic import Discriminator, Field, Tag
 
 from viscofric.contact.indenters.indenter import Ball, Cylinder
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid
-from viscofric.study.quantities import Angles, Length, Lengths, Loads, Modulus, Number, Speeds, Table, Temperatures
+from viscofric.study.axis_values import Angles, Lengths, Loads, Speeds, Temperatures  # noqa: TC001 - pydantic looks at them
+from viscofric.study.quantities import Length, Modulus, Number  # noqa: TC001 - likewise
+from viscofric.study.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.study.quantities import Problem
+    from viscofric.study.table import Problem
 
 _SHAPE = "Its shape; each has lengths or an angle of its own."
 

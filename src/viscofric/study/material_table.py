@@ -2,20 +2,36 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, FiniteFloat
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
-from viscofric.study.quantities import Table, Temperature, kelvin
+from viscofric.errors import InputError
+from viscofric.study.quantities import (
+    MOST_POINTS,
+    Count,
+    FileName,
+    FileNames,
+    Number,
+    Temperature,
+    Words,
+    kelvin,
+    listed,
+    one_or_more,
+    schema_of,
+)
+from viscofric.study.table import Table
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from viscofric.study.quantities import Problem
+    from viscofric.study.table import Problem
 
+_MOST_FILES = MOST_POINTS
 #: Keys that say where the rubber comes from, one of them in every run file.
 SOURCES = ("dma", "master_curve", "file", "catalogue")
 #: Keys that say how sweeps are made into a rubber, without meaning for one that is ready …
@@ -34,11 +50,6 @@ _HOW = (
 )
 #: … and those without meaning for a master curve.
 _OF_SWEEPS = ("temperature", "vertical_shift", "fixed_shift_factors")
-
-
-def listed(value: object) -> object:
-    """Let one entry stand for a list of one."""
-    return [value] if isinstance(value, str) else value
 
 
 def _by_kelvin(value: object) -> object:
@@ -65,24 +76,47 @@ def _in_catalogue(value: str) -> str:
 class MaterialTable(Table):
     """[material]: the DMA files and how the rubber is made of them, or a rubber that is ready."""
 
-    dma: Annotated[tuple[Path, ...], BeforeValidator(listed), Field(min_length=1)] | None = None
-    master_curve: Path | None = None
-    file: Path | None = None
-    catalogue: Annotated[str, AfterValidator(_in_catalogue)] | None = None
+    dma: FileNames | None = Field(None, description="Sweeps: one file, a list, or a pattern such as 'sweeps/*.txt'.")
+    master_curve: FileName | None = Field(None, description="Instead: one finished master curve.")
+    file: FileName | None = Field(None, description="Instead: a ready rubber, rubber.json or another program's card.")
+    catalogue: Annotated[Words, AfterValidator(_in_catalogue)] | None = Field(
+        None, description="Instead: a name of the catalogue (viscofric material list)."
+    )
 
-    name: str = ""
-    deformation: Literal["tension", "shear"] | None = None
-    temperature: Annotated[tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1)] | None = None
-    modulus_unit: Annotated[str, AfterValidator(_unit_of_modulus)] | None = None
-    poisson_ratio: float = Field(default=0.5, ge=0.0, le=0.5)
-    reference_temperature: Temperature | None = None
-    vertical_shift: Literal["none", "free", "density"] = "none"
-    shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = "measured"
-    shift_factors: Path | None = None
-    fixed_shift_factors: Annotated[dict[float, FiniteFloat], BeforeValidator(_by_kelvin)] = Field(default_factory=dict)
-    spectrum: Literal["non-negative", "regularised", "sparse"] = "non-negative"
-    modes: int | None = Field(default=None, ge=1, le=200)
-    tau_ratio: float = Field(default=math.e, gt=1.0, le=100.0)
+    name: Words = Field("", description="Of the rubber; several are told apart by it.")
+    deformation: Literal["tension", "shear"] | None = Field(
+        None, description="How the sweeps were taken; what the file says, if it does: E = 2(1+ν)G."
+    )
+    temperature: (
+        Annotated[
+            tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1), one_or_more(schema_of(Temperature))
+        ]
+        | None
+    ) = Field(None, description="Of files that hold none: one, or one for each.")
+    modulus_unit: Annotated[Words, AfterValidator(_unit_of_modulus)] | None = Field(
+        None, description="Of files that name none, such as 'MPa'."
+    )
+    poisson_ratio: Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, the same at all frequencies.")
+    reference_temperature: Temperature | None = Field(
+        None, description="Where the shift factor is one; needed with sweeps and master curves."
+    )
+    vertical_shift: Literal["none", "free", "density"] = Field(
+        "none", description="b(T): none, fitted, or density times temperature."
+    )
+    shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = Field(
+        "measured", description="α(T): as measured, or a law fitted to it."
+    )
+    shift_factors: FileName | None = Field(None, description="File of factors that are given, instead of found.")
+    fixed_shift_factors: Annotated[
+        dict[float, Number],
+        BeforeValidator(_by_kelvin),
+        WithJsonSchema({"type": "object", "additionalProperties": {"type": "number"}}),
+    ] = Field({}, max_length=1_000, description="Single ones that are held, log10: { '-20 degC' = 4.2 }.")
+    spectrum: Literal["non-negative", "regularised", "sparse"] = Field(
+        "non-negative", description="How the retardation modes are fitted."
+    )
+    modes: Count | None = Field(None, ge=1, le=200, description="At most, with spectrum = 'sparse'.")
+    tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="From one retardation time to the next.")
 
     def problems(self) -> Iterator[Problem]:
         """Yield what does not fit together within the table."""
@@ -136,10 +170,19 @@ class MaterialTable(Table):
 
 
 def files_of(folder: Path, path: Path) -> tuple[Path, ...]:
-    """Return the files that a path with ``*`` or ``?`` stands for, by name; the path itself if there are none."""
+    """Return the files that a path with ``*`` or ``?`` stands for, by name; the path itself if there are none.
+
+    Raises
+    ------
+    InputError
+        If there are more than a study can mean.
+    """
     whole = folder / path
     if not any(mark in str(path) for mark in "*?") or whole.exists():
         return (whole,)
     base = Path(whole.anchor) if path.is_absolute() else folder
     pattern = path.relative_to(path.anchor) if path.is_absolute() else path
-    return tuple(sorted(found for found in base.glob(str(pattern)) if found.is_file())) or (whole,)
+    found = list(itertools.islice((one for one in base.glob(str(pattern)) if one.is_file()), _MOST_FILES + 1))
+    if len(found) > _MOST_FILES:
+        raise InputError(f"{path} stands for more than {_MOST_FILES:,} files; write a narrower pattern")
+    return tuple(sorted(found)) or (whole,)

@@ -3,18 +3,31 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path  # noqa: TC003 - pydantic looks at it
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from viscofric.study.material_table import files_of, listed
-from viscofric.study.quantities import Force, SignedForce, Table, TemperatureStep
+from viscofric.errors import brief
+from viscofric.study.material_table import files_of
+from viscofric.study.quantities import (
+    MOST_POINTS,
+    Count,
+    FileName,
+    FileNames,
+    Force,
+    Number,
+    SignedForce,
+    TemperatureStep,
+    listed,
+    one_or_more,
+)
+from viscofric.study.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
-    from viscofric.study.quantities import Problem
+    from viscofric.study.table import Problem
 
 
 def _number_or_word(value: object) -> object:
@@ -23,27 +36,28 @@ def _number_or_word(value: object) -> object:
         return value
     if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
         return float(value)
-    raise ValueError(f"{value!r} is neither a friction coefficient, such as 0.05, nor the word 'constant'")
-
-
-def _one_or_more(value: object) -> object:
-    """Let the number of one step stand for a list of it."""
-    return [value] if isinstance(value, int) else value
+    raise ValueError(f"{brief(value)} is neither a friction coefficient, such as 0.05, nor the word 'constant'")
 
 
 class MeasurementTable(Table):
     """[measurement]: the files of a tribometer and how they are separated, or friction curves that are ready."""
 
-    mtm: Annotated[tuple[Path, ...], BeforeValidator(listed)] = ()
-    curves: Path | None = None
-    zero: SignedForce | None = None
-    zero_error: Force | None = None
-    coulomb: Annotated[Any, BeforeValidator(_number_or_word)] = None
-    coulomb_error: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] | None = None
-    except_steps: Annotated[tuple[int, ...], BeforeValidator(_one_or_more)] = ()
-    outliers: Literal["keep", "leave out"] = "keep"
-    speed_tolerance: float = Field(default=0.05, gt=0.0, lt=1.0)
-    temperature_tolerance: TemperatureStep = 1.0
+    mtm: FileNames = Field((), description="Traction runs: one file, a list, or a pattern such as 'run*.txt'.")
+    curves: FileName | None = Field(None, description="Instead: friction curves that are separated already.")
+    zero: SignedForce | None = Field(None, description="Reading of the force cell without traction, if it is known.")
+    zero_error: Force | None = Field(None, description="Its standard error.")
+    coulomb: Annotated[
+        Any, BeforeValidator(_number_or_word), WithJsonSchema({"anyOf": [{"type": "number"}, {"const": "constant"}]})
+    ] = Field(None, description="Coulomb friction where slip has one direction only: a coefficient, or 'constant'.")
+    coulomb_error: Annotated[Number, Field(gt=0.0)] | None = Field(None, description="Its standard error.")
+    except_steps: Annotated[
+        tuple[Count, ...], BeforeValidator(listed), one_or_more({"type": "integer"}), Field(max_length=MOST_POINTS)
+    ] = Field((), description="Steps of the test to leave out: one or a list.")
+    outliers: Literal["keep", "leave out"] = Field("keep", description="Readings far from the others of their kind.")
+    speed_tolerance: Number = Field(
+        0.05, gt=0.0, lt=1.0, description="Relative gap that parts nominal speeds and slips."
+    )
+    temperature_tolerance: TemperatureStep = Field(1.0, description="Gap that parts nominal temperatures.")
 
     def problems(self) -> Iterator[Problem]:
         """Yield what does not fit together within the table."""

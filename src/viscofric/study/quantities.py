@@ -1,41 +1,18 @@
-"""Fields of a run file: text with a unit in, SI out; one value, a list or a range; tables that refuse unknown keys."""
+"""Fields of a run file: text with a unit in, SI out; numbers, names of files."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeAlias
+from pathlib import Path
+from typing import Annotated, Any
 
-import numpy as np
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Discriminator,
-    Field,
-    Strict,
-    Tag,
-    ValidationError,
-    WithJsonSchema,
-    model_validator,
-)
-from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
+from pydantic import BeforeValidator, Field, Strict, WithJsonSchema
 
 from viscofric.errors import InputError, brief
 from viscofric.units import Quantity, positive, to_si
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from pydantic import GetCoreSchemaHandler
-
 # Stands for the field's name in messages about units; the location says it better.
 VALUE = "value"
 MOST_POINTS = 10_000
-# Branches of a choice between types appear in pydantic's locations, not in the file: no key looks like these.
-RANGE, LIST = "<range>", "<list>"
-
-#: A key within the table and a sentence about it; "" for the table as a whole.
-Problem: TypeAlias = tuple[str, str]
 
 
 def with_unit(value: object) -> Quantity:
@@ -95,144 +72,44 @@ Count = Annotated[int, Strict()]
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
 
 
-class Table(BaseModel):
-    """A table of the run file: no unknown keys, no changes afterwards."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
-        yield from ()
-
-    @model_validator(mode="after")
-    def _fits_together(self) -> Self:
-        found = list(self.problems())
-        if found:
-            raise all_at_once(type(self).__name__, found)
-        return self
-
-
-def all_at_once(title: str, problems: list[Problem]) -> ValidationError:
-    """Return the error that tells several problems, each at its key."""
-    details = [
-        InitErrorDetails(
-            type=PydanticCustomError("relation", "{words}", {"words": words}),
-            loc=tuple(int(part) if part.isdigit() else part for part in key.split(".")) if key else (),
-            input=None,
-        )
-        for key, words in problems
-    ]
-    return ValidationError.from_exception_data(title, details)
-
-
-class _Range(Table):
-    """From one value to another; its ends are those of a subclass."""
-
-    first: float
-    last: float
-    points: Count = Field(ge=2, le=MOST_POINTS, description="How many values, both ends included.")
-
-    def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
-        if self.first == self.last:
-            yield "to", "is the same as from; give one value instead of a range"
-        if type(self.first) is not type(self.last):
-            yield "to", "is not of the same kind as from"
-
-    def values(self) -> tuple[float, ...]:
-        """Return all values; the ends are exactly those given."""
-        logarithmic = getattr(self, "spacing", "linear") == "log"
-        spread = (np.geomspace if logarithmic else np.linspace)(self.first, self.last, self.points)
-        kind = type(self.first)
-        return (self.first, *(kind(value) for value in spread[1:-1]), self.last)
-
-
-_FROM, _TO = "First value.", "Last value."
-_SPACING = "Between the values: equal ratios (log) or equal steps (linear)."
-
-
-class SpeedRange(_Range):
-    """Speeds from one to another."""
-
-    first: Speed = Field(alias="from", description=_FROM)
-    last: Speed = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
-
-
-class LengthRange(_Range):
-    """Lengths from one to another."""
-
-    first: Length = Field(alias="from", description=_FROM)
-    last: Length = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
-
-
-class AngleRange(_Range):
-    """Angles from one to another."""
-
-    first: Angle = Field(alias="from", description=_FROM)
-    last: Angle = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
-
-
-class LoadRange(_Range):
-    """Loads from one to another."""
-
-    first: Load = Field(alias="from", description=_FROM)
-    last: Load = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
-
-
-class TemperatureRange(_Range):
-    """Temperatures from one to another, in equal steps."""
-
-    first: Temperature = Field(alias="from", description=_FROM)
-    last: Temperature = Field(alias="to", description=_TO)
-    spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
-
-
-def _kind(value: object) -> str:
-    return RANGE if isinstance(value, dict | _Range) else LIST
-
-
-@dataclass(frozen=True)
-class _Many:
-    """Marks a field whose values may be one, a list or a range; it holds all of them as a tuple."""
-
-    one: Any
-    span: type[_Range]
-
-    most: ClassVar[int] = MOST_POINTS
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
-        listed = Annotated[
-            tuple[self.one, ...],  # type: ignore[name-defined]
-            Field(min_length=1, max_length=self.most),
-            BeforeValidator(_one_is_a_list),
-            WithJsonSchema(self._schema_of_list()),
-        ]
-        either = Annotated[
-            Annotated[self.span, Tag(RANGE)] | Annotated[listed, Tag(LIST)],  # type: ignore[name-defined]
-            Discriminator(_kind),
-        ]
-        return core_schema.no_info_after_validator_function(_values, handler.generate_schema(either))
-
-    def _schema_of_list(self) -> dict[str, Any]:
-        (one,) = [mark.json_schema for mark in self.one.__metadata__ if isinstance(mark, WithJsonSchema)]
-        return {"anyOf": [one, {"type": "array", "items": one, "minItems": 1}]}
-
-
-def _one_is_a_list(value: object) -> object:
+def listed(value: object) -> object:
+    """Let one entry stand for a list of one."""
     return [value] if isinstance(value, str | int | float) else value
 
 
-def _values(found: _Range | tuple[float, ...]) -> tuple[float, ...]:
-    return found.values() if isinstance(found, _Range) else found
+def one_or_more(entry: dict[str, Any], most: int = MOST_POINTS) -> WithJsonSchema:
+    """Return the JSON schema of a field that may be one entry or a list of them; see `listed`."""
+    return WithJsonSchema({"anyOf": [entry, {"type": "array", "items": entry, "minItems": 1, "maxItems": most}]})
 
 
-#: One value, a list of them, or ``{ from, to, points, spacing }``: all of them, SI.
-Lengths = Annotated[tuple[float, ...], _Many(Length, LengthRange)]
-Angles = Annotated[tuple[float, ...], _Many(Angle, AngleRange)]
-Loads = Annotated[tuple[float, ...], _Many(Load, LoadRange)]
-Speeds = Annotated[tuple[float, ...], _Many(Speed, SpeedRange)]
-Temperatures = Annotated[tuple[float, ...], _Many(Temperature, TemperatureRange)]
+def _file_name(value: object) -> object:
+    if isinstance(value, str):
+        if not value.strip():
+            raise ValueError("is empty; the name of a file is wanted")
+        if len(value) > _LONGEST_NAME or any(ord(mark) < _SPACE for mark in value):
+            raise ValueError(f"{brief(value)} cannot be the name of a file")
+        if "**" in value:
+            raise ValueError(f"{brief(value)} looks into all folders; write a pattern such as 'sweeps/*.txt'")
+    return value
+
+
+_LONGEST_NAME = 1_000
+_SPACE = 32
+
+
+def schema_of(kind: Any) -> dict[str, Any]:
+    """Return the JSON schema of a kind of quantity."""
+    (found,) = [mark.json_schema for mark in kind.__metadata__ if isinstance(mark, WithJsonSchema)]
+    return dict(found or {})
+
+
+#: The name of a file, and one or more of them or patterns that stand for them.
+FileName = Annotated[Path, BeforeValidator(_file_name), WithJsonSchema({"type": "string", "minLength": 1})]
+FileNames = Annotated[
+    tuple[FileName, ...],
+    BeforeValidator(listed),
+    Field(min_length=1, max_length=MOST_POINTS),
+    one_or_more({"type": "string", "minLength": 1}),
+]
+#: A few words on one line.
+Words = Annotated[str, Field(max_length=300, pattern=r"^[^\x00-\x1f\x7f]*$")]

@@ -13,7 +13,7 @@ from viscofric.study.sweep import MOST_CASES, axes_of, count_cases
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from viscofric.study.quantities import Problem
+    from viscofric.study.table import Problem
 
     #: Tables that are right in themselves, by their names in the file; what is wrong or left out is not there.
     Tables: TypeAlias = Mapping[str, Any]

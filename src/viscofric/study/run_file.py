@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
 from viscofric.errors import StudyError
+from viscofric.study.axis_values import RANGE, SpeedRange
 from viscofric.study.contact_tables import (
     SHAPES,
     ConditionsTable,
@@ -19,16 +20,16 @@ from viscofric.study.contact_tables import (
 )
 from viscofric.study.material_table import MaterialTable
 from viscofric.study.measurement_table import MeasurementTable
-from viscofric.study.quantities import RANGE, SpeedRange, Table
 from viscofric.study.relations import relations
 from viscofric.study.run_file_errors import place, sentences, told
 from viscofric.study.settings_tables import ClusterTable, OutputsTable, SolverTable, SweepTable, UncertaintyTable
 from viscofric.study.sweep import Sweep, sweep_of
+from viscofric.study.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from viscofric.study.quantities import Problem
+    from viscofric.study.table import Problem
 
 #: A run file is far shorter; what is longer is something else.
 LONGEST_RUN_FILE = 1_000_000  # characters
