@@ -73,7 +73,7 @@ def test_stored_cases_give_the_same_bands_again(results: StudyResults, monkeypat
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
-    monkeypatch.setattr("viscofric.study.cases.solve_with_sensitivity", refuse)
+    monkeypatch.setattr("viscofric.study.solving.solve_with_sensitivity", refuse)
     again = run_study(results.folder.parent / "study.toml")
     for name in ("friction_lower", "friction_upper"):
         for part in ("prediction", "prediction_master"):
@@ -105,16 +105,16 @@ def test_a_rubber_that_was_ready_has_no_bands_and_says_so(tmp_path: Path) -> Non
 
 @pytest.mark.slow
 def test_friction_is_kept_where_only_its_band_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from viscofric.study import cases
+    from viscofric.study import solving
 
-    solve = cases.solve_with_sensitivity
+    solve = solving.solve_with_sensitivity
 
     def fails_when_fast(*arguments: object, speed: float, **options: object) -> object:
         if speed > 0.1:
             raise ConvergenceError("the derivatives did not converge.")
         return solve(*arguments, speed=speed, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(cases, "solve_with_sensitivity", fails_when_fast)
+    monkeypatch.setattr(solving, "solve_with_sensitivity", fails_when_fast)
     results = run_study(write(tmp_path))
     assert results.failures == ()
     assert np.all(results.tree["prediction"]["friction_coefficient"].values > 0.0)

@@ -9,7 +9,9 @@ import pytest
 
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
-from viscofric.study.store import CaseRecord, CaseStore, _sources, case_key
+from viscofric.study.record import CaseRecord
+from viscofric.study.solving import _sources, case_key
+from viscofric.study.store import CaseStore
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,11 +23,16 @@ RECORD = CaseRecord(
     friction_coefficient=0.1 + 0.2,  # not a short decimal: it must come back to the last bit
     friction_error=1e-6,
     indentation=1e-4,
+    indentation_error=1e-8,
     contact_area=1e-6,
+    contact_area_error=1e-9,
     front=1e-3,
     rear=0.9e-3,
     half_width=1e-3,
+    edge_error=1e-6,
     max_pressure=1e6,
+    max_pressure_error=1e3,
+    centre_of_pressure=1e-5,
     energy_balance=1e-4,
     complementarity=1e-9,
     cells=256,

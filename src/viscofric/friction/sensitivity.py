@@ -73,17 +73,19 @@ class ComplianceSensitivity:
 
 
 def solve_with_sensitivity(
-    material: Material, indenter: Indenter, *, speed: float, load: float, temperature: float, **settings: Any
+    material: Material, indenter: Indenter, *, speed: float, load: float, temperature: float | None, **settings: Any
 ) -> tuple[ContactSolution, ComplianceSensitivity]:
     """Solve a contact, and find how its friction answers to compliance at any retardation time.
 
     Parameters
     ----------
     material : Material
-        With a spectrum and a shift.
+        With a spectrum.
     indenter : Indenter
-    speed, load, temperature : float
-        m/s, N or N/m, K.
+    speed, load : float
+        m/s, N or N/m.
+    temperature : float or None
+        K; None for the temperature at which the spectrum holds.
     **settings
         Of `solve_steady`.
 
@@ -96,7 +98,7 @@ def solve_with_sensitivity(
     counterface = indenter_compliance(settings.get("indenter_modulus"), settings.get("indenter_poisson_ratio", 0.3))
     relaxed = (1.0 - material.poisson_ratio**2) / here.E0 + counterface
     length = Scale.for_load(indenter, 1.0 / relaxed, load).length
-    alpha = 1.0 if material.shift is None else float(material.shift(temperature))
+    alpha = 1.0 if temperature is None or material.shift is None else float(material.shift(temperature))
     everywhere = replace(material, spectrum=_with_empty_modes(material.modes_at(), length / (speed * alpha)))
     solution = solve_and_differentiate(
         everywhere, indenter, speed=speed, load=load, temperature=temperature, **settings

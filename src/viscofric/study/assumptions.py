@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.cases import CaseSolver
     from viscofric.study.measurement import Measurement
+    from viscofric.study.record import CaseRecord
     from viscofric.study.run_file import Study
-    from viscofric.study.store import CaseRecord
 
 
 def assumptions(

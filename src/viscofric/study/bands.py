@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+    from viscofric.study.record import CaseRecord
     from viscofric.study.rubber import Rubber
-    from viscofric.study.store import CaseRecord
 
 
 def draw_rubber(rubber: Rubber, samples: int) -> MaterialSamples | None:

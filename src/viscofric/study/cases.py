@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.sensitivity import solve_with_sensitivity
-from viscofric.study.store import CaseRecord, CaseStore, case_key
+from viscofric.study.solving import Task, solve
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -18,6 +16,8 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Ball
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.study.record import CaseRecord
+    from viscofric.study.store import CaseStore
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -66,53 +66,41 @@ class CaseSolver:
         records: list[CaseRecord | None] = []
         self.progress(stage, 0, len(speeds))
         for temperature, speed, load in zip(temperatures.tolist(), speeds.tolist(), loads.tolist(), strict=True):
-            key = self._key(temperature, speed, load)
-            record = self.store.get(key)
+            task = self._task(temperature, speed, load)
+            record = self.store.get(task.key)
             if record is None:
-                record = self._attempt(temperature, speed, load)
+                record = self._attempt(task)
                 if record is not None:
-                    self.store.put(key, record)
+                    self.store.put(task.key, record)
             records.append(record)
             self.progress(stage, len(records), len(speeds))
         self._solved += kept(records)
         return records
 
-    def _attempt(self, temperature: float, speed: float, load: float) -> CaseRecord | None:
-        case: Any = {"speed": speed, "load": load, "temperature": temperature, "accuracy": self.accuracy}
+    def _attempt(self, task: Task) -> CaseRecord | None:
         try:
-            if self.sensitive:
-                try:
-                    solution, sensitivity = solve_with_sensitivity(self.material, self.ball, **case)
-                    return CaseRecord.of(solution, temperature, sensitivity)
-                except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
-                    pass
-            return CaseRecord.of(solve_steady(self.material, self.ball, **case), temperature)
+            return solve(task)
         except (ConvergenceError, InputError) as error:
-            self.failures.append(f"{_where(temperature, speed)}: {error}")
+            self.failures.append(f"{task.label}: {error}")
             return None
 
-    def _key(self, temperature: float, speed: float, load: float) -> str:
-        spectrum = self.material.modes_at(temperature)
-        return case_key(
-            {
-                "E0": spectrum.E0,
-                "E_inf": spectrum.E_inf,
-                "C": spectrum.C.tolist(),
-                "tau": spectrum.tau.tolist(),
-                "poisson_ratio": self.material.poisson_ratio,
-                "ball": self.ball.radius,
-                "load": load,
-                "speed": speed,
-                "temperature": temperature,
-                "accuracy": self.accuracy,
-                "sensitive": self.sensitive,
-            }
+    def _task(self, temperature: float, speed: float, load: float) -> Task:
+        return Task(
+            self.material.modes_at(temperature),
+            self.material.poisson_ratio,
+            self.ball,
+            speed=speed,
+            load=load,
+            temperature=temperature,
+            accuracy=self.accuracy,
+            sensitive=self.sensitive,
+            label=_where(temperature, speed),
         )
 
     def within_measured_frequencies(self, record: CaseRecord) -> bool:
         """Whether the contact's frequency v/a, reduced by α(T), lies within the master curve's, as far as is known."""
         low, high = self.frequency_range or (0.0, math.inf)
-        return low <= self.shift(record.temperature) * record.speed / record.half_width <= high
+        return low <= self.shift(record.temperature) * record.frequency <= high
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ from viscofric.study.results import StudyResults, input_hashes, provenance, save
 from viscofric.study.rubber import Rubber, make_rubber
 from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.run_file import Study, parse_study, read_study_text
-from viscofric.study.store import CaseRecord, CaseStore
+from viscofric.study.store import CaseStore
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.study.record import CaseRecord
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.study.store import NUMBERS, CaseRecord
+from viscofric.study.record import NUMBERS, CaseRecord
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,11 +67,17 @@ _MEANING = {
     "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
     "friction_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
     "indentation": ("m", "indentation"),
+    "indentation_error": ("m", "error estimate of the indentation"),
     "contact_area": ("m**2", "contact area"),
+    "contact_area_error": ("m**2", "error estimate of the contact area"),
     "front": ("m", "distance from the axis to the leading edge"),
     "rear": ("m", "distance from the axis to the trailing edge"),
     "half_width": ("m", "half-width of the contact across the motion"),
+    "edge_error": ("m", "error estimate of front, rear and half-width"),
     "max_pressure": ("Pa", "largest contact pressure"),
+    "max_pressure_error": ("Pa", "error estimate of the largest contact pressure"),
+    "centre_of_pressure": ("m", "distance of the centre of pressure ahead of the indenter's axis"),
+    "interpolation_error": ("1", "what interpolating between solved contacts adds to the error of friction"),
     "energy_balance": ("1", "friction from the pressure less friction from dissipation, relative"),
     "complementarity": ("1", "largest violation of the contact conditions over the indentation"),
     "cells": ("1", "cells along the longer edge of the finest window"),

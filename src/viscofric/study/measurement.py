@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.study.bands import FrictionBands
     from viscofric.study.measurement_table import MeasurementTable
-    from viscofric.study.store import CaseRecord
+    from viscofric.study.record import CaseRecord
 
     Array = NDArray[np.float64]
     Groups = dict[str, xarray.Dataset]

@@ -1,0 +1,124 @@
+"""Cases as asked for, with their rubber: what each of them is if it is solved by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from viscofric.errors import InputError
+from viscofric.study.record import Failure
+from viscofric.study.solving import Task
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.layers import Layer
+    from viscofric.rheology.material import Material
+
+
+class Case(Protocol):
+    """One contact asked for, SI."""
+
+    @property
+    def material(self) -> int:
+        """Which of the materials."""
+
+    @property
+    def indenter(self) -> Indenter:
+        """What slides or rolls."""
+
+    @property
+    def temperature(self) -> float:
+        """K."""
+
+    @property
+    def speed(self) -> float:
+        """m/s."""
+
+    @property
+    def load(self) -> float:
+        """N; N/m of a line contact."""
+
+    @property
+    def layer(self) -> Layer | None:
+        """Thickness and base of the rubber; a half-space without."""
+
+    @property
+    def indenter_modulus(self) -> float | None:
+        """Pa; a rigid indenter without."""
+
+    @property
+    def indenter_poisson_ratio(self) -> float:
+        """Of an elastic indenter."""
+
+    @property
+    def sample(self) -> int | None:
+        """Which member of the material's posterior; the best estimate without."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rubbers:
+    """The materials that cases name by number, and those drawn from their posteriors.
+
+    Attributes
+    ----------
+    materials : sequence of Material
+    members : mapping of int to sequence of Material
+        Of a material's number: its posterior's members.
+    """
+
+    materials: Sequence[Material]
+    members: Mapping[int, Sequence[Material]]
+
+    def of(self, case: Case) -> Material:
+        """Return the material that a case is solved with."""
+        if case.sample is None:
+            return self.materials[case.material]
+        drawn = self.members.get(case.material, ())
+        if case.sample >= len(drawn):
+            raise InputError(
+                f"material {case.material}: sample {case.sample} is asked for, but {len(drawn)} are drawn; right would "
+                "be a number below that."
+            )
+        return drawn[case.sample]
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How all contacts of a plan are solved; see `Task`."""
+
+    accuracy: float
+    sensitive: bool
+    fields: bool
+
+
+def task_of(case: Case, rubbers: Rubbers, settings: Settings) -> Task | Failure:
+    """Return what solving a case by itself takes, or why that cannot be."""
+    label = label_of(case)
+    try:
+        material = rubbers.of(case)
+        return Task(
+            material.modes_at(None if material.shift is None else case.temperature),
+            material.poisson_ratio,
+            case.indenter,
+            speed=case.speed,
+            load=case.load,
+            temperature=case.temperature,
+            accuracy=settings.accuracy,
+            layer=case.layer,
+            indenter_modulus=case.indenter_modulus,
+            indenter_poisson_ratio=case.indenter_poisson_ratio,
+            sensitive=settings.sensitive,
+            fields=settings.fields,
+            label=label,
+        )
+    except InputError as error:
+        return Failure(str(error), label)
+
+
+def label_of(case: Case) -> str:
+    """Say which case it is, for people."""
+    sample = "" if case.sample is None else f", sample {case.sample}"
+    return f"{celsius(case.temperature):.4g} °C, {1e3 * case.speed:.4g} mm/s{sample}"

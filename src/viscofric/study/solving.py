@@ -1,0 +1,174 @@
+"""One contact of a study, from everything that decides its answer to what is kept of it."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+from dataclasses import dataclass, field, fields, replace
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.contact.steady import solve_steady
+from viscofric.errors import ConvergenceError
+from viscofric.friction.sensitivity import solve_with_sensitivity
+from viscofric.rheology.material import Material
+from viscofric.study.record import CaseRecord
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from importlib.resources.abc import Traversable
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.layers import Layer
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """One contact to be solved.
+
+    Attributes
+    ----------
+    modes : RetardationSpectrum
+        Of the rubber at the contact's temperature.
+    poisson_ratio : float
+    indenter : Indenter
+    speed, load : float
+        m/s, and N (N/m for a line contact).
+    temperature : float
+        K; it is written down only, as the modes are those of this temperature.
+    accuracy : float
+        Of the friction coefficient, relative.
+    layer : Layer or None
+    indenter_modulus : float or None
+        Pa; a rigid indenter without.
+    indenter_poisson_ratio : float
+    sensitive : bool
+        Whether to find how friction answers to the rubber's compliance.
+    fields : bool
+        Whether to keep the fields.
+    label : str
+        For people: "30 °C, 20 mm/s".
+    key : str
+        A name that changes with anything that could change the answer, and with any line of the solver.
+    """
+
+    modes: RetardationSpectrum
+    poisson_ratio: float
+    indenter: Indenter
+    speed: float
+    load: float
+    temperature: float
+    accuracy: float
+    layer: Layer | None = None
+    indenter_modulus: float | None = None
+    indenter_poisson_ratio: float = 0.3
+    sensitive: bool = False
+    fields: bool = False
+    label: str = ""
+    key: str = field(init=False, default="")
+
+    def __post_init__(self) -> None:
+        # How the modes were found is much to send about, and does not matter to the answer.
+        object.__setattr__(self, "modes", replace(self.modes, fit=None))
+        object.__setattr__(self, "key", self._key())
+
+    def _key(self) -> str:
+        modes = self.modes
+        described: dict[str, object] = {
+            "E0": modes.E0,
+            "E_inf": modes.E_inf,
+            "C": modes.C.tolist(),
+            "tau": modes.tau.tolist(),
+            "poisson_ratio": self.poisson_ratio,
+            "indenter": _written(self.indenter),
+            "layer": None if self.layer is None else _written(self.layer),
+            "speed": self.speed,
+            "load": self.load,
+            "temperature": self.temperature,
+            "indenter_modulus": self.indenter_modulus,
+            "indenter_poisson_ratio": self.indenter_poisson_ratio,
+            "accuracy": self.accuracy,
+            "sensitive": self.sensitive,
+            "fields": self.fields,
+        }
+        return case_key(described)
+
+
+def solve(task: Task) -> CaseRecord:
+    """Solve one contact.
+
+    Parameters
+    ----------
+    task : Task
+
+    Returns
+    -------
+    CaseRecord
+        The same to the last bit in whatever process.  Without a sensitivity where friction was found but not how it
+        answers to the rubber.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As of `solve_steady`.
+    """
+    material = Material(task.modes, poisson_ratio=task.poisson_ratio)
+    case: dict[str, Any] = {
+        "speed": task.speed,
+        "load": task.load,
+        "accuracy": task.accuracy,
+        "layer": task.layer,
+        "indenter_modulus": task.indenter_modulus,
+        "indenter_poisson_ratio": task.indenter_poisson_ratio,
+    }
+    if task.sensitive:
+        try:
+            solution, sensitivity = solve_with_sensitivity(material, task.indenter, temperature=None, **case)
+            return CaseRecord.of(solution, task.temperature, sensitivity, task.fields)
+        except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
+            pass
+    return CaseRecord.of(solve_steady(material, task.indenter, **case), task.temperature, with_fields=task.fields)
+
+
+def case_key(description: dict[str, object]) -> str:
+    """Return a name for a case that changes with anything that could change its answer."""
+    text = json.dumps({"solver": _solver_fingerprint(), **description}, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _written(shape: Any) -> list[object]:
+    """Write an indenter or a layer down, whatever its kind."""
+    values = ((entry.name, getattr(shape, entry.name)) for entry in fields(shape))
+    return [type(shape).__name__, *((name, _digest(value)) for name, value in values)]
+
+
+def _digest(value: Any) -> object:
+    """Return a number as it is, and of an array what changes with any of its entries."""
+    if isinstance(value, np.ndarray):
+        return [value.shape, hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()]
+    return value.item() if isinstance(value, np.generic) else value
+
+
+@functools.cache
+def _solver_fingerprint() -> str:
+    """Return what changes with any line of the solver, so that cases of an older one are not taken for new."""
+    digest = hashlib.sha256()
+    for name, source in _sources(files("viscofric.contact")):
+        digest.update(name.encode() + b"\0" + source)
+    for room, name in (("friction", "sensitivity.py"), ("study", "solving.py"), ("study", "record.py")):
+        digest.update((files("viscofric") / room / name).read_bytes())
+    return digest.hexdigest()
+
+
+def _sources(folder: Traversable, path: str = "") -> Iterator[tuple[str, bytes]]:
+    """Yield names and texts of the Python files in a folder of a package and in those below it."""
+    for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        name = f"{path}/{entry.name}"
+        if entry.is_dir():
+            yield from _sources(entry, name)
+        elif entry.name.endswith(".py"):
+            yield name, entry.read_bytes()

@@ -1,0 +1,131 @@
+"""What a plan asks to be solved, and what it makes of the answers."""
+
+from __future__ import annotations
+
+import pickle
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import InputError
+from viscofric.study.planning.plan import plan_cases
+from viscofric.study.record import NUMBERS, CaseRecord, Failure
+from viscofric.study.solving import Task, solve
+
+if TYPE_CHECKING:
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.layers import Layer
+
+SLS = vf.Material(
+    vf.Material.standard_linear_solid(1e6, 1e7, 1e-3).spectrum,
+    shift=vf.WLF(C1=8.86, C2=101.6, reference=303.15),
+)
+BALL = vf.Ball(0.01)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One contact asked for."""
+
+    speed: float
+    temperature: float = 303.15
+    load: float = 1.0
+    indenter: Indenter = BALL
+    material: int = 0
+    layer: Layer | None = None
+    indenter_modulus: float | None = None
+    indenter_poisson_ratio: float = 0.3
+    sample: int | None = None
+
+
+def made_up(task: Task) -> CaseRecord:
+    """Numbers that tell tasks apart, without solving anything."""
+    counts = ("speed", "temperature", "load", "cells", "products", "interpolation_error")
+    numbers = dict.fromkeys((name for name in NUMBERS if name not in counts), task.speed)
+    return CaseRecord(speed=task.speed, temperature=task.temperature, load=task.load, cells=128, products=9, **numbers)
+
+
+def test_equal_cases_are_solved_once() -> None:
+    plan = plan_cases([Case(0.1), Case(0.2), Case(0.1)], [SLS])
+    assert [task.speed for task in plan.wanted()] == [0.1, 0.2]
+    for task in reversed(plan.wanted()):
+        plan.receive(task.key, made_up(task))
+    assert plan.wanted() == []
+    assert [outcome.speed for outcome in plan.found()] == [0.1, 0.2, 0.1]
+
+
+def test_nothing_is_found_before_everything_is_known() -> None:
+    plan = plan_cases([Case(0.1), Case(0.2)], [SLS])
+    assert (plan.done, plan.total) == (0, 2)
+    plan.receive(plan.wanted()[0].key, made_up(plan.wanted()[0]))
+    assert (plan.done, plan.total) == (1, 2)
+    with pytest.raises(InputError, match="1 cases are not known"):
+        plan.found()
+
+
+def test_a_case_that_cannot_be_is_a_failure_and_the_others_go_on() -> None:
+    plan = plan_cases([Case(0.1, temperature=100.0), Case(0.1), Case(0.1, sample=3)], [SLS])
+    assert len(plan.wanted()) == 1
+    plan.receive(plan.wanted()[0].key, Failure("the solver failed.", "here"))
+    cold, failed, unknown = plan.found()
+    assert isinstance(cold, Failure)
+    assert "-173.1 °C, 100 mm/s" in str(cold)
+    assert str(failed) == "here: the solver failed."
+    assert isinstance(unknown, Failure)
+    assert "0 are drawn" in unknown.reason
+
+
+def test_key_changes_with_all_that_decides_the_answer() -> None:
+    (task,) = plan_cases([Case(0.1)], [SLS]).wanted()
+    others = [
+        replace(task, **change)  # type: ignore[arg-type]
+        for change in (
+            {"modes": task.modes.shifted(2.0)},
+            {"poisson_ratio": 0.4},
+            {"indenter": vf.Ball(0.02)},
+            {"indenter": vf.Cylinder(0.01)},
+            {"indenter": vf.HeightMap(np.outer(np.arange(5.0), np.ones(5)), 1e-3)},
+            {"indenter": vf.HeightMap(np.outer(np.arange(5.0), np.ones(5)) * 2, 1e-3)},
+            {"speed": 0.2},
+            {"load": 2.0},
+            {"temperature": 300.0},
+            {"accuracy": 1e-2},
+            {"layer": vf.Layer(1e-3)},
+            {"layer": vf.Layer(1e-3, bonded=False)},
+            {"indenter_modulus": 1e9},
+            {"indenter_poisson_ratio": 0.2},
+            {"sensitive": True},
+            {"fields": True},
+        )
+    ]
+    keys = {task.key, *(other.key for other in others)}
+    assert len(keys) == 1 + len(others)
+    assert replace(task, label="another name").key == task.key
+
+
+def test_a_task_that_travelled_gives_the_same_bits() -> None:
+    (task,) = plan_cases([Case(0.1)], [SLS], accuracy=1e-2, fields=True).wanted()
+    here, there = solve(task), solve(pickle.loads(pickle.dumps(task)))
+    assert here == there
+    assert here.fields is not None
+    assert there.fields is not None
+    np.testing.assert_array_equal(here.fields.pressure, there.fields.pressure)
+    # The fields hold what the numbers tell: the load, to what the solver promises of it.
+    cell = np.ptp(here.fields.x[:2]) * np.ptp(here.fields.y[:2])
+    assert here.fields.pressure.sum() * cell == pytest.approx(1.0, rel=1e-6)
+
+
+def test_members_of_the_posterior_are_solved_with_their_own_modes() -> None:
+    softer = replace(SLS, spectrum=SLS.at().shifted(1.0, 0.5))  # type: ignore[union-attr]
+    plan = plan_cases([Case(0.1), replace(Case(0.1), sample=0)], [SLS], members={0: [softer]})
+    best, drawn = plan.wanted()
+    assert (best.modes.E0, drawn.modes.E0) == (1e6, 0.5e6)
+
+
+def test_line_contacts_are_recorded_too() -> None:
+    (task,) = plan_cases([Case(0.1, load=100.0, indenter=vf.Cylinder(0.01))], [SLS], accuracy=1e-2).wanted()
+    record = solve(task)
+    assert CaseRecord.from_json(record.to_json()) == record
