@@ -136,7 +136,7 @@ def solve(task: Task) -> CaseRecord:
 
 def case_key(description: dict[str, object]) -> str:
     """Return a name for a case that changes with anything that could change its answer."""
-    text = json.dumps({"solver": _solver_fingerprint(), **description}, sort_keys=True)
+    text = json.dumps({"solver": solver_fingerprint(), **description}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
@@ -154,7 +154,7 @@ def _digest(value: Any) -> object:
 
 
 @functools.cache
-def _solver_fingerprint() -> str:
+def solver_fingerprint() -> str:
     """Return what changes with any line of the solver, so that cases of an older one are not taken for new."""
     digest = hashlib.sha256()
     for name, source in _sources(files("viscofric.contact")):
