@@ -16,13 +16,14 @@ import signal
 import subprocess
 import sys
 import threading
+from collections import deque
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.errors import InputError, ViscofricError, brief
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Generator, Iterator, Sequence
     from types import TracebackType
     from typing import Self
 
@@ -90,7 +91,7 @@ class Workers:
         lent: list[Child] = []
         try:
             while len(lent) < count:
-                child = self._idle.pop() if self._idle else self._start(self._started)
+                child = self._idle.pop() if self._idle else self._start()
                 if child.poll() is None:
                     lent.append(child)
             yield lent
@@ -100,7 +101,8 @@ class Workers:
             raise
         self._idle += lent
 
-    def _start(self, started: contextlib.ExitStack) -> Child:
+    def _start(self) -> Child:
+        assert self._started is not None
         child = subprocess.Popen(
             # -P: modules in the working folder must not stand in for those of this process
             [sys.executable, "-P", "-c", _SERVE],
@@ -109,7 +111,7 @@ class Workers:
             env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # none flashes up under Windows
         )
-        started.callback(_end, child)
+        self._started.callback(_end, child)
         return child
 
 
@@ -164,67 +166,169 @@ def call_all(
             if progress is not None:
                 progress(len(results))
         return results
-    shared = _SharedCalls(f"{function.__module__}:{function.__qualname__}", calls, workers.number)
+    shared = _SharedCalls(function, calls, workers)
+    found: dict[int, Any] = {}
+    failures: dict[int, BaseException] = {}
     with workers._children(count) as children:
-        found, failures = shared.results(children, progress)
+        for index, kind, value in shared.answers(children):
+            if kind == "result":
+                found[index] = value
+                if progress is not None:
+                    progress(len(found))
+            elif kind == "error":
+                failures[index] = value
     if failures:
         raise failures[min(failures)]
     return [found[index] for index in range(len(calls))]
 
 
-class _SharedCalls:
-    """Calls handed out one after the other to some processes, by a thread for each of these."""
+def as_they_come(
+    function: Callable[..., Any], calls: Sequence[dict[str, Any]], *, workers: Workers, tries: int = 3
+) -> Generator[tuple[int, str, Any]]:
+    """Call a function with each of several sets of arguments, and tell of each as soon as it is begun and finished.
 
-    def __init__(self, name: str, calls: Sequence[dict[str, Any]], workers: int) -> None:
+    Unlike with `call_all`, an error of one call does not keep the others from being made, and a process that ended is
+    replaced by another, which makes its call again.
+
+    Parameters
+    ----------
+    function : callable
+        Importable by its name, if there is more than one worker.
+    calls : sequence of dict
+        Keyword arguments; what they hold can be pickled, if there is more than one worker.
+    workers : Workers
+        Within their block.
+    tries : int
+        As many processes may end during a call before it is given up.
+
+    Yields
+    ------
+    index : int
+        Of the call.
+    kind : str
+        ``"begun"``, ``"result"``, ``"error"`` (what it raised) or ``"ended"`` (given up: its processes ended).
+    value : object
+        What the call returned or raised; for ``"ended"`` an exception that says so.
+
+    Raises
+    ------
+    InputError
+        If the workers are used outside their block, or a call cannot be handed to another process.
+
+    Notes
+    -----
+    An interrupt, or closing the iterator, ends the processes at once.
+    """
+    count = min(workers.number, len(calls))
+    if count <= 1:
+        for index, call in enumerate(calls):
+            yield index, "begun", None
+            try:
+                value = function(**call)
+            except Exception as error:  # noqa: BLE001 - it is handed on
+                yield index, "error", error
+            else:
+                yield index, "result", value
+        return
+    shared = _SharedCalls(function, calls, workers, tries=tries, stops=False)
+    with workers._children(count) as children:
+        yield from shared.answers(children)
+
+
+class _SharedCalls:
+    """Calls handed out one after the other to some processes, by a thread for each of these.
+
+    Calls whose process ended are made again by another one, until `tries` ended.  If it `stops`, none is begun after
+    one that failed.
+    """
+
+    def __init__(
+        self,
+        function: Callable[..., Any],
+        calls: Sequence[dict[str, Any]],
+        workers: Workers,
+        tries: int = 1,
+        stops: bool = True,
+    ) -> None:
+        name = f"{function.__module__}:{function.__qualname__}"
         try:
             self.messages = [pickle.dumps((name, call)) for call in calls]
         except (pickle.PicklingError, AttributeError, TypeError) as error:
-            raise _not_handed_over(workers, error) from None
-        self.workers = workers
-        self.answers: queue.SimpleQueue[tuple[int, bool, Any]] = queue.SimpleQueue()
-        self.waiting = iter(range(len(calls)))
+            raise _not_handed_over(workers.number, error) from None
+        self.workers, self.stops = workers, stops
+        self.told: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
+        self.waiting = deque(range(len(calls)))
+        self.tries_left = [tries] * len(calls)
         self.lock = threading.Lock()
-        self.failed = False
+        self.closed = False
 
-    def results(
-        self, children: list[Child], progress: Callable[[int], object] | None
-    ) -> tuple[dict[int, Any], dict[int, BaseException]]:
-        """Return what was found and what failed, when none of the processes is at work any more."""
-        found: dict[int, Any] = {}
-        failures: dict[int, BaseException] = {}
+    def answers(self, children: list[Child]) -> Iterator[tuple[int, str, Any]]:
+        """Yield what becomes of the calls, until none of the processes is at work any more."""
+        self.children = children
         threads = [threading.Thread(target=self._keep_busy, args=(child,), daemon=True) for child in children]
-        for thread in threads:
-            thread.start()
-        while any(thread.is_alive() for thread in threads) or not self.answers.empty():
-            with contextlib.suppress(queue.Empty):
-                index, succeeded, value = self.answers.get(timeout=_LONGEST_WAIT)
-                (found if succeeded else failures)[index] = value
-                if succeeded and progress is not None:
-                    progress(len(found))
-            if len(found) == len(self.messages):
-                break
-        return found, failures
+        unanswered = len(self.messages)
+        try:
+            for thread in threads:
+                thread.start()
+            while unanswered and (any(thread.is_alive() for thread in threads) or not self.told.empty()):
+                with contextlib.suppress(queue.Empty):
+                    index, kind, value = self.told.get(timeout=_LONGEST_WAIT)
+                    unanswered -= kind != "begun"
+                    yield index, "error" if kind == "ended" and self.stops else kind, value
+            if unanswered and not self.stops:
+                raise ViscofricError(_ENDED)
+        finally:
+            with self.lock:
+                self.closed = True
 
     def _next(self) -> int | None:
         with self.lock:
-            return None if self.failed else next(self.waiting, None)
+            return self.waiting.popleft() if self.waiting and not self.closed else None
 
-    def _keep_busy(self, child: Child) -> None:
+    def _keep_busy(self, child: Child | None) -> None:
+        while child is not None and (index := self._next()) is not None:
+            self.told.put((index, "begun", None))
+            kind, value = self._ask(child, index)
+            if kind == "ended":
+                self.tries_left[index] -= 1
+                child = self._replaced(child)
+                if self.tries_left[index] and child is not None:
+                    self.waiting.appendleft(index)
+                    continue
+            self._stop_after(kind)
+            self.told.put((index, kind, value))
+
+    def _stop_after(self, kind: str) -> None:
+        if self.stops and kind != "result":
+            with self.lock:
+                self.waiting.clear()
+
+    def _ask(self, child: Child, index: int) -> tuple[str, Any]:
+        """Have a process make a call; return what became of it."""
         assert child.stdin is not None
         assert child.stdout is not None
-        while (index := self._next()) is not None:
+        try:
+            pickle.dump(self.messages[index], child.stdin)
+            child.stdin.flush()
+            kind, value = pickle.loads(pickle.load(child.stdout))
+        except (OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError):
+            return "ended", ViscofricError(_ENDED)
+        if kind == "not understood":
+            return "error", _not_handed_over(self.workers.number, value)
+        return kind, value
+
+    def _replaced(self, child: Child) -> Child | None:
+        """Return another process in place of one that ended; None where none can be started or is wanted."""
+        child.kill()
+        child.wait()
+        with self.lock:
+            if self.closed or self.stops:
+                return None
             try:
-                pickle.dump(self.messages[index], child.stdin)
-                child.stdin.flush()
-                kind, value = pickle.loads(pickle.load(child.stdout))
-            except (OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError):
-                child.kill()
-                child.wait()
-                kind, value = "error", ViscofricError(_ENDED)
-            if kind == "not understood":
-                value = _not_handed_over(self.workers, value)
-            self.failed = self.failed or kind != "result"
-            self.answers.put((index, kind == "result", value))
+                self.children[self.children.index(child)] = fresh = self.workers._start()
+            except OSError:
+                return None
+            return fresh
 
 
 def _not_handed_over(workers: int, reason: object) -> InputError:

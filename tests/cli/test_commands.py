@@ -301,7 +301,7 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
     path = write(tmp_path, study=STUDY.replace('"100 mm/s"', '["100 mm/s", "200 mm/s"]'))
     from viscofric.study import cases
 
-    solve, calls = cases.solve_steady, []
+    solve, calls = cases.solve, []
 
     def interrupted(*arguments: object, **options: object) -> object:
         calls.append(arguments)
@@ -309,7 +309,7 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
             raise KeyboardInterrupt
         return solve(*arguments, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(cases, "solve_steady", interrupted)
+    monkeypatch.setattr(cases, "solve", interrupted)
     result = call("run", path)
     assert result.exit_code == 130
     assert "Finished cases are kept" in result.output

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from viscofric.errors import ConvergenceError, InputError
+from viscofric.study.record import Failure
+from viscofric.study.running.task import attempt
 from viscofric.study.solving import Task, solve
 from viscofric.units import celsius
 
@@ -67,22 +68,16 @@ class CaseSolver:
         self.progress(stage, 0, len(speeds))
         for temperature, speed, load in zip(temperatures.tolist(), speeds.tolist(), loads.tolist(), strict=True):
             task = self._task(temperature, speed, load)
-            record = self.store.get(task.key)
-            if record is None:
-                record = self._attempt(task)
-                if record is not None:
-                    self.store.put(task.key, record)
-            records.append(record)
+            outcome = self.store.get(task.key)
+            if outcome is None:
+                outcome = attempt(solve, task)
+                self.store.put(task.key, outcome)
+            if isinstance(outcome, Failure):
+                self.failures.append(str(outcome))
+            records.append(None if isinstance(outcome, Failure) else outcome)
             self.progress(stage, len(records), len(speeds))
         self._solved += kept(records)
         return records
-
-    def _attempt(self, task: Task) -> CaseRecord | None:
-        try:
-            return solve(task)
-        except (ConvergenceError, InputError) as error:
-            self.failures.append(f"{task.label}: {error}")
-            return None
 
     def _task(self, temperature: float, speed: float, load: float) -> Task:
         return Task(

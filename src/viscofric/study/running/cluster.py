@@ -1,0 +1,133 @@
+"""Tasks done by the workers of a Dask cluster: those of a running scheduler, or started as jobs of a batch system."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import uuid
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import InputError, ViscofricError
+from viscofric.study.running.executors import Executor
+from viscofric.study.running.task import Lost, take_on_cluster
+from viscofric.study.solving import solver_fingerprint
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from types import ModuleType, TracebackType
+    from typing import Self
+
+    from viscofric.study.running.executors import Answers
+    from viscofric.study.running.task import Outcome, Solve, Task
+
+_PATIENCE = 30.0  # s
+
+
+@dataclass(frozen=True)
+class BatchJobs:
+    """Workers that are started as jobs of a batch system.
+
+    Parameters
+    ----------
+    jobs : int
+        How many.
+    settings : dict, optional
+        Of ``dask_jobqueue.SLURMCluster``: queue, account, cores, memory, walltime …
+    kind : str
+        Class of `dask_jobqueue`.
+    """
+
+    jobs: int
+    settings: dict[str, Any] = field(default_factory=dict)
+    kind: str = "SLURMCluster"
+
+
+class Dask(Executor):
+    """Shares tasks out among the workers of a Dask cluster.
+
+    Workers may come and go meanwhile: what one of them had in hand when it was lost goes to another.
+
+    Parameters
+    ----------
+    where : str or BatchJobs
+        Address of a running scheduler, such as ``"tcp://10.0.0.1:8786"``, or jobs to start.
+
+    Raises
+    ------
+    InputError
+        If Dask is not installed.
+    """
+
+    def __init__(self, where: str | BatchJobs) -> None:
+        self._where = where
+        self._distributed = _imported("distributed")
+        self._jobqueue = None if isinstance(where, str) else _imported("dask_jobqueue")
+        self._open = contextlib.ExitStack()
+        self._client: Any = None
+
+    def __enter__(self) -> Self:
+        """Reach the scheduler, or start jobs.
+
+        Raises
+        ------
+        InputError
+            If it does not answer.
+        """
+        with contextlib.ExitStack() as opened:
+            address: Any = self._where
+            if isinstance(self._where, BatchJobs):
+                address = opened.enter_context(getattr(self._jobqueue, self._where.kind)(**self._where.settings))
+                # At least and at most: jobs that end, with their time or their machine, are replaced.
+                address.adapt(minimum_jobs=self._where.jobs, maximum_jobs=self._where.jobs)
+            try:
+                client = self._distributed.Client(address, timeout=_PATIENCE, set_as_default=False)
+            except (OSError, ValueError) as error:
+                raise InputError(f"scheduler {self._where!r} cannot be reached: {error}") from error
+            self._client = opened.enter_context(client)
+            self._open = opened.pop_all()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._client = None
+        self._open.close()
+
+    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+        """Do tasks; see `Executor`."""
+        run = uuid.uuid4().hex  # the scheduler remembers names for a while, of what was given up too
+        keys = [f"{task.key}-{run}" for task in tasks]
+        work = functools.partial(take_on_cluster, solve, fingerprint=solver_fingerprint())
+        futures = dict(zip(self._client.map(work, tasks, key=keys, pure=False), tasks, strict=True))
+        try:
+            for future in self._distributed.as_completed(list(futures), loop=self._client.loop):
+                task = futures.pop(future)
+                yield task.key, self._outcome(future, task)
+        finally:
+            if futures:
+                self._client.cancel(list(futures))
+
+    def _outcome(self, future: Any, task: Task) -> Outcome:
+        try:
+            outcome: Outcome = future.result()
+        except self._distributed.KilledWorker:
+            return Lost("one worker after the other ended while it was solved, mostly for want of memory.", task.label)
+        except self._distributed.CancelledError as error:
+            raise ViscofricError("the Dask scheduler ended, or gave up what it was asked for.") from error
+        except ViscofricError:
+            raise
+        except Exception as error:
+            raise ViscofricError(
+                f"the workers of the Dask cluster cannot do what they are asked for ({type(error).__name__}: {error}); "
+                "viscofric must be installed on all machines, in the same version."
+            ) from error
+        return outcome
+
+
+def _imported(name: str) -> ModuleType:
+    try:
+        return import_module(name)
+    except ImportError as error:
+        raise InputError(f"{name} is not installed, which clusters need: pip install 'viscofric[cluster]'.") from error

@@ -1,0 +1,107 @@
+"""Where tasks are done: in this process, or in several of this machine."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING
+
+from viscofric.processes import Workers, as_they_come
+from viscofric.study.running.task import Lost, attempt, take
+from viscofric.study.solving import solver_fingerprint
+
+if TYPE_CHECKING:
+    from collections.abc import Generator, Sequence
+    from types import TracebackType
+    from typing import Self, TypeAlias
+
+    from viscofric.study.running.task import Outcome, Solve, Task
+
+    Answers: TypeAlias = Generator[tuple[str, Outcome | None]]
+
+
+class Executor(contextlib.AbstractContextManager["Executor"]):
+    """Does tasks, wherever; the answers do not depend on where, nor on how many work on them.
+
+    Used in a ``with`` block, at the end of which nothing is at work any more.
+    """
+
+    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+        """Do tasks that are independent of each other.
+
+        Parameters
+        ----------
+        solve : callable
+            Gets a task, returns its record; raises ConvergenceError or InputError if there is none.  Importable by its
+            name.
+        tasks : sequence of Task
+
+        Yields
+        ------
+        key : str
+            Of a task, in the order in which they are finished.
+        outcome : CaseRecord, Failure or None
+            None, where that is known: the task is begun.  A `Lost` one, where its workers ended again and again.
+
+        Raises
+        ------
+        ViscofricError
+            If there are no workers, or they are of no use.
+        """
+        raise NotImplementedError
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        pass
+
+
+class Serial(Executor):
+    """Does one task after the other in this process."""
+
+    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+        """Do tasks; see `Executor`."""
+        for task in tasks:
+            yield task.key, None
+            yield task.key, attempt(solve, task)
+
+
+class Processes(Executor):
+    """Shares tasks out among processes of this machine.
+
+    They live on from one set of tasks to the next; one that ended is replaced by another.
+
+    Parameters
+    ----------
+    number : int
+
+    Raises
+    ------
+    InputError
+        If it is not a whole number above zero.
+    """
+
+    def __init__(self, number: int) -> None:
+        self._workers = Workers(number)
+
+    def __enter__(self) -> Self:
+        self._workers.__enter__()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._workers.__exit__(kind, error, trace)
+
+    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+        """Do tasks; see `Executor`."""
+        fingerprint = solver_fingerprint()
+        calls = [{"solve": solve, "task": task, "fingerprint": fingerprint} for task in tasks]
+        with contextlib.closing(as_they_come(take, calls, workers=self._workers)) as found:
+            for index, kind, value in found:
+                task = tasks[index]
+                if kind == "error":
+                    raise value
+                yield task.key, Lost.by(value, task) if kind == "ended" else value

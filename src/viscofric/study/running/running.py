@@ -1,0 +1,156 @@
+"""A plan carried out: what is stored is taken, the rest is solved, and each case is stored as it comes in."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import time
+from typing import TYPE_CHECKING, Protocol
+
+from viscofric.study.running.events import Event, silent
+from viscofric.study.running.task import Lost
+from viscofric.study.solving import solve
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.study.running.events import Progress
+    from viscofric.study.running.executors import Executor
+    from viscofric.study.running.task import Outcome, Solve, Task
+    from viscofric.study.store import CaseStore
+
+STAGE = "contacts"
+_BETWEEN_COUNTS = 0.1  # s
+
+
+class Plan(Protocol):
+    """What running needs to know of a plan: see `viscofric.study.planning`."""
+
+    @property
+    def done(self) -> int:
+        """Cases that are known."""
+
+    @property
+    def total(self) -> int:
+        """Cases that are asked for."""
+
+    def wanted(self) -> Sequence[Task]:
+        """Return tasks that do not depend on each other; none when everything is known."""
+
+    def receive(self, key: str, outcome: Outcome) -> None:
+        """Take what became of a task."""
+
+
+def run_plan(
+    plan: Plan, store: CaseStore, executor: Executor, progress: Progress = silent, solve: Solve = solve
+) -> None:
+    """Do all tasks of a plan, but those that the store has.
+
+    Parameters
+    ----------
+    plan : Plan
+        Receives what becomes of its tasks in the order in which it wanted them, whatever the order in which they are
+        finished: what it wants next then depends on nothing else.
+    store : CaseStore
+        Gets each record, and each failure, as soon as it is there.
+    executor : Executor
+        Within its ``with`` block.
+    progress : callable, optional
+        Hears of each task.
+    solve : callable, optional
+        Gets a task, returns its record; importable by its name.
+
+    Raises
+    ------
+    DataFileError
+        If the store cannot be written (disk full, folder read-only).
+    ViscofricError
+        If the executor cannot go on.
+
+    Notes
+    -----
+    An interrupt loses the tasks that are worked on, and no others.
+    """
+    _Run(plan, store, executor, progress, solve).all_waves()
+
+
+class _Run:
+    """What is known of a plan while it is carried out."""
+
+    def __init__(self, plan: Plan, store: CaseStore, executor: Executor, progress: Progress, solve: Solve) -> None:
+        self.plan, self.store, self.executor, self.progress, self.solve = plan, store, executor, progress, solve
+        self.solves = 0
+        self._counted = -math.inf
+        self._done = 0
+
+    def all_waves(self) -> None:
+        self._tell("stage")
+        while tasks := list(self.plan.wanted()):
+            self._wave(tasks)
+        self._counted = -math.inf
+        self._tell("stage")
+
+    def _wave(self, tasks: Sequence[Task]) -> None:
+        """Do tasks that are independent of each other."""
+        by_key = {task.key: task for task in tasks}
+        order = iter(by_key)
+        due = next(order)
+        outcomes: dict[str, Outcome] = {}
+
+        def hand_on() -> None:
+            nonlocal due
+            while due in outcomes:
+                self.plan.receive(due, outcomes[due])
+                due = next(order, "")
+
+        missing = []
+        for task in by_key.values():
+            found = self.store.get(task.key, task.fields)
+            if found is None:
+                missing.append(task)
+                continue
+            outcomes[task.key] = found
+            hand_on()
+            self._tell("stored", task)
+        begun: dict[str, float] = {}
+        with contextlib.closing(self.executor.map(self.solve, missing)) as answers:
+            for key, outcome in answers:
+                if outcome is None:
+                    begun[key] = time.monotonic()
+                    self._tell("solving", by_key[key])
+                    continue
+                if not isinstance(outcome, Lost):
+                    self.store.put(key, outcome)
+                outcomes[key] = outcome
+                self.solves += 1
+                hand_on()
+                self._tell_outcome(by_key[key], outcome, begun.get(key))
+
+    def _tell_outcome(self, task: Task, outcome: Outcome, begun: float | None) -> None:
+        seconds = None if begun is None else round(time.monotonic() - begun, 6)
+        reason = getattr(outcome, "reason", None)
+        self._tell("solved" if reason is None else "failed", task, seconds=seconds, reason=reason)
+
+    def _cases_done(self) -> int:
+        """Ask the plan how many cases are known; not too often, as it may have many to look through."""
+        if time.monotonic() > self._counted + _BETWEEN_COUNTS:
+            self._done = self.plan.done
+            self._counted = time.monotonic()
+        return self._done
+
+    def _tell(
+        self, event: str, task: Task | None = None, seconds: float | None = None, reason: str | None = None
+    ) -> None:
+        self.progress(
+            Event(
+                event,
+                stage=STAGE,
+                done=self._cases_done(),
+                total=self.plan.total,
+                solves=self.solves,
+                label=None if task is None else task.label,
+                key=None if task is None else task.key,
+                seconds=seconds,
+                reason=reason,
+            )
+        )

@@ -1,0 +1,72 @@
+"""Contacts that are solved in a moment, and a plan of them in two waves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import viscofric as vf
+from viscofric.errors import ConvergenceError
+from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.solving import Task, solve
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+RUBBER = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3, poisson_ratio=0.5)
+
+
+def task(speed: float, fields: bool = False) -> Task:
+    return Task(
+        RUBBER.modes_at(None),
+        RUBBER.poisson_ratio,
+        vf.Ball(radius=1e-2),
+        speed=speed,
+        load=1.0,
+        temperature=300.0,
+        accuracy=0.05,
+        fields=fields,
+        label=f"{speed:.4g} m/s",
+    )
+
+
+class TwoWaves:
+    """First contacts at some speeds, then two at speeds that the answers tell."""
+
+    def __init__(self, count: int = 6, fields: bool = False) -> None:
+        self.first = [task(float(speed), fields) for speed in np.geomspace(0.1, 5.0, count)]
+        self.second: list[Task] = []
+        self.known: dict[str, CaseRecord | Failure] = {}
+        self.total = count + 2
+
+    @property
+    def done(self) -> int:
+        return len(self.known)
+
+    def wanted(self) -> Sequence[Task]:
+        waiting = [one for one in self.first if one.key not in self.known]
+        if waiting:
+            return waiting
+        if not self.second:
+            # Depends on the order in which answers came, which is to be that in which they were wanted.
+            found = [one.friction_coefficient for one in self.known.values() if isinstance(one, CaseRecord)]
+            self.second = [task(1.0 + found[0] / found[-1]), task(2.0 + found[1])]
+        return [one for one in self.second if one.key not in self.known]
+
+    def receive(self, key: str, outcome: CaseRecord | Failure) -> None:
+        assert key not in self.known
+        self.known[key] = outcome
+
+    def bits(self) -> list[tuple[str, str]]:
+        """Return all that is known, to the last digit, in the order in which it became known."""
+        return [(key, one.to_json() if isinstance(one, CaseRecord) else str(one)) for key, one in self.known.items()]
+
+
+def solve_some(asked: Task) -> CaseRecord:
+    """Solve a contact, unless it is one of those that fail."""
+    if asked.speed < 0.11:
+        raise ConvergenceError("it does not converge.")
+    if asked.speed > 4.9:
+        raise ZeroDivisionError("nobody thought of that")
+    return solve(asked)

@@ -1,0 +1,150 @@
+"""Plans carried out: the same bits wherever, each case stored as it comes in, and none of them solved twice."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from study.running.tasks import TwoWaves, solve_some, task
+from viscofric.errors import DataFileError, ViscofricError
+from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.running import Event, Processes, Serial, run_plan
+from viscofric.study.running import task as doing
+from viscofric.study.solving import solve
+from viscofric.study.store import CaseStore
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[TwoWaves, CaseStore]:
+    """Return a plan carried out in this process, and its store."""
+    plan, store = TwoWaves(), CaseStore(tmp_path_factory.mktemp("alone"))
+    run_plan(plan, store, Serial())
+    return plan, store
+
+
+@pytest.mark.parametrize("killed", [False, True], ids=["undisturbed", "killed"])
+def test_processes_find_the_same_bits(
+    alone: tuple[TwoWaves, CaseStore], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, killed: bool
+) -> None:
+    children: list[subprocess.Popen[bytes]] = []
+
+    class Recorded(subprocess.Popen):  # type: ignore[type-arg]
+        def __init__(self, *arguments: Any, **settings: Any) -> None:
+            super().__init__(*arguments, **settings)
+            children.append(self)
+
+    monkeypatch.setattr(subprocess, "Popen", Recorded)
+    heard: list[Event] = []
+
+    def hear(event: Event) -> None:
+        if killed and event.event == "solved" and "solved" not in (one.event for one in heard):
+            children[0].kill()
+        heard.append(event)
+
+    plan = TwoWaves()
+    with Processes(2) as executor:
+        run_plan(plan, CaseStore(tmp_path), executor, hear)
+    assert plan.bits() == alone[0].bits()
+    assert len([event for event in heard if event.event == "solved"]) == 8
+    assert heard[-1].as_dict() == {"event": "stage", "stage": "contacts", "done": 8, "total": 8, "solves": 8}
+    assert len(children) == 2 + killed
+    assert all(child.returncode is not None for child in children)
+
+
+def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -> None:
+    def refuse(_: object) -> CaseRecord:
+        raise AssertionError("a stored case was solved again")
+
+    plan, heard = TwoWaves(), []
+    run_plan(plan, alone[1], Serial(), heard.append, solve=refuse)
+    assert plan.bits() == alone[0].bits()
+    assert [event.event for event in heard] == ["stage", *["stored"] * 8, "stage"]
+
+
+@pytest.mark.parametrize("executor", [Serial(), Processes(2)], ids=["serial", "processes"])
+def test_failed_cases_leave_the_others_alone(executor: Any, tmp_path: Path) -> None:
+    plan, store = TwoWaves(), CaseStore(tmp_path)
+    heard: list[Event] = []
+    with executor:
+        run_plan(plan, store, executor, heard.append, solve=solve_some)
+    failures = [one for one in plan.known.values() if isinstance(one, Failure)]
+    assert [str(one) for one in failures] == [
+        "0.1 m/s: it does not converge.",
+        "5 m/s: unexpectedly, ZeroDivisionError: nobody thought of that",
+    ]
+    assert {event.reason for event in heard if event.event == "failed"} == {one.reason for one in failures}
+    # What was unexpected may go another time; what does not converge will not.
+    assert store.get(plan.first[0].key) == failures[0]
+    assert store.get(plan.first[-1].key) is None
+    assert len(list(store.stored())) == 7
+
+
+def test_interrupt_loses_no_more_than_what_is_worked_on(tmp_path: Path) -> None:
+    store, solved = CaseStore(tmp_path), []
+
+    def interrupted(asked: Any) -> CaseRecord:
+        if len(solved) == 3:
+            raise KeyboardInterrupt
+        return counted(asked)
+
+    def counted(asked: Any) -> CaseRecord:
+        solved.append(asked.key)
+        return solve(asked)
+
+    with pytest.raises(KeyboardInterrupt):
+        run_plan(TwoWaves(), store, Serial(), solve=interrupted)
+    assert sorted(store.stored()) == sorted(solved)
+    plan = TwoWaves()
+    run_plan(plan, store, Serial(), solve=counted)
+    assert sorted(solved) == sorted(plan.known)  # each of them once
+
+
+def test_full_disk_ends_a_run_and_leaves_the_finished_cases(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    written, sync = [], os.fsync
+
+    def fill_up(handle: int) -> None:
+        written.append(handle)
+        if len(written) > 2:
+            raise OSError(28, "No space left on device")
+        sync(handle)
+
+    monkeypatch.setattr("viscofric.files.os.fsync", fill_up)
+    store = CaseStore(tmp_path)
+    with pytest.raises(DataFileError, match=r"\.json: cannot be written \(No space left on device\)"):
+        run_plan(TwoWaves(), store, Serial())
+    assert len(list(tmp_path.iterdir())) == 2
+    assert all(isinstance(store.get(key), CaseRecord) for key in store.stored())
+
+
+def test_fields_are_kept_beside_the_numbers(tmp_path: Path) -> None:
+    asked, store = task(1.0, fields=True), CaseStore(tmp_path)
+    record = solve(asked)
+    store.put(asked.key, record)
+    again = store.get(asked.key, with_fields=True)
+    assert isinstance(again, CaseRecord)
+    assert again == store.get(asked.key) == record
+    assert record.fields is not None
+    assert again.fields is not None
+    for one, other in zip(record.fields, again.fields, strict=True):
+        assert one.tobytes() == other.tobytes()
+    # Without its fields, a case whose fields are wanted is not there.
+    whole = (tmp_path / f"{asked.key}.npz").read_bytes()
+    for size in (0, 2, len(whole) // 2, len(whole) - 1):
+        (tmp_path / f"{asked.key}.npz").write_bytes(whole[:size])
+        assert store.get(asked.key, with_fields=True) is None
+    assert store.get(asked.key) == record
+
+
+def test_worker_with_another_solver_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(ViscofricError, match="must be the same on all machines"):
+        doing.take(solve, task(1.0), "another")
+    monkeypatch.setattr("viscofric.study.running.executors.solver_fingerprint", lambda: "another")
+    with Processes(2) as executor, pytest.raises(ViscofricError, match="must be the same on all machines"):
+        run_plan(TwoWaves(), CaseStore(tmp_path), executor)
+    assert not list(tmp_path.iterdir())
