@@ -97,6 +97,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
+    from viscofric.roughness.reading import read_topography as read_topography
+    from viscofric.roughness.topography import Topography as Topography
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
     from viscofric.study import load_study as load_study
@@ -198,6 +200,8 @@ _HOME = {
     "Superposition": "viscofric.rheology.superposition.superpose",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
+    "read_topography": "viscofric.roughness.reading",
+    "Topography": "viscofric.roughness.topography",
     "TractionStep": "viscofric.traction",
     "load_study": "viscofric.study",
     "open_results": "viscofric.study",

@@ -1,0 +1,114 @@
+"""Files of profilometers, microscopes and scanners, by way of the package SurfaceTopography (an extra)."""
+
+from __future__ import annotations
+
+import io
+import math
+import warnings
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers.topography.scan import Asked, Scan, name_of
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.readers.source import Source
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+def read_with_package(source: Source, asked: Asked) -> Scan:
+    """Read a file in whatever format the package recognises by its content.
+
+    Raises
+    ------
+    DataFileError
+        If the package is not installed, does not know the format, finds the file damaged, there is no such channel,
+        or what the file says contradicts what was asked.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of missing MPI at import, and of its own dependencies
+        try:
+            from SurfaceTopography import open_topography  # type: ignore[import-untyped]
+            from SurfaceTopography.Exceptions import CannotDetectFileFormat  # type: ignore[import-untyped]
+        except ImportError:
+            raise DataFileError(
+                source.path,
+                "is neither a table of numbers nor a NumPy array; the formats of instruments are read by the package "
+                "SurfaceTopography: pip install 'viscofric[surfaces]'.",
+            ) from None
+        try:
+            with open_topography(io.BytesIO(source.data)) as reader:
+                return _scan(source, reader, asked)
+        except InputError:
+            raise
+        except CannotDetectFileFormat:
+            raise DataFileError(
+                source.path, "is in none of the formats that are known for heights of a surface."
+            ) from None
+        except Exception as error:  # noqa: BLE001 - a damaged file makes the package raise whatever it meets
+            reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+            raise DataFileError(source.path, f"cannot be read as heights of a surface ({reason[:200]}).") from None
+
+
+def _scan(source: Source, reader: Any, asked: Asked) -> Scan:
+    channel = _channel(source, reader, asked.channel)
+    given: dict[str, Any] = {}
+    if channel.unit is None:
+        if not asked.unit:
+            raise DataFileError(source.path, "does not say the unit of its heights; give unit='um', for instance.")
+        given["unit"] = asked.unit
+    elif asked.unit:
+        raise DataFileError(
+            source.path, f"says that its heights are in {channel.unit!r}; leave unit = {asked.unit!r} out."
+        )
+    factor, _ = conversion(str(channel.unit or asked.unit), "m", "unit")
+    if channel.physical_sizes is None:
+        if asked.spacing is None:
+            raise DataFileError(source.path, "does not say how far its points lie apart; give spacing='5 um'.")
+        points = channel.nb_grid_pts
+        given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, asked.spacing, strict=False))
+    elif asked.spacing is not None:
+        raise DataFileError(source.path, "says how far its points lie apart; leave the spacing out.")
+    measured = channel.topography(**given)
+    told = f"read from {name_of(source)} ({reader.name()}), channel {channel.name!r}"
+    heights = factor * np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), math.nan)
+    if asked.missing is not None:
+        heights[np.isclose(heights, factor * asked.missing, rtol=1e-12, atol=0.0)] = math.nan
+    if measured.dim == 1:
+        return _line(source, measured, heights, factor, told)
+    steps = tuple(factor * float(step) for step in measured.pixel_size)
+    return Scan(heights, (steps[0], steps[1]), told, periodic=bool(measured.is_periodic))
+
+
+def _line(source: Source, measured: Any, heights: Array, factor: float, told: str) -> Scan:
+    from dataclasses import replace
+
+    from viscofric.readers.topography.points import scan_of_points
+
+    if measured.is_uniform:
+        step = factor * float(measured.pixel_size[0])
+        return Scan(heights[:, None], (step, step), told, periodic=bool(measured.is_periodic))
+    x = factor * np.asarray(measured.positions(), dtype=float)
+    found = scan_of_points(source, np.stack([x, heights], axis=1), Asked(), list(range(len(x))))
+    return replace(found, told=told)
+
+
+def _channel(source: Source, reader: Any, wanted: str | int | None) -> Any:
+    heights = [one for one in reader.channels if one.is_height_channel] or list(reader.channels)
+    names = ", ".join(repr(one.name) for one in heights)
+    if not heights:
+        raise DataFileError(source.path, "holds no heights.")
+    if wanted is None:
+        default = reader.default_channel
+        return default if any(default is one for one in heights) else heights[0]
+    if isinstance(wanted, int) and 0 <= wanted < len(heights):
+        return heights[wanted]
+    found = [one for one in heights if one.name == wanted]
+    if not found:
+        raise DataFileError(source.path, f"holds no channel {wanted!r} of heights; it holds {names}.")
+    return found[0]

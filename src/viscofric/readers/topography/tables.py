@@ -1,0 +1,202 @@
+"""Heights as plain numbers: a matrix as text or as NumPy saves it, or columns of positions and heights."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.readers.table import MISSING
+from viscofric.readers.topography.points import scan_of_points
+from viscofric.readers.topography.scan import Asked, Scan, name_of
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.readers.source import Source
+
+    Array: TypeAlias = NDArray[np.float64]
+
+NUMPY = b"\x93NUMPY"
+_BLANKS = re.compile(r"\s+")
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_UNIT = re.compile(r"[(\[]\s*([^()\[\]]+?)\s*[)\]]|_(nm|um|µm|mm|m)$|/\s*(\S+)$")
+#: "# Width: 10.0 µm", as Gwyddion and others write above a matrix whose lines follow one another along y.
+_REMARK = re.compile(r"#\s*(Width|Height|Value units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
+_POINT_NAMES = (("x", "z"), ("x", "height"), ("x", "y", "z"), ("x", "y", "height"))
+
+
+class _Text(NamedTuple):
+    """A table of numbers in text: headings (none, if there are none), rows, the line of each, and the remarks."""
+
+    headings: tuple[str, ...]
+    rows: Array
+    lines: list[int]
+    remarks: dict[str, str]
+
+
+def is_table(text: str | None) -> bool:
+    """Tell whether a text looks like a table of numbers, under remarks and at most one row of headings."""
+    if text is None:
+        return False
+    lines = [line.strip() for line in text.splitlines()[:200] if line.strip() and not line.lstrip().startswith("#")]
+    if not lines:
+        return False
+    with_headings = _points_headings(_cells(lines[0])) is not None
+    body = lines[1:] if with_headings else lines
+    return bool(body) and all(map(_is_number, _cells(body[0])))
+
+
+def read_array(source: Source, asked: Asked) -> Scan:
+    """Read a .npy file: a matrix or a row of heights.
+
+    Raises
+    ------
+    DataFileError
+        If it is no such array, or its spacing is not given.
+    """
+    try:
+        array = np.load(io.BytesIO(source.data), allow_pickle=False)
+    except (ValueError, OSError, EOFError) as error:
+        raise DataFileError(source.path, f"is not an array that NumPy can read ({error}).") from None
+    if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size < 2:
+        problem = f"holds an array of shape {array.shape} of {array.dtype}; a row or a matrix of heights is wanted."
+        raise DataFileError(source.path, problem)
+    return _matrix(source, np.asarray(array, dtype=float), asked, {}, "NumPy array")
+
+
+def read_text_table(source: Source, asked: Asked) -> Scan:
+    """Read a text table: a matrix of heights, or columns x, z or x, y, z, told by their headings or by their grid.
+
+    Raises
+    ------
+    DataFileError
+        If a cell is no number, rows are not equally long, or a spacing or a unit is missing.
+    """
+    assert source.text is not None
+    table = _parsed(source.path, source.text)
+    named = _points_headings(table.headings)
+    if named is not None:
+        factors = _units(source, table.headings, asked)
+        return scan_of_points(source, factors * table.rows, asked, table.lines)
+    if asked.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
+        factor, _ = conversion(asked.unit or "m", "m", "unit")
+        return scan_of_points(source, factor * table.rows, asked, table.lines)
+    return _matrix(source, table.rows, asked, table.remarks, "text matrix")
+
+
+def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str], kind: str) -> Scan:
+    told_unit = remarks.get("value units", "")
+    if asked.unit and told_unit:
+        raise DataFileError(
+            source.path, f"says that its heights are in {told_unit!r}; leave unit = {asked.unit!r} out."
+        )
+    factor, _ = conversion(asked.unit or told_unit or "m", "m", "unit")
+    table = np.where(table == asked.missing, math.nan, table) if asked.missing is not None else table
+    heights = np.atleast_2d(table.T).T if min(np.shape(table)) > 1 or table.ndim == 1 else table.reshape(-1, 1)
+    # Remarks of this kind stand above an image, whose lines follow one another along y.
+    if (asked.lines == "y" or "width" in remarks) and heights.shape[1] > 1:
+        heights = heights.T
+    spacing = asked.spacing
+    if "width" in remarks:
+        if spacing is not None:
+            raise DataFileError(source.path, "says how wide it is; leave the spacing out.")
+        width = _length(source.path, remarks["width"])
+        height = _length(source.path, remarks["height"]) if "height" in remarks else width
+        spacing = (width / heights.shape[0], height / heights.shape[1])
+    if spacing is None:
+        raise DataFileError(
+            source.path, "does not say how far its points lie apart; give spacing='5 um', for instance."
+        )
+    return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})")
+
+
+def _length(path: str, text: str) -> float:
+    match = re.fullmatch(r"([0-9.eE+-]+)\s*(\S+)", text)
+    if match is None or not _NUMBER.fullmatch(match[1]):
+        raise DataFileError(path, f"{text!r} in its remarks is not a length such as '10 um'.")
+    factor, _ = conversion(match[2], "m", "width")
+    return factor * float(match[1])
+
+
+def _cells(line: str) -> list[str]:
+    """Split a line at tabs, semicolons or commas, whichever there is first, or at blanks."""
+    for delimiter in "\t;":
+        if delimiter in line:
+            return [cell.strip() for cell in line.split(delimiter)]
+    words = _BLANKS.split(line.strip())
+    # "0,5 1,5" is blanks between decimal commas; "0, 5, 1" and "0,5,1" are commas between numbers
+    if "," not in line or (len(words) > 1 and all(map(_is_number, words))):
+        return words
+    return [cell.strip() for cell in line.split(",")]
+
+
+def _is_number(cell: str) -> bool:
+    return cell.lower() in MISSING or _NUMBER.fullmatch(cell) is not None
+
+
+def _points_headings(cells: list[str] | tuple[str, ...]) -> tuple[str, ...] | None:
+    """Return the names of columns of positions and heights, if these are headings of such."""
+    names = tuple(_UNIT.sub("", cell.strip().strip('"')).strip().lower() for cell in cells)
+    return names if names in _POINT_NAMES else None
+
+
+def _units(source: Source, headings: tuple[str, ...], asked: Asked) -> Array:
+    factors = []
+    for cell in headings:
+        match = _UNIT.search(cell.strip().strip('"'))
+        told = next((part for part in match.groups() if part), "") if match else ""
+        if told and asked.unit:
+            raise DataFileError(source.path, f"column {cell!r} says its unit; leave unit = {asked.unit!r} out.")
+        if not told and not asked.unit:
+            raise DataFileError(
+                source.path, f"column {cell!r} has no unit; write it as '{cell} (um)', or give unit='um'."
+            )
+        factors.append(conversion(told or asked.unit, "m", f"unit of column {cell!r}")[0])
+    return np.array(factors)
+
+
+def _parsed(path: str, text: str) -> _Text:
+    remarks: dict[str, str] = {}
+    headings: tuple[str, ...] = ()
+    found: list[tuple[int, list[str]]] = []
+    for number, line in enumerate(text.splitlines(), 1):
+        words = line.strip(" \r\n")
+        if not words.strip():
+            continue
+        if words.startswith("#"):
+            if match := _REMARK.match(words):
+                remarks[match[1].lower()] = match[2]
+            continue
+        cells = _cells(words)
+        if not found and not headings and _points_headings(cells) is not None:
+            headings = tuple(cells)
+        else:
+            found.append((number, cells))
+    if not found:
+        raise DataFileError(path, "holds no heights.")
+    if all(len(cells) > 1 and not cells[-1] for _, cells in found):  # delimiters that close each row
+        found = [(number, cells[:-1]) for number, cells in found]
+    wanted = len(headings) or len(found[0][1])
+    first = "the header names" if headings else "the first holds"
+    for number, cells in found:
+        if len(cells) != wanted:
+            raise DataFileError(path, f"the line holds {len(cells)} numbers where {first} {wanted}.", number)
+    rows = np.array([[_number(path, cell, number) for cell in cells] for number, cells in found])
+    return _Text(headings, rows, [number for number, _ in found], remarks)
+
+
+def _number(path: str, cell: str, line: int) -> float:
+    if cell.lower() in MISSING:
+        return math.nan
+    if _NUMBER.fullmatch(cell) is None:
+        raise DataFileError(path, f"{cell[:40]!r} is not a number.", line)
+    value = float(cell.replace(",", "."))
+    if not math.isfinite(value):
+        raise DataFileError(path, f"{cell[:40]!r} is not a finite number.", line)
+    return value

@@ -1,0 +1,78 @@
+"""The verb: read heights of a surface from a file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from viscofric.errors import DataFileError, InputError, brief
+from viscofric.files import file_path
+from viscofric.readers.topography.read import read_scan
+from viscofric.readers.topography.scan import Asked
+from viscofric.roughness.topography import Topography
+from viscofric.units import Quantity, positive
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+
+def read_topography(
+    path: str | PathLike[str],
+    *,
+    unit: str = "",
+    spacing: Quantity | tuple[Quantity, Quantity] | None = None,
+    channel: str | int | None = None,
+    missing: float | None = None,
+    lines: Literal["x", "y"] = "x",
+) -> Topography:
+    """Read heights of a surface, or along a line, from a file.
+
+    The format is told by the content, never by the name.  Plain tables are read by viscofric itself: a matrix of
+    heights as text or as an .npy file, and columns x, z or x, y, z, each with its unit in the heading (as in
+    ``x (um)``) or all of them in `unit`.  Files of instruments (some forty formats: SUR, SDF, X3P, OPDX, PLU …)
+    are read by the package SurfaceTopography, which ``pip install 'viscofric[surfaces]'`` brings along.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    unit : str
+        Of the heights, and of the positions where the file holds them; only where the file does not say it.  A matrix
+        without unit is in m.
+    spacing : float, str, pint.Quantity, or two of them, optional
+        Distance of neighbouring points, m, along x and y; only where the file does not say it.
+    channel : str or int, optional
+        Which of several maps of heights in a file, by its name, or its number counted from 0.
+    missing : float, optional
+        Number that stands for a point without a reading, as the file writes it, such as -9999.
+    lines : {"x", "y"}
+        Axis along which the lines of a text matrix, or the rows of an array, follow one another.
+
+    Returns
+    -------
+    Topography
+        With NaN where there is no reading; see its `fill`.
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be read, a unit or spacing is missing or given twice, a cell is no number, or points lie
+        on no grid.
+    InputError
+        If an argument cannot be used.
+    """
+    steps = None
+    if spacing is not None:
+        pair = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
+        if len(pair) != 2:
+            raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
+        steps = (positive(pair[0], "m", "spacing"), positive(pair[1], "m", "spacing"))
+    if missing is not None and not isinstance(missing, (int, float)):
+        raise InputError(f"missing = {brief(missing)}: must be the number that stands for a missing height.")
+    scan = read_scan(path, Asked(unit, steps, channel, missing, lines))
+    try:
+        found = Topography(scan.heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.told, *scan.notes))
+    except InputError as error:
+        raise DataFileError(path, str(error)) from None
+    if found.missing == found.heights.size:
+        raise DataFileError(path, "holds no height at all: all of its points are without a reading.")
+    return found

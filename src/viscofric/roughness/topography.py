@@ -1,0 +1,357 @@
+"""A rough surface or a line scan: heights on a grid, and every step that made them what they are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError, brief
+from viscofric.roughness import filling, preparation, waves
+from viscofric.units import Quantity, positive
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.contact.indenters.height_map import HeightMap, Profile
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.periodic.surface import PeriodicSurface
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Topography:
+    """Heights of a rough surface on a rectangular grid, or along a line, with the steps that made them.
+
+    Every method that changes heights returns a new topography with one more step in its history.
+
+    Parameters
+    ----------
+    heights : (nx, ny) or (nx,) array
+        m, summits high; NaN where there is no reading.  A row is a line scan along x.
+    spacing : float, str, pint.Quantity, or two of them
+        Distance of neighbouring points, m; of x and y where they differ.
+    periodic : bool
+        Whether the surface repeats itself: the value that follows the last one is the first.
+    name : str
+        Shown in figures and reports.
+    history : tuple of str
+        What was done so far, one step each.
+
+    Raises
+    ------
+    InputError
+        If the heights are no array of numbers with two points at least, or the spacing is no length above zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> x = np.linspace(0.0, 1.0, 65)
+    >>> tilted = vf.Topography(3e-6 * x + 1e-6 * np.cos(16.0 * np.pi * x), spacing="10 um")
+    >>> level = tilted.remove("tilt")
+    >>> f"{level.rms_height:.1e}", level.history
+    ('7.1e-07', ('tilt removed: least-squares plane',))
+    """
+
+    heights: Array
+    spacing: tuple[float, float]
+    periodic: bool = False
+    name: str = ""
+    history: tuple[str, ...] = field(default=())
+
+    def __init__(
+        self,
+        heights: ArrayLike,
+        spacing: Quantity | tuple[Quantity, Quantity],
+        periodic: bool = False,
+        name: str = "",
+        history: tuple[str, ...] = (),
+    ) -> None:
+        try:
+            z = np.array(heights, dtype=float)
+        except (TypeError, ValueError):
+            raise InputError("heights of a topography must be an array of numbers in m.") from None
+        z = z[:, None] if z.ndim == 1 else z
+        if z.ndim != 2 or z.shape[0] < 2 or z.size == 0:
+            raise InputError(
+                "heights of a topography must be (nx, ny) of them, or a row, two at least along x; they have the "
+                f"shape {np.shape(heights)}."
+            )
+        if np.any(np.isinf(z)):
+            raise InputError(f"heights of a topography: {np.count_nonzero(np.isinf(z))} are infinite; NaN is missing.")
+        z.flags.writeable = False
+        steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
+        if len(steps) != 2:
+            raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
+        object.__setattr__(self, "heights", z)
+        object.__setattr__(self, "spacing", tuple(positive(step, "m", "spacing") for step in steps))
+        object.__setattr__(self, "periodic", bool(periodic))
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "history", tuple(history))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of points along x and y; one along y for a line scan."""
+        return self.heights.shape[0], self.heights.shape[1]
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a line scan."""
+        return self.shape[1] == 1
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Lengths along x and y, m: points times spacing, the period of a surface that repeats itself."""
+        return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
+
+    @property
+    def x(self) -> Array:
+        """Positions of the points along x, m."""
+        return np.asarray(self.spacing[0] * np.arange(self.shape[0]), dtype=np.float64)
+
+    @property
+    def y(self) -> Array:
+        """Positions of the points along y, m."""
+        return np.asarray(self.spacing[1] * np.arange(self.shape[1]), dtype=np.float64)
+
+    @property
+    def missing(self) -> int:
+        """Number of points without a reading."""
+        return int(np.count_nonzero(np.isnan(self.heights)))
+
+    @property
+    def rms_height(self) -> float:
+        """Root mean square of the heights about their mean, m, of the points that there are."""
+        return float(np.nanstd(self.heights))
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square of the gradient's length: by Fourier series if periodic, else by central differences.
+
+        Raises
+        ------
+        InputError
+            If heights are missing.
+        """
+        return math.sqrt(sum(float(np.square(one).mean()) for one in waves.gradient(self.complete(), self)))
+
+    def complete(self) -> Array:
+        """Return the heights, or raise `InputError` if some are missing."""
+        if self.missing:
+            raise InputError(
+                f"{self._noun}: {self.missing} of its {self.heights.size} heights are missing; fill them first, with "
+                "fill('harmonic') or fill('nearest')."
+            )
+        return self.heights
+
+    @property
+    def _noun(self) -> str:
+        return f"topography {self.name!r}" if self.name else "topography"
+
+    def _with(self, heights: Array, step: str, **changed: object) -> Topography:
+        return replace(self, heights=heights, history=(*self.history, step), **changed)  # type: ignore[arg-type]
+
+    def fill(self, method: Literal["harmonic", "nearest"] = "harmonic") -> Topography:
+        """Fill points without a reading.
+
+        Parameters
+        ----------
+        method : {"harmonic", "nearest"}
+            The smoothest surface that joins what surrounds a hole (Laplace's equation: no new summits), or the height
+            of the nearest point.
+
+        Raises
+        ------
+        InputError
+            If all heights are missing, or there is no such method.
+        """
+        if not self.missing:
+            return self
+        filled = filling.filled(self.heights, self.spacing, self.periodic, method)
+        share = 100.0 * self.missing / self.heights.size
+        return self._with(filled, f"{self.missing} missing heights ({share:.2g} %) filled: {method}")
+
+    def remove(self, what: Literal["mean", "tilt", "curvature"]) -> Topography:
+        """Take off the mean height, the least-squares plane, or the least-squares paraboloid (all terms to x², xy, y²).
+
+        Parameters
+        ----------
+        what : {"mean", "tilt", "curvature"}
+            Missing heights stay missing and do not count.
+
+        Raises
+        ------
+        InputError
+            If there is no such trend, or more terms than heights.
+        """
+        heights, told = preparation.without_trend(self.heights, what)
+        return self._with(heights, told)
+
+    def window(self, edge: float = 0.1) -> Topography:
+        """Let the heights fall to their mean along all edges, so that the surface repeats itself without steps.
+
+        Parameters
+        ----------
+        edge : float
+            Share of each length over which they fall, at either end, by half a cosine (Tukey's window): above 0, at
+            most 0.5, which is Hann's window.
+
+        Raises
+        ------
+        InputError
+            If heights are missing, or the share is out of range.
+
+        Notes
+        -----
+        Roughness is weaker near the edges, by which rms height and slope fall a little: contacts then lie mostly
+        within.  `mirror` leaves the statistics as they are.
+        """
+        heights = preparation.tapered(self.complete(), edge)
+        return self._with(heights, f"windowed: heights fall to their mean over {edge:g} of each length", periodic=True)
+
+    def mirror(self) -> Topography:
+        """Set the surface beside its mirror images, so that it repeats itself without steps and without new heights.
+
+        Raises
+        ------
+        InputError
+            If heights are missing.
+        """
+        z = self.complete()
+        for axis in (0,) if self.is_line else (0, 1):
+            z = np.concatenate([z, np.flip(z, axis)], axis)
+        return self._with(z, "mirrored: set beside its mirror images", periodic=True)
+
+    def crop(
+        self, x: tuple[Quantity, Quantity] | None = None, y: tuple[Quantity, Quantity] | None = None
+    ) -> Topography:
+        """Cut out a piece.
+
+        Parameters
+        ----------
+        x, y : (float or quantity, float or quantity), optional
+            From and to, m from the first point; all of it if left out.
+
+        Raises
+        ------
+        InputError
+            If fewer than two points along x, or none along y, are left.
+        """
+        heights, told = preparation.cropped(self.heights, self.spacing, x, y)
+        return self._with(heights, told, periodic=False)
+
+    def resample(self, spacing: Quantity | tuple[Quantity, Quantity]) -> Topography:
+        """Put the surface onto a finer or coarser grid.
+
+        Parameters
+        ----------
+        spacing : float, str, pint.Quantity, or two of them
+            Wanted distance of neighbouring points, m; a periodic surface gets the nearest one that divides its period.
+
+        Raises
+        ------
+        InputError
+            If heights are missing, or fewer than two points would be left.
+
+        Notes
+        -----
+        A periodic surface is resampled by its Fourier series: waves that a coarser grid cannot hold are left out.
+        Others go through the cubic spline of their heights, after waves below twice the new spacing, if it is
+        coarser, have been smoothed away by averages over one new cell.
+        """
+        steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
+        if len(steps) != 2:
+            raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
+        wanted = tuple(positive(step, "m", "spacing") for step in steps)
+        change = waves.resampled if self.periodic else preparation.resampled
+        heights, found = change(self.complete(), self.spacing, (wanted[0], wanted[1]))
+        told = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))
+        return self._with(heights, f"resampled to {told} points, {found[0]:.4g} m apart along x", spacing=found)
+
+    def keep_wavelengths(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> Topography:
+        """Leave out waves that are shorter or longer (low-, high- or band-pass, sharp in Fourier space).
+
+        Parameters
+        ----------
+        shortest, longest : float, str or pint.Quantity, optional
+            Cut-off wavelengths, m; waves of just this length stay.  At least one of them.
+
+        Raises
+        ------
+        InputError
+            If the surface is not periodic (`window` or `mirror` it first), heights are missing, or no wave is left.
+        """
+        if not self.periodic:
+            raise InputError(
+                f"{self._noun} is not periodic, so that its Fourier series would ring at the edges; use window() or "
+                "mirror() first."
+            )
+        heights, told = waves.passed(self.complete(), self.spacing, shortest, longest)
+        return self._with(heights, told)
+
+    def inverted(self) -> Topography:
+        """Turn summits into valleys: the surface that was cast from this one."""
+        return self._with(-self.heights, "inverted: summits become valleys")
+
+    def along_y(self) -> Topography:
+        """Exchange x and y, so that the motion along x goes along what was y."""
+        heights, spacing = np.array(self.heights.T), (self.spacing[1], self.spacing[0])
+        if self.is_line:
+            raise InputError(f"{self._noun} is a line scan; its other axis has one point only.")
+        return self._with(heights, "x and y exchanged", spacing=spacing)
+
+    def to_surface(self) -> PeriodicSurface:
+        """Return it as the rigid surface of `solve_periodic`.
+
+        Raises
+        ------
+        InputError
+            If it is not periodic or heights are missing.
+        """
+        from viscofric.contact.periodic.surface import PeriodicSurface
+
+        if not self.periodic:
+            raise InputError(
+                f"{self._noun} is not periodic; window() lets its edges fall to the mean, mirror() sets it beside its "
+                "mirror images."
+            )
+        return PeriodicSurface(self.complete(), self.spacing)
+
+    def to_indenter(self, shape: Indenter | None = None) -> HeightMap | Profile:
+        """Return it as the indenter of `solve_steady`: on its own, or as roughness on a smooth one.
+
+        Parameters
+        ----------
+        shape : Indenter, optional
+            A smooth point contact, such as a Ball, whose lowest point lies in the middle of the grid; under a line
+            scan a Cylinder.
+
+        Returns
+        -------
+        HeightMap or Profile
+            The latter from a line scan.
+
+        Raises
+        ------
+        InputError
+            If heights are missing, the shape is a line contact under a map or the other way round, or the grid
+            reaches beyond the shape.
+        """
+        from viscofric.roughness.indenters import rough_indenter
+
+        return rough_indenter(self, shape)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the heights as labelled data with units, and the history, in its attributes."""
+        import xarray
+
+        return xarray.Dataset(
+            {"height": (("x", "y"), self.heights, {"units": "m", "long_name": "height"})},
+            coords={axis: (axis, getattr(self, axis), {"units": "m"}) for axis in ("x", "y")},
+            attrs={"name": self.name, "periodic": int(self.periodic), "history": "; ".join(self.history)},
+        )
