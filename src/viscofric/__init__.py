@@ -97,7 +97,13 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
+    from viscofric.roughness.made import self_affine as self_affine
+    from viscofric.roughness.made import surface_from_spectrum as surface_from_spectrum
+    from viscofric.roughness.measured_spectrum import line_spectrum as line_spectrum
+    from viscofric.roughness.measured_spectrum import power_spectrum as power_spectrum
     from viscofric.roughness.reading import read_topography as read_topography
+    from viscofric.roughness.spectrum import LineSpectrum as LineSpectrum
+    from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum
     from viscofric.roughness.topography import Topography as Topography
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
@@ -200,7 +206,13 @@ _HOME = {
     "Superposition": "viscofric.rheology.superposition.superpose",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
+    "self_affine": "viscofric.roughness.made",
+    "surface_from_spectrum": "viscofric.roughness.made",
+    "line_spectrum": "viscofric.roughness.measured_spectrum",
+    "power_spectrum": "viscofric.roughness.measured_spectrum",
     "read_topography": "viscofric.roughness.reading",
+    "LineSpectrum": "viscofric.roughness.spectrum",
+    "PowerSpectrum": "viscofric.roughness.spectrum",
     "Topography": "viscofric.roughness.topography",
     "TractionStep": "viscofric.traction",
     "load_study": "viscofric.study",

@@ -1,0 +1,135 @@
+"""Power spectra of given surfaces: of their Fourier series, or of windowed scans."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.periodic.waves import hermitian_factor, wave_number
+from viscofric.errors import InputError, check_choice
+from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.roughness.topography import Topography
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpectrum:
+    """Return the power spectrum of a surface, averaged over all directions.
+
+    Parameters
+    ----------
+    topography : Topography
+        A map without missing points.  One that is not periodic is multiplied by Hann's window (of unit mean square);
+        remove its tilt first.
+    per_decade : int
+        Points of the spectrum for each decade of wave number.
+
+    Returns
+    -------
+    PowerSpectrum
+        Up to the wave number that the grid holds in all directions.
+
+    Raises
+    ------
+    InputError
+        If it is a line scan or heights are missing.
+
+    Notes
+    -----
+    C at a point is the mean of |ĥ_q|² A/4π² over the waves of a ring of wave numbers, the point their mean logarithm.
+    By Parseval's theorem their sum over all waves is the mean square height; the curve through the points integrates to
+    it within some per cent, most of which lies between the few longest waves.
+    """
+    if topography.is_line:
+        raise InputError("power_spectrum needs a map of heights; line_spectrum takes line scans.")
+    shape = topography.shape
+    waves = scipy.fft.rfft2(_windowed(topography, (0, 1))) / (shape[0] * shape[1])
+    q = np.hypot(*wave_number(shape, topography.spacing))
+    counts = np.broadcast_to(hermitian_factor(shape[1]), q.shape)
+    area = topography.size[0] * topography.size[1]
+    density = np.square(np.abs(waves)) * (area / (4.0 * np.pi**2))
+    # All waves but the mean, which leaves a disc of the area of one wave's cell.
+    limits = 2.0 * np.sqrt(np.pi / area), 2.0 * np.pi / max(topography.size), np.pi / max(topography.spacing)
+    return PowerSpectrum(*_rings(q.ravel(), density.ravel(), counts.ravel(), limits, per_decade))
+
+
+def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_decade: int = 12) -> LineSpectrum:
+    """Return the power spectrum of a line scan, or of all lines of a surface along one axis.
+
+    Parameters
+    ----------
+    topography : Topography
+        Without missing points.  One that is not periodic is multiplied by Hann's window; remove its tilt first.
+    axis : {"x", "y"}
+        Along which the lines run.
+    per_decade : int
+        Points of the spectrum for each decade of wave number.
+
+    Raises
+    ------
+    InputError
+        If heights are missing, or there is one point only along the axis.
+    """
+    check_choice(axis, "axis", "x", "y")
+    place = "xy".index(axis)
+    points, step = topography.shape[place], topography.spacing[place]
+    if points < 4:
+        raise InputError(f"axis = {axis!r}: a spectrum needs four points at least; there are {points} along it.")
+    heights: Array = np.moveaxis(_windowed(topography, (place,)), place, 0)
+    waves = np.square(np.abs(scipy.fft.rfft(heights, axis=0) / points)).mean(axis=1)
+    q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, step).astype(np.float64)
+    density = waves * (points * step / (2.0 * np.pi))
+    limits = 0.5 * float(q[1]), float(q[1]), np.pi / step
+    return LineSpectrum(*_rings(q, density, np.ones(len(q)), limits, per_decade))
+
+
+def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:
+    """Return heights less their mean, under Hann's window of unit mean square along these axes if not periodic."""
+    heights = topography.complete()
+    heights = np.asarray(heights - heights.mean(axis=axes, keepdims=True), dtype=np.float64)
+    if topography.periodic:
+        return heights
+    for axis in axes:
+        points = heights.shape[axis]
+        window = np.sqrt(8.0 / 3.0) * (0.5 - 0.5 * np.cos(2.0 * np.pi * (np.arange(points) + 0.5) / points))
+        heights = heights * (window[:, None] if axis == 0 else window)
+    return np.asarray(heights - heights.mean(axis=axes, keepdims=True), dtype=np.float64)
+
+
+def _rings(
+    q: Array, density: Array, counts: Array, limits: tuple[float, float, float], per_decade: int
+) -> tuple[Array, Array]:
+    """Return mean wave numbers and densities of rings of wave numbers, from limits[1] on, and points at both ends.
+
+    The waves in the first ring stand for all wave numbers from limits[0] on: the cells of a grid of waves fill the
+    plane.
+    """
+    if not (type(per_decade) is int and per_decade > 0):
+        raise InputError(f"per_decade = {per_decade!r}: must be a whole number above zero.")
+    start, first, last = limits
+    # Rounding in what a surface was made without is no roughness.
+    loud = (q >= first * (1.0 - 1e-9)) & (q <= last * (1.0 + 1e-9)) & (density > 1e-24 * density.max(initial=0.0))
+    if not loud.any():
+        raise InputError("the surface is flat: its power spectrum is zero.")
+    q, density, counts = q[loud], density[loud], counts[loud]
+    ring = np.floor(per_decade * np.log10(q / first) + 1e-6).astype(int)
+    weight = np.bincount(ring, counts)
+    there = weight > 0.0
+    mean_q = np.exp(np.bincount(ring, counts * np.log(q))[there] / weight[there])
+    mean_density = np.bincount(ring, counts * density)[there] / weight[there]
+    if len(mean_q) < 2:
+        raise InputError("the surface has waves of one length only; a power spectrum needs several.")
+    end = float(q.max())
+    if start < mean_q[0] * (1.0 - 1e-6):
+        mean_q, mean_density = np.append(start, mean_q), np.append(mean_density[0], mean_density)
+    if end > mean_q[-1] * (1.0 + 1e-6):
+        fall = np.log(mean_density[-1] / mean_density[-2]) / np.log(mean_q[-1] / mean_q[-2])
+        beyond = mean_density[-1] * (end / mean_q[-1]) ** min(fall, 0.0)
+        mean_q, mean_density = np.append(mean_q, end), np.append(mean_density, beyond)
+    return mean_q, mean_density

@@ -1,0 +1,220 @@
+"""Power spectra of rough surfaces: how much each wavelength contributes to heights, slopes and curvatures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.roughness import power_law
+from viscofric.units import Quantity, positive, to_si
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PowerSpectrum:
+    """Isotropic power spectrum C(q) of a rough surface: a power law between its points, nothing beyond them.
+
+    The convention is Persson's: ⟨h²⟩ = ∫ d²q C(q) = 2π ∫ q C(q) dq, C in m⁴ [1]_.  Others put a factor 1/(2π)² before
+    the integral; their density is 4π² times this one [2]_.
+
+    Parameters
+    ----------
+    wave_number : (n,) array
+        q = 2π/wavelength, rad/m, increasing.
+    density : (n,) array
+        C(q), m⁴, above zero.
+
+    Raises
+    ------
+    InputError
+        If these are not two rows of equal length, positive and finite, with increasing wave numbers.
+
+    References
+    ----------
+    .. [1] B. N. J. Persson, O. Albohr, U. Tartaglino, A. I. Volokitin, E. Tosatti, J. Phys.: Condens. Matter 17 (2005)
+       R1, doi:10.1088/0953-8984/17/1/R01
+    .. [2] T. D. B. Jacobs, T. Junge, L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017) 013001,
+       doi:10.1088/2051-672X/aa51f8
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> road = vf.PowerSpectrum.self_affine(0.8, longest="3 mm", shortest="3 um", rms_height="0.3 mm")
+    >>> round(road.rms_slope(), 2), round(road.rms_slope(shortest="30 um"), 2)
+    (4.84, 2.9)
+    """
+
+    wave_number: Array
+    density: Array
+
+    def __post_init__(self) -> None:
+        q, density = power_law.checked(self.wave_number, self.density, "m⁴")
+        object.__setattr__(self, "wave_number", q)
+        object.__setattr__(self, "density", density)
+
+    @classmethod
+    def self_affine(
+        cls,
+        hurst: float,
+        *,
+        longest: Quantity,
+        shortest: Quantity,
+        rolloff: Quantity | None = None,
+        rms_height: Quantity | None = None,
+        rms_slope: float | None = None,
+    ) -> PowerSpectrum:
+        """Return C ∝ q^(−2−2H), constant above the roll-off wavelength.
+
+        Parameters
+        ----------
+        hurst : float
+            Hurst exponent H, above 0, at most 1.
+        longest, shortest : float, str or pint.Quantity
+            Wavelengths between which there is roughness, m.
+        rolloff : float, str or pint.Quantity, optional
+            Wavelength above which the density is constant, m; the longest if left out.
+        rms_height : float, str or pint.Quantity, optional
+            m; either it or the slope is given.
+        rms_slope : float, optional
+            Of the gradient's length.
+
+        Raises
+        ------
+        InputError
+            If a value is out of range, or not just one of height and slope is given.
+        """
+        H = hurst_exponent(hurst)
+        long, short = positive(longest, "m", "longest"), positive(shortest, "m", "shortest")
+        roll = long if rolloff is None else positive(rolloff, "m", "rolloff")
+        if not short < roll <= long:
+            raise InputError(
+                f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order."
+            )
+        lengths = [long, roll, short] if roll < long else [long, short]
+        q = 2.0 * math.pi / np.array(lengths)
+        shape = cls(q, np.minimum((q * roll / (2.0 * math.pi)) ** (-2.0 - 2.0 * H), 1.0))
+        return shape.scaled(rms_height=rms_height, rms_slope=rms_slope)
+
+    def __call__(self, wave_number: ArrayLike) -> Array:
+        """Return C at any wave numbers (rad/m), m⁴; zero beyond the points."""
+        return power_law.value(self.wave_number, self.density, wave_number)
+
+    @property
+    def longest(self) -> float:
+        """Longest wavelength, m."""
+        return 2.0 * math.pi / float(self.wave_number[0])
+
+    @property
+    def shortest(self) -> float:
+        """Shortest wavelength, m."""
+        return 2.0 * math.pi / float(self.wave_number[-1])
+
+    def moment(self, order: float) -> float:
+        """Return ∫ d²q q^order C(q): ⟨h²⟩ for 0, ⟨|∇h|²⟩ for 2, ⟨(∇²h)²⟩ for 4."""
+        return 2.0 * math.pi * power_law.integral(self.wave_number, self.density, order + 1.0)
+
+    def limited(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> PowerSpectrum:
+        """Return the part between two wavelengths, m.
+
+        Raises
+        ------
+        InputError
+            If nothing is left.
+        """
+        first = 0.0 if longest is None else 2.0 * math.pi / positive(longest, "m", "longest")
+        last = math.inf if shortest is None else 2.0 * math.pi / positive(shortest, "m", "shortest")
+        return PowerSpectrum(*power_law.cut_out(self.wave_number, self.density, first, last))
+
+    def rms_height(self, shortest: Quantity | None = None) -> float:
+        """Return the rms height, m, of all waves, or of those not shorter than a wavelength."""
+        return math.sqrt(self._until(shortest).moment(0.0))
+
+    def rms_slope(self, shortest: Quantity | None = None) -> float:
+        """Return the rms of the gradient's length, of all waves, or of those not shorter than a wavelength."""
+        return math.sqrt(self._until(shortest).moment(2.0))
+
+    def rms_curvature(self, shortest: Quantity | None = None) -> float:
+        """Return the rms of the mean curvature ∇²h/2, 1/m, of all waves, or of those not shorter than a wavelength."""
+        return 0.5 * math.sqrt(self._until(shortest).moment(4.0))
+
+    def _until(self, shortest: Quantity | None) -> PowerSpectrum:
+        return self if shortest is None else self.limited(shortest)
+
+    def scaled(self, rms_height: Quantity | None = None, rms_slope: float | None = None) -> PowerSpectrum:
+        """Return the same spectrum with heights scaled to an rms height (m) or an rms slope.
+
+        Raises
+        ------
+        InputError
+            If not just one of them is given, or it is not above zero.
+        """
+        wanted, order = wanted_rms(rms_height, rms_slope)
+        return PowerSpectrum(self.wave_number, self.density * (wanted**2 / self.moment(order)))
+
+
+def hurst_exponent(hurst: float) -> float:
+    """Return a Hurst exponent, above 0 and at most 1, or raise `InputError`."""
+    H = to_si(hurst, "dimensionless", "hurst")
+    if not 0.0 < H <= 1.0:
+        raise InputError(f"hurst = {H:g}: must lie above 0 and be 1 at most, such as 0.8.")
+    return H
+
+
+def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[float, float]:
+    """Return the rms asked for and the order of its moment: 0 for heights (m), 2 for slopes."""
+    if (rms_height is None) == (rms_slope is None):
+        both = "neither" if rms_height is None else "both"
+        raise InputError(f"rms_height and rms_slope: {both} given; give exactly one of them.")
+    if rms_height is not None:
+        return positive(rms_height, "m", "rms_height"), 0.0
+    return positive(rms_slope, "dimensionless", "rms_slope"), 2.0  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, eq=False)
+class LineSpectrum:
+    """Power spectrum of line scans: a power law between its points, nothing beyond; ⟨h²⟩ = 2 ∫₀ C(q) dq, C in m³.
+
+    Parameters
+    ----------
+    wave_number : (n,) array
+        q = 2π/wavelength, rad/m, increasing.
+    density : (n,) array
+        C(q), m³, above zero.
+
+    Raises
+    ------
+    InputError
+        If these are not two rows of equal length, positive and finite, with increasing wave numbers.
+    """
+
+    wave_number: Array
+    density: Array
+
+    def __post_init__(self) -> None:
+        q, density = power_law.checked(self.wave_number, self.density, "m³")
+        object.__setattr__(self, "wave_number", q)
+        object.__setattr__(self, "density", density)
+
+    def __call__(self, wave_number: ArrayLike) -> Array:
+        """Return C at any wave numbers (rad/m), m³; zero beyond the points."""
+        return power_law.value(self.wave_number, self.density, wave_number)
+
+    def moment(self, order: float) -> float:
+        """Return 2 ∫ q^order C(q) dq: ⟨h²⟩ for 0, ⟨(dh/dx)²⟩ for 2, ⟨(d²h/dx²)²⟩ for 4."""
+        return 2.0 * power_law.integral(self.wave_number, self.density, order)
+
+    def rms_height(self) -> float:
+        """Return the rms height, m."""
+        return math.sqrt(self.moment(0.0))
+
+    def rms_slope(self) -> float:
+        """Return the rms slope along the line."""
+        return math.sqrt(self.moment(2.0))

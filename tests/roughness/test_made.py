@@ -1,0 +1,187 @@
+"""Made surfaces have the statistics asked for, from seeds that no grid changes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+
+GRID = {"shape": (128, 96), "spacing": (1e-6, 1.5e-6), "shortest": "9 um"}
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("more", [{}, {"rolloff": "40 um"}, {"aspect": 2.0, "angle": "30 deg"}, {"longest": "60 um"}])
+def test_each_surface_has_just_the_rms_asked_for(seed, more):
+    slope = vf.self_affine(0.7, rms_slope=0.3, seed=seed, **GRID, **more)
+    assert slope.rms_slope == pytest.approx(0.3, rel=1e-12)
+    height = vf.self_affine(0.7, rms_height="2 um", seed=seed, **GRID, **more)
+    assert height.rms_height == pytest.approx(2e-6, rel=1e-12)
+    assert height.heights.mean() == pytest.approx(0.0, abs=1e-18)
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_a_finer_grid_holds_the_same_waves_and_a_shorter_cut_off_adds_to_them(exact):
+    coarse = vf.self_affine(0.8, shape=(64, 48), spacing=(3.0, 4.0), shortest=12.0, rms_height=1.0, seed=7, exact=exact)
+    fine = vf.self_affine(0.8, shape=(192, 96), spacing=(1.0, 2.0), shortest=12.0, rms_height=1.0, seed=7, exact=exact)
+    np.testing.assert_allclose(fine.heights[::3, ::2], coarse.heights, atol=1e-13)
+    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=192.0, shortest=4.5, rms_height=1.0)
+    made = {"shape": (192, 96), "spacing": (1.0, 2.0), "seed": 7, "exact": exact}
+    rough = vf.surface_from_spectrum(spectrum, **made)
+    smooth = vf.surface_from_spectrum(spectrum.limited(shortest=12.0), **made)
+    kept = rough.keep_wavelengths(shortest=12.0)
+    np.testing.assert_allclose(kept.heights, smooth.heights, atol=1e-13)
+    assert rough.rms_slope > 1.2 * smooth.rms_slope
+
+
+def test_random_amplitudes_give_the_rms_in_the_mean_and_scatter_about_it():
+    found = np.array(
+        [
+            vf.self_affine(
+                0.8, shape=(32, 32), spacing=1.0, shortest=4.0, rms_slope=1.0, seed=seed, exact=False
+            ).rms_slope
+            for seed in range(300)
+        ]
+    )
+    square = found**2
+    error = square.std() / np.sqrt(len(found))
+    assert error < 0.02
+    assert square.mean() == pytest.approx(1.0, abs=3.5 * error)  # 3.5 standard errors: once in two thousand
+    assert found.std() > 0.01
+
+
+def test_heights_of_many_surfaces_are_gaussian():
+    heights = np.concatenate(
+        [
+            vf.self_affine(
+                0.8, shape=(64, 64), spacing=1.0, shortest=4.0, rolloff=16.0, rms_height=1.0, seed=seed
+            ).heights.ravel()
+            for seed in range(60)
+        ]
+    )
+    # Some 16 independent patches each: 1000 in all, sqrt(24/1000) = 0.15 of kurtosis and half of it of skewness.
+    assert np.mean(heights**3) == pytest.approx(0.0, abs=0.25)
+    assert np.mean(heights**4) == pytest.approx(3.0, abs=0.4)
+
+
+def test_measured_spectrum_is_the_one_the_surface_was_made_of():
+    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=256.0, rolloff=64.0, shortest=6.0, rms_height=1.0)
+    surface = vf.surface_from_spectrum(spectrum, shape=(256, 256), spacing=1.0, seed=2)
+    found = vf.power_spectrum(surface)
+    inner = slice(2, -2)
+    # Rings of a twelfth of a decade, in which the density falls by a factor of two: averages over half of it.
+    np.testing.assert_allclose(found.density[inner], spectrum(found.wave_number[inner]), rtol=0.05)
+    assert found.rms_slope() == pytest.approx(surface.rms_slope, rel=0.02)
+    assert found.rms_height() == pytest.approx(surface.rms_height, rel=0.03)
+
+
+def test_a_windowed_scan_shows_the_spectrum_of_the_surface_it_was_cut_from():
+    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=64.0, shortest=6.0, rms_height=1.0)
+    ratios = []
+    for seed in range(6):
+        surface = vf.surface_from_spectrum(spectrum, shape=(512, 512), spacing=1.0, seed=seed)
+        scan = surface.crop(x=(0.0, 255.0), y=(100.0, 355.0)).remove("tilt")
+        found = vf.power_spectrum(scan)
+        within = (found.wave_number > 2.0 * np.pi / 100.0) & (found.wave_number < 2.0 * np.pi / 7.0)
+        ratios.append(found.density[within] / spectrum(found.wave_number[within]))
+    # Six scans, tens of waves in the first ring: 10 % there, less further on.
+    np.testing.assert_allclose(np.mean(ratios, axis=0), 1.0, atol=0.2)
+    assert np.mean(ratios) == pytest.approx(1.0, abs=0.04)
+
+
+def test_lines_of_an_isotropic_surface_have_half_its_mean_square_slope():
+    surface = vf.self_affine(0.8, shape=(256, 256), spacing=1.0, shortest=8.0, rolloff=64.0, rms_slope=1.0, seed=3)
+    found = [vf.line_spectrum(surface, axis=axis).rms_slope() for axis in ("x", "y")]
+    assert np.hypot(*found) == pytest.approx(1.0, rel=0.03)
+    assert found[0] == pytest.approx(found[1], rel=0.1)
+
+
+def test_profiles_follow_their_own_power_law():
+    profile = vf.self_affine(0.8, shape=4096, spacing=1.0, shortest=8.0, rms_height=1.0, seed=0)
+    assert profile.is_line
+    assert profile.rms_height == pytest.approx(1.0, rel=1e-12)
+    found = vf.line_spectrum(profile)
+    slope = np.polyfit(np.log(found.wave_number[3:-2]), np.log(found.density[3:-2]), 1)[0]
+    assert slope == pytest.approx(-2.6, abs=0.02)
+    again = vf.surface_from_spectrum(found, shape=4096, spacing=1.0, seed=1)
+    assert again.rms_slope == pytest.approx(profile.rms_slope, rel=0.02)
+
+
+def test_the_lay_stretches_waves_along_itself():
+    surface = vf.self_affine(
+        0.8, shape=(256, 256), spacing=1.0, shortest=12.0, rms_slope=1.0, seed=4, aspect=4.0, angle="90 deg"
+    )
+    across, along = (np.square(np.gradient(surface.heights, axis=axis)).mean() for axis in (0, 1))
+    # Wave numbers are four times larger across the lay than along it; differences are a little flatter.
+    assert across / along == pytest.approx(16.0, rel=0.15)
+
+
+def test_power_laws_between_points_are_integrated_in_closed_form():
+    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=1.0, rolloff=0.1, shortest=1e-3, rms_height=2.0)
+    assert spectrum.rms_height() == pytest.approx(2.0, rel=1e-13)
+    q = np.geomspace(2.0 * np.pi, 2.0 * np.pi * 1e3, 40001)
+    for order, found in ((0, spectrum.rms_height()), (2, spectrum.rms_slope()), (4, 2.0 * spectrum.rms_curvature())):
+        wanted = 2.0 * np.pi * np.trapezoid(q ** (order + 2) * spectrum(q), np.log(q))
+        # Trapezoids of 1/5790 of the logarithm, and one that holds the kink.
+        assert found**2 == pytest.approx(wanted, rel=1e-6)
+    parts = spectrum.limited(shortest=0.05).moment(2.0) + spectrum.limited(longest=0.05).moment(2.0)
+    assert parts == pytest.approx(spectrum.moment(2.0), rel=1e-13)
+    assert spectrum.rms_slope(shortest=0.05) ** 2 == pytest.approx(spectrum.limited(shortest=0.05).moment(2.0))
+    assert spectrum.scaled(rms_slope=0.1).rms_slope() == pytest.approx(0.1, rel=1e-13)
+    harmonic = vf.PowerSpectrum([1.0, 2.0, 4.0], [1.0, 0.25, 0.0625])  # q^-2: the logarithm
+    assert harmonic.moment(0.0) == pytest.approx(2.0 * np.pi * np.log(4.0), rel=1e-13)
+
+
+def test_a_function_may_be_the_spectrum():
+    made = {"shape": (32, 32), "spacing": 1.0, "seed": 0}
+    spectrum = vf.PowerSpectrum.self_affine(0.5, longest=32.0, shortest=4.0, rms_height=1.0)
+    np.testing.assert_array_equal(
+        vf.surface_from_spectrum(lambda q: spectrum(q), **made).heights,
+        vf.surface_from_spectrum(spectrum, **made).heights,
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"hurst": 0.0}, "hurst = 0: must lie above 0"),
+        ({"rms_height": 1e-6}, "both given"),
+        ({"rms_slope": None}, "neither given"),
+        ({"shortest": "2 um"}, "two points of the grid"),
+        ({"aspect": 4.0, "shortest": "8 um"}, "as the lay stretches"),
+        ({"rolloff": "1 m"}, "must grow in this order"),
+        ({"seed": -1}, "seed = -1"),
+        ({"seed": 1.5}, "seed = 1.5"),
+        ({"shape": (2, 2)}, "four at least"),
+        ({"shape": (64,)}, "must be the points"),
+        ({"longest": "9.1 um", "rolloff": "9.1 um"}, "no wave of the period"),
+        ({"shape": 64, "aspect": 2.0}, "a profile has no lay"),
+    ],
+)
+def test_what_cannot_be_made_is_refused(arguments, words):
+    asked = {"hurst": 0.8, "shape": (16, 16), "spacing": "2 um", "shortest": "9 um", "rms_slope": 0.1, "seed": 0}
+    with pytest.raises(vf.InputError, match=words):
+        vf.self_affine(**{**asked, **arguments})
+
+
+def test_spectra_that_are_none_are_refused():
+    for rows, words in (
+        (([1.0], [1.0]), "two points at least"),
+        (([1.0, 2.0], [1.0, 0.0]), "above zero"),
+        (([2.0, 1.0], [1.0, 1.0]), "must increase"),
+        ((["a", "b"], [1.0, 1.0]), "rows of numbers"),
+    ):
+        with pytest.raises(vf.InputError, match=words):
+            vf.PowerSpectrum(*rows)
+    line = vf.LineSpectrum([1.0, 2.0], [1.0, 0.5])
+    with pytest.raises(vf.InputError, match="must be a PowerSpectrum for this shape"):
+        vf.surface_from_spectrum(line, shape=(16, 16), spacing=1.0, seed=0)
+    with pytest.raises(vf.InputError, match="no wave between"):
+        vf.surface_from_spectrum(line, shape=16, spacing=1e-3, seed=0)
+    with pytest.raises(vf.InputError, match="not below zero"):
+        vf.surface_from_spectrum(lambda q: -q, shape=16, spacing=1.0, seed=0)
+    flat = vf.Topography(np.zeros((8, 8)), 1.0)
+    with pytest.raises(vf.InputError, match="flat"):
+        vf.power_spectrum(flat)
+    with pytest.raises(vf.InputError, match="line_spectrum takes line scans"):
+        vf.power_spectrum(vf.Topography(np.zeros(8), 1.0))
