@@ -119,6 +119,20 @@ def solve_with_sensitivity(
     )
 
 
+def log_times(spectrum: RetardationSpectrum, time: float) -> Array:
+    """Return ln τ at which the sensitivity of a contact is told.
+
+    Parameters
+    ----------
+    spectrum : RetardationSpectrum
+        At the temperature of the contact.
+    time : float
+        Unit of length of the contact (`Scale`) over its speed, s.
+    """
+    log_tau = np.log(_with_empty_modes(spectrum, time).tau)
+    return log_tau[_apart(log_tau)]
+
+
 def _with_empty_modes(spectrum: RetardationSpectrum, time: float) -> RetardationSpectrum:
     """Add modes without compliance about a time (s), where the spectrum has none; in ascending order of τ."""
     lattice = np.arange(np.log(REACH[0]), np.log(REACH[1]), SPACING) + np.log(time)

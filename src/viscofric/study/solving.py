@@ -73,16 +73,13 @@ class Task:
 
     def __post_init__(self) -> None:
         # How the modes were found is much to send about, and does not matter to the answer.
-        object.__setattr__(self, "modes", replace(self.modes, fit=None))
+        if self.modes.fit is not None:
+            object.__setattr__(self, "modes", replace(self.modes, fit=None))
         object.__setattr__(self, "key", self._key())
 
     def _key(self) -> str:
-        modes = self.modes
         described: dict[str, object] = {
-            "E0": modes.E0,
-            "E_inf": modes.E_inf,
-            "C": modes.C.tolist(),
-            "tau": modes.tau.tolist(),
+            "modes": _modes_written(self.modes),
             "poisson_ratio": self.poisson_ratio,
             "indenter": _written(self.indenter),
             "layer": None if self.layer is None else _written(self.layer),
@@ -138,6 +135,14 @@ def case_key(description: dict[str, object]) -> str:
     """Return a name for a case that changes with anything that could change its answer."""
     text = json.dumps({"solver": solver_fingerprint(), **description}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+@functools.lru_cache(maxsize=64)  # many tasks have the same modes
+def _modes_written(modes: RetardationSpectrum) -> str:
+    digest = hashlib.sha256(np.array([modes.E0, modes.E_inf]).tobytes())
+    for column in (modes.C, modes.tau):
+        digest.update(np.ascontiguousarray(column).tobytes())
+    return digest.hexdigest()
 
 
 def _written(shape: Any) -> list[object]:

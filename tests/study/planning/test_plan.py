@@ -3,53 +3,21 @@
 from __future__ import annotations
 
 import pickle
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import viscofric as vf
+from study.planning.made_up_contacts import SLS, Case, made_up
 from viscofric.errors import InputError
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import NUMBERS, CaseRecord, Failure
-from viscofric.study.solving import Task, solve
-
-if TYPE_CHECKING:
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.layers import Layer
-
-SLS = vf.Material(
-    vf.Material.standard_linear_solid(1e6, 1e7, 1e-3).spectrum,
-    shift=vf.WLF(C1=8.86, C2=101.6, reference=303.15),
-)
-BALL = vf.Ball(0.01)
-
-
-@dataclass(frozen=True)
-class Case:
-    """One contact asked for."""
-
-    speed: float
-    temperature: float = 303.15
-    load: float = 1.0
-    indenter: Indenter = BALL
-    material: int = 0
-    layer: Layer | None = None
-    indenter_modulus: float | None = None
-    indenter_poisson_ratio: float = 0.3
-    sample: int | None = None
-
-
-def made_up(task: Task) -> CaseRecord:
-    """Numbers that tell tasks apart, without solving anything."""
-    counts = ("speed", "temperature", "load", "cells", "products", "interpolation_error")
-    numbers = dict.fromkeys((name for name in NUMBERS if name not in counts), task.speed)
-    return CaseRecord(speed=task.speed, temperature=task.temperature, load=task.load, cells=128, products=9, **numbers)
+from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.solving import solve
 
 
 def test_equal_cases_are_solved_once() -> None:
-    plan = plan_cases([Case(0.1), Case(0.2), Case(0.1)], [SLS])
+    plan = plan_cases([Case(0.1), Case(0.2), Case(0.1)], [SLS], each=True)
     assert [task.speed for task in plan.wanted()] == [0.1, 0.2]
     for task in reversed(plan.wanted()):
         plan.receive(task.key, made_up(task))
@@ -62,7 +30,7 @@ def test_nothing_is_found_before_everything_is_known() -> None:
     assert (plan.done, plan.total) == (0, 2)
     plan.receive(plan.wanted()[0].key, made_up(plan.wanted()[0]))
     assert (plan.done, plan.total) == (1, 2)
-    with pytest.raises(InputError, match="1 cases are not known"):
+    with pytest.raises(InputError, match="1 of 2 cases are not known"):
         plan.found()
 
 
@@ -115,12 +83,12 @@ def test_a_task_that_travelled_gives_the_same_bits() -> None:
     np.testing.assert_array_equal(here.fields.pressure, there.fields.pressure)
     # The fields hold what the numbers tell: the load, to what the solver promises of it.
     cell = np.ptp(here.fields.x[:2]) * np.ptp(here.fields.y[:2])
-    assert here.fields.pressure.sum() * cell == pytest.approx(1.0, rel=1e-6)
+    assert here.fields.pressure.sum() * cell == pytest.approx(task.load, rel=1e-6)
 
 
 def test_members_of_the_posterior_are_solved_with_their_own_modes() -> None:
     softer = replace(SLS, spectrum=SLS.at().shifted(1.0, 0.5))  # type: ignore[union-attr]
-    plan = plan_cases([Case(0.1), replace(Case(0.1), sample=0)], [SLS], members={0: [softer]})
+    plan = plan_cases([Case(0.1), Case(0.1, sample=1)], [SLS], members={0: [softer]})
     best, drawn = plan.wanted()
     assert (best.modes.E0, drawn.modes.E0) == (1e6, 0.5e6)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 from viscofric.errors import InputError
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
     from viscofric.rheology.material import Material
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 class Case(Protocol):
@@ -71,37 +72,65 @@ class Rubbers:
 
     materials: Sequence[Material]
     members: Mapping[int, Sequence[Material]]
+    _modes: dict[tuple[int, int | None, float], RetardationSpectrum] = field(default_factory=dict, repr=False)
 
     def of(self, case: Case) -> Material:
         """Return the material that a case is solved with."""
-        if case.sample is None:
-            return self.materials[case.material]
-        drawn = self.members.get(case.material, ())
-        if case.sample >= len(drawn):
+        return self.named(case.material, case.sample)
+
+    def named(self, material: int, sample: int | None) -> Material:
+        """Return a material, or a member of its posterior.
+
+        Raises
+        ------
+        InputError
+            If there is none.
+        """
+        if sample is None:
+            return self.materials[material]
+        drawn = self.members.get(material, ())
+        if not 1 <= sample <= len(drawn):
             raise InputError(
-                f"material {case.material}: sample {case.sample} is asked for, but {len(drawn)} are drawn; right would "
-                "be a number below that."
+                f"sample {sample} of material {material} is asked for, but {len(drawn)} are drawn; right would be a "
+                "number from 1 to that."
             )
-        return drawn[case.sample]
+        return drawn[sample - 1]
+
+    def modes(self, case: Case) -> RetardationSpectrum:
+        """Return the modes of a case's material at its temperature."""
+        key = case.material, case.sample, case.temperature
+        if key not in self._modes:
+            material = self.of(case)
+            self._modes[key] = replace(
+                material.modes_at(None if material.shift is None else case.temperature), fit=None
+            )
+        return self._modes[key]
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How all contacts of a plan are solved; see `Task`."""
+    """How all contacts of a plan are solved; see `Task`.
+
+    Attributes
+    ----------
+    accuracy : float
+    sensitive : bool
+    fields : frozenset of int
+        Numbers of the cases whose fields are kept.
+    """
 
     accuracy: float
     sensitive: bool
-    fields: bool
+    fields: frozenset[int]
 
 
-def task_of(case: Case, rubbers: Rubbers, settings: Settings) -> Task | Failure:
-    """Return what solving a case by itself takes, or why that cannot be."""
+def task_of(case: Case, rubbers: Rubbers, settings: Settings, fields: bool) -> Task | Failure:
+    """Return what solving a case by itself takes, with its fields or without, or why that cannot be."""
     label = label_of(case)
     try:
-        material = rubbers.of(case)
         return Task(
-            material.modes_at(None if material.shift is None else case.temperature),
-            material.poisson_ratio,
+            rubbers.modes(case),
+            rubbers.of(case).poisson_ratio,
             case.indenter,
             speed=case.speed,
             load=case.load,
@@ -111,7 +140,7 @@ def task_of(case: Case, rubbers: Rubbers, settings: Settings) -> Task | Failure:
             indenter_modulus=case.indenter_modulus,
             indenter_poisson_ratio=case.indenter_poisson_ratio,
             sensitive=settings.sensitive,
-            fields=settings.fields,
+            fields=fields,
             label=label,
         )
     except InputError as error:

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
+import numpy as np
+
 from viscofric.errors import InputError
-from viscofric.study.planning.conditions import Rubbers, Settings, task_of
+from viscofric.study.planning.between import records_between
+from viscofric.study.planning.conditions import Rubbers, Settings, label_of, task_of
+from viscofric.study.planning.curve import Curve
+from viscofric.study.planning.families import Placing, Representative
+from viscofric.study.planning.numbers import Node
 from viscofric.study.record import CaseRecord, Failure
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Collection, Mapping, Sequence
 
     from viscofric.rheology.material import Material
     from viscofric.study.planning.conditions import Case
+    from viscofric.study.planning.families import Family, Place
     from viscofric.study.solving import Task
 
 Outcome: TypeAlias = CaseRecord | Failure
@@ -21,39 +29,55 @@ Outcome: TypeAlias = CaseRecord | Failure
 class Plan:
     """What is to be solved next, without clocks, files or processes.
 
-    The same answers make the same plan, in whatever order they come in.
+    The same answers make the same plan, in whatever order they come in.  It is made by `plan_cases`.
 
     Attributes
     ----------
     total : int
         Cases asked for.
+    done : int
+        Those of them whose outcome is known.
     """
 
-    def __init__(self, tasks: Sequence[Task | Failure]) -> None:
-        self.total = len(tasks)
-        self._tasks = tuple(tasks)
-        self._outcomes: dict[str, Outcome] = {}
-
-    @property
-    def done(self) -> int:
-        """Cases whose outcome is known."""
-        return sum(isinstance(task, Failure) or task.key in self._outcomes for task in self._tasks)
+    def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
+        self.total, self.done = len(cases), 0
+        self._cases, self._rubbers, self._settings = cases, rubbers, settings
+        self._outcomes: list[Outcome | None] = [None] * len(cases)
+        self._waiting: dict[str, Task] = {}
+        self._told: dict[str, list[Callable[[Outcome], None]]] = {}
+        self._known: dict[str, Outcome] = {}
+        alone = set(apart)
+        for family, members in self._families(alone).items():
+            _FamilyPlan(self, family, members).go_on()
+        for number in sorted(alone):
+            self.solve_alone(number)
 
     def wanted(self) -> list[Task]:
         """Return what is to be solved next, all of it independent of each other; empty when every case is known."""
-        waiting = {task.key: task for task in self._tasks if not isinstance(task, Failure)}
-        return [task for key, task in waiting.items() if key not in self._outcomes]
+        return list(self._waiting.values())
 
     def receive(self, key: str, outcome: Outcome) -> None:
-        """Hear what became of a task.
+        """Hear what became of a task that is wanted.
 
         Parameters
         ----------
         key : str
             Of the task.
         outcome : CaseRecord or Failure
+
+        Raises
+        ------
+        InputError
+            If no such task was ever wanted.
         """
-        self._outcomes[key] = outcome
+        if key in self._known:
+            return
+        if key not in self._waiting:
+            raise InputError(f"key = {key!r}: no task of this plan has it.")
+        del self._waiting[key]
+        self._known[key] = outcome
+        for tell in self._told.pop(key):
+            tell(outcome)
 
     def found(self) -> list[Outcome]:
         """Return what became of every case, in their order.
@@ -63,9 +87,90 @@ class Plan:
         InputError
             If tasks are still waiting for their outcome.
         """
-        if self.done < self.total:
-            raise InputError(f"{self.total - self.done} cases are not known yet; solve what is wanted first.")
-        return [task if isinstance(task, Failure) else self._outcomes[task.key] for task in self._tasks]
+        known = [outcome for outcome in self._outcomes if outcome is not None]
+        if len(known) < self.total:
+            raise InputError(
+                f"{self.total - len(known)} of {self.total} cases are not known yet; solve what is wanted first."
+            )
+        return known
+
+    def settle(self, number: int, outcome: Outcome) -> None:
+        """Note what became of a case."""
+        self.done += self._outcomes[number] is None
+        self._outcomes[number] = outcome
+
+    def solve_alone(self, number: int) -> None:
+        """Have a case solved by itself."""
+        task = task_of(self._cases[number], self._rubbers, self._settings, number in self._settings.fields)
+        if isinstance(task, Failure):
+            self.settle(number, task)
+        else:
+            self.ask(task, partial(self.settle, number))
+
+    def ask(self, task: Task, tell: Callable[[Outcome], None]) -> None:
+        """Have a task solved, or its outcome told at once where it is known."""
+        if task.key in self._known:
+            tell(self._known[task.key])
+            return
+        self._waiting.setdefault(task.key, task)
+        self._told.setdefault(task.key, []).append(tell)
+
+    def representative(self, family: Family) -> Representative:
+        """Return what is solved for a family."""
+        return Representative(family, self._rubbers.named(*family.rubber), self._settings)
+
+    def case(self, number: int) -> Case:
+        """Return a case by its number."""
+        return self._cases[number]
+
+    def _families(self, alone: Collection[int]) -> dict[Family, list[tuple[int, Place]]]:
+        """Sort all cases but some into families."""
+        placing = Placing(self._rubbers)
+        families: dict[Family, list[tuple[int, Place]]] = {}
+        for number, case in enumerate(self._cases):
+            if number not in alone:
+                try:
+                    place = placing.place(case)
+                except InputError as error:
+                    self.settle(number, Failure(str(error), label_of(case)))
+                else:
+                    families.setdefault(place.family, []).append((number, place))
+        return families
+
+
+class _FamilyPlan:
+    """The part of a plan that concerns one family: its curve, and the wave that is under way."""
+
+    def __init__(self, plan: Plan, family: Family, members: list[tuple[int, Place]]) -> None:
+        self._plan = plan
+        self._numbers = [number for number, _ in members]
+        self._places = [place for _, place in members]
+        self._solved = plan.representative(family)
+        self._curve = Curve(np.array([place.s for place in self._places]), self._solved.settings.accuracy)
+        self._wave: dict[int, Node | None] = {}
+
+    def go_on(self) -> None:
+        """Ask for the next wave, or settle all cases where there is none."""
+        self._wave = {}
+        asked = self._curve.wanted
+        for place in asked:
+            self._plan.ask(self._solved.task(place), partial(self._hear, place))
+        if not asked:
+            self._settle()
+
+    def _hear(self, place: int, outcome: Outcome) -> None:
+        self._wave[place] = Node.of(outcome, self._solved.scale) if isinstance(outcome, CaseRecord) else None
+        if len(self._wave) == len(self._curve.wanted):
+            self._curve.advance(self._wave)
+            self.go_on()
+
+    def _settle(self) -> None:
+        cases = [self._plan.case(number) for number in self._numbers]
+        for one in self._curve.closed:
+            for row, outcome in records_between(self._curve, one, cases, self._places, self._solved):
+                self._plan.settle(self._numbers[row], outcome)
+        for row in sorted(self._curve.alone):
+            self._plan.solve_alone(self._numbers[row])
 
 
 def plan_cases(
@@ -75,8 +180,8 @@ def plan_cases(
     members: Mapping[int, Sequence[Material]] | None = None,
     accuracy: float = 1e-3,
     sensitive: bool = False,
-    fields: bool = False,
-    each: bool = True,
+    fields: bool | Collection[int] = False,
+    each: bool = False,
 ) -> Plan:
     """Plan how a set of cases becomes known.
 
@@ -86,26 +191,27 @@ def plan_cases(
     materials : sequence of Material
         That the cases name by number; with a shift where cases differ in temperature.
     members : mapping of int to sequence of Material, optional
-        Of the number of a material: what is drawn from its posterior, which cases name by `sample`.
+        Of the number of a material: what is drawn from its posterior, which cases name by `sample`, from 1.
     accuracy : float
         Of the friction coefficients, relative.
     sensitive : bool
         Whether to find how friction answers to the rubber's compliance, for bands.
-    fields : bool
-        Whether to keep pressure and displacement.
+    fields : bool or collection of int
+        Whether to keep pressure and displacement, or the numbers of the cases of which; these are solved by themselves.
     each : bool
-        Whether every case is solved by itself; the only way as yet.
+        Whether every case is solved by itself.  If not, cases that Eq. 10 lays on one curve are interpolated between
+        contacts that are solved along it, as many as the accuracy asks for.
 
     Returns
     -------
     Plan
 
-    Raises
-    ------
-    InputError
-        If cases are not to be solved each.
+    Notes
+    -----
+    Nodes of curves lie at places that no study chooses.  One that gained cases has the same nodes and others beside
+    them, so that its old cases change within the accuracy where their neighbourhood is refined, and not at all
+    elsewhere.
     """
-    if not each:
-        raise InputError("each = False: every case is solved by itself; give each = True.")
-    rubbers, settings = Rubbers(materials, members or {}), Settings(accuracy, sensitive, fields)
-    return Plan([task_of(case, rubbers, settings) for case in cases])
+    kept = range(len(cases)) if fields is True else () if fields is False else fields
+    settings = Settings(accuracy, sensitive, frozenset(kept))
+    return Plan(cases, Rubbers(materials, members or {}), settings, range(len(cases)) if each else settings.fields)

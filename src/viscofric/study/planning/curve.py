@@ -1,0 +1,175 @@
+"""A curve solved no more finely than the friction on it asks for, wave after wave.
+
+Nodes lie on a grid in s that is the same for all studies, halved where a solved midpoint differs too much from what
+the nodes about it let expect.  All nodes of a wave are independent of each other, and what comes next depends on
+whole waves only, so that neither time nor order matters.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.free.estimates import FRICTION_FLOOR
+from viscofric.study.planning.numbers import FRICTION, LOGARITHMIC, Node
+from viscofric.study.planning.stencils import Interpolated, Stencil, interpolate, stencil
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+    Rows: TypeAlias = NDArray[np.intp]
+
+#: Length in s of the smallest interval there can be; others are multiples by powers of two.
+STEP = 1.0 / 32.0
+# Intervals begin that long, in steps, at accuracies up to and above the limit.
+_FINE_START, _COARSE_START, _COARSE_FROM = 32, 64, 2e-3
+#: Nodes further apart than this, in steps, tell nothing of what lies between them.
+FURTHEST = 64
+#: Interpolation may add so much to the error of friction, of the accuracy asked for.
+SHARE = 0.25
+# By how much halving an interval lowers the error at the least, by the nodes that its polynomial goes through: in the
+# limit it is 2 to the power of their number.
+_GAIN = (1.0, 1.0, 1.0, 2.0, 4.0, 4.0, 8.0)
+#: No more cases than this are worth a node more in an interval.
+_FEW = 2
+
+
+class Interval(NamedTuple):
+    """Two neighbouring nodes and the cases between them."""
+
+    low: int
+    high: int
+    cases: Rows
+
+    @property
+    def middle(self) -> int:
+        """Where it is halved."""
+        return (self.low + self.high) // 2
+
+
+class Curve:
+    """The nodes of one family of cases.
+
+    Parameters
+    ----------
+    places : (cases,) array
+        s of each case.
+    accuracy : float
+        Of the friction, relative.
+
+    Attributes
+    ----------
+    wanted : tuple of int
+        Nodes of this wave; none once the curve is known well enough.
+    alone : list of int
+        Cases that are better solved by themselves.
+    closed : list of Interval
+        Those between whose nodes the others lie.
+    """
+
+    def __init__(self, places: Array, accuracy: float) -> None:
+        self._places, self._accuracy = places, accuracy
+        self._nodes: dict[int, Node] = {}
+        self._failed: set[int] = set()
+        self.alone: list[int] = []
+        self.closed: list[Interval] = []
+        self._open = self._worth_a_curve()
+        self.wanted = tuple(sorted({end for one in self._open for end in (one.low, one.high)}))
+
+    def _worth_a_curve(self) -> list[Interval]:
+        """Return the first intervals, of neighbours that hold more cases together than a curve needs nodes."""
+        length = _COARSE_START if self._accuracy > _COARSE_FROM else _FINE_START
+        number = np.floor(self._places / (STEP * length)).astype(np.int64)
+        worth: list[Interval] = []
+        for run in _runs(np.unique(number)):
+            inside = [np.flatnonzero(number == one) for one in run]
+            if sum(map(len, inside)) <= 2 * len(run) + 1:
+                self._leave_alone(np.concatenate(inside))
+            else:
+                worth += [
+                    Interval(one * length, (one + 1) * length, rows) for one, rows in zip(run, inside, strict=True)
+                ]
+        return worth
+
+    def advance(self, found: Mapping[int, Node | None]) -> None:
+        """Hear what became of all the nodes that are wanted: None of those that failed.
+
+        Parameters
+        ----------
+        found : mapping of int to Node or None
+        """
+        before = sorted(self._nodes)
+        self._nodes |= {place: node for place, node in found.items() if node is not None}
+        self._failed |= {place for place, node in found.items() if node is None}
+        halves: list[tuple[Interval, bool]] = []
+        for one in self._open:
+            if self._failed & {one.low, one.high, one.middle}:
+                self._leave_alone(one.cases)
+            elif one.middle in self._nodes:
+                foretold = self._foretells(one, before)
+                halves += [(half, foretold) for half in self._halves(one)]
+            else:
+                halves.append((one, False))
+        known = sorted(self._nodes)
+        self._open = []
+        for one, foretold in halves:
+            if foretold and self._agrees(one, known):
+                self.closed.append(one)
+            elif len(one.cases) <= _FEW or one.high - one.low < 2:
+                self._leave_alone(one.cases)
+            else:
+                self._open.append(one)
+        self.wanted = tuple(one.middle for one in self._open)
+
+    def between(self, one: Interval) -> tuple[Stencil, Interpolated]:
+        """Interpolate the cases of a closed interval, from the nodes that are returned too."""
+        chosen = stencil(one.low, one.high, sorted(self._nodes), FURTHEST)
+        return chosen, self._at(chosen, self._places[one.cases])
+
+    def node(self, place: int) -> Node:
+        """Return a node that was solved."""
+        return self._nodes[place]
+
+    def _leave_alone(self, cases: Rows) -> None:
+        self.alone += cases.tolist()
+
+    def _halves(self, one: Interval) -> list[Interval]:
+        lower = self._places[one.cases] < STEP * one.middle
+        parts = (one.low, one.middle, one.cases[lower]), (one.middle, one.high, one.cases[~lower])
+        return [Interval(*part) for part in parts if len(part[2])]
+
+    def _at(self, chosen: Stencil, places: Array) -> Interpolated:
+        values = np.array([self._nodes[node].values for node in chosen.nodes])
+        errors = np.array([self._nodes[node].errors for node in chosen.nodes])
+        return interpolate(chosen, STEP, places, values, errors, LOGARITHMIC)
+
+    def _foretells(self, one: Interval, known: list[int]) -> bool:
+        """Whether friction at the midpoint is what the nodes known before let expect."""
+        chosen = stencil(one.low, one.high, known, FURTHEST)
+        expected = self._at(chosen, np.array([STEP * one.middle]))
+        solved = self._nodes[one.middle]
+        value, error = solved.values[FRICTION], solved.errors[FRICTION]
+        # No more can be told than the errors of the solutions let tell.
+        noise = np.hypot(error, expected.from_nodes[0, FRICTION])
+        allowed = _GAIN[len(chosen.nodes)] * self._allowed(value)
+        return bool(abs(expected.values[0, FRICTION] - value) <= max(allowed, noise))
+
+    def _agrees(self, one: Interval, known: list[int]) -> bool:
+        """Whether polynomials of different degree tell the same friction in the middle of an interval."""
+        chosen = stencil(one.low, one.high, known, FURTHEST)
+        middle = self._at(chosen, np.array([0.5 * STEP * (one.low + one.high)]))
+        noise = middle.from_nodes[0, FRICTION]
+        allowed = _GAIN[len(chosen.nodes) - 1] * self._allowed(middle.values[0, FRICTION])
+        return bool(middle.between[0, FRICTION] <= max(allowed, noise))
+
+    def _allowed(self, friction: float) -> float:
+        return SHARE * self._accuracy * max(abs(friction), FRICTION_FLOOR)
+
+
+def _runs(numbers: NDArray[np.int64]) -> list[list[int]]:
+    """Part ascending whole numbers where some are left out."""
+    return [run.tolist() for run in np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)]

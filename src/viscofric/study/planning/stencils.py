@@ -1,0 +1,140 @@
+"""Interpolation along a curve between solved contacts: local polynomials, and how far they can be trusted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Nodes that a polynomial goes through, and on either side of its interval.
+MOST, BESIDE = 6, 3
+# Where polynomials are compared, from one end of an interval to the other.
+_WITHIN = np.array([0.15, 0.35, 0.5, 0.65, 0.85])
+
+
+class Stencil(NamedTuple):
+    """Nodes of the polynomials of one interval.
+
+    Attributes
+    ----------
+    interval : (int, int)
+        Its ends.
+    nodes : tuple of int
+        Ascending.
+    fewer : tuple of tuples of int
+        Rows of those that polynomials of lower degree go through, whose differences tell what may be left out.
+    """
+
+    interval: tuple[int, int]
+    nodes: tuple[int, ...]
+    fewer: tuple[tuple[int, ...], ...]
+
+
+def stencil(low: int, high: int, known: Sequence[int], furthest: int) -> Stencil:
+    """Choose the nodes for an interval.
+
+    They are no closer to each other than the interval is long, as where a curve was refined nearby: closer ones would
+    tell little more of it, and their errors would be magnified.
+
+    Parameters
+    ----------
+    low, high : int
+        Ends of the interval, both of them known.
+    known : sequence of int
+        All nodes, ascending.
+    furthest : int
+        Distance of neighbours beyond which nothing is known between them.
+    """
+    least = high - low
+    below = _walk([node for node in reversed(known) if node < low], low, -1, least, furthest)
+    above = _walk([node for node in known if node > high], high, 1, least, furthest)
+    # Where there are few on one side, there are more on the other.
+    left = min(len(below), max(BESIDE, MOST - len(above)))
+    right = min(len(above), MOST - left)
+    nodes = (*reversed(below[:left]), *above[:right])
+    centre = 0.5 * (low + high)
+    near = sorted(range(len(nodes)), key=lambda row: (abs(nodes[row] - centre), row))
+    inner = tuple(sorted(near[: max(1, len(nodes) - 2)]))
+    every = tuple(range(len(nodes)))
+    return Stencil((low, high), nodes, (inner, every[1:], every[:-1]))
+
+
+def _walk(beyond: list[int], first: int, toward: int, least: int, furthest: int) -> list[int]:
+    found = [first]
+    for node in beyond:
+        away = toward * (node - found[-1])
+        if away > furthest or len(found) == MOST - 1:
+            break
+        if away >= least:
+            found.append(node)
+    return found
+
+
+def weights(nodes: Array, places: Array) -> Array:
+    """Lagrange's weights of nodes, (nodes,), at places, (places,): (places, nodes)."""
+    away = places[:, None] - nodes
+    apart = nodes[:, None] - nodes
+    result = np.ones((len(places), len(nodes)))
+    for row in range(len(nodes)):
+        others = np.arange(len(nodes)) != row
+        result[:, row] = np.prod(away[:, others] / apart[row, others], axis=1)
+    return result
+
+
+class Interpolated(NamedTuple):
+    """Values between nodes.
+
+    Attributes
+    ----------
+    values : (places, columns) array
+    from_nodes : (places, columns) array
+        What the errors of the nodes make of them.
+    between : (places, columns) array
+        How much polynomials of lower degree differ, at most within the interval: at one place they may meet.
+    """
+
+    values: Array
+    from_nodes: Array
+    between: Array
+
+
+def interpolate(
+    chosen: Stencil, step: float, places: Array, values: Array, errors: Array, logarithmic: NDArray[np.bool_]
+) -> Interpolated:
+    """Interpolate several quantities at once.
+
+    Parameters
+    ----------
+    chosen : Stencil
+    step : float
+        Length of one step between integers.
+    places : (places,) array
+        Within the interval.
+    values, errors : (nodes, columns) array
+        At the stencil's nodes.
+    logarithmic : (columns,) array of bool
+        Which are to be interpolated by their logarithms, where all of theirs are above zero.
+    """
+    nodes = step * np.array(chosen.nodes, dtype=float)
+    logarithmic = logarithmic & np.all(values > 0.0, axis=0)
+    unit = np.where(logarithmic, values, 1.0)
+    shown = np.where(logarithmic, np.log(unit), values)
+    low, high = (step * end for end in chosen.interval)
+    looked_at = low + (high - low) * _WITHIN
+    inside = weights(nodes, looked_at) @ shown
+    fewer = [list(rows) for rows in chosen.fewer]
+    differences = [inside - weights(nodes[rows], looked_at) @ shown[rows] for rows in fewer]
+    apart = np.abs(differences).max(axis=(0, 1))
+    full = weights(nodes, places)
+    found = full @ shown
+    found = np.where(logarithmic, np.exp(found), found)
+    # A difference of logarithms is a relative one.
+    size = np.where(logarithmic, found, 1.0)
+    return Interpolated(found, size * np.sqrt(full**2 @ (errors / unit) ** 2), size * apart)

@@ -1,0 +1,98 @@
+"""Cases, and contacts whose numbers are closed forms of the speed instead of solved ones."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import viscofric as vf
+from viscofric.contact.free.scale import Scale
+from viscofric.errors import ConvergenceError, InputError
+from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.solving import Task, solve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy as np
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.layers import Layer
+    from viscofric.study.planning.plan import Outcome, Plan
+
+BALL = vf.Ball(0.01)
+SLS = vf.Material(
+    vf.Material.standard_linear_solid(1e6, 1e7, 1e-3).spectrum,
+    shift=vf.WLF(C1=8.86, C2=101.6, reference=303.15),
+)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One contact asked for."""
+
+    speed: float
+    temperature: float = 303.15
+    load: float = 0.05
+    indenter: Indenter = BALL
+    material: int = 0
+    layer: Layer | None = None
+    indenter_modulus: float | None = None
+    indenter_poisson_ratio: float = 0.3
+    sample: int | None = None
+
+
+def bell(x: float) -> float:
+    """Return a friction curve with a maximum, over the unit of slope."""
+    return 0.4 / (math.exp(0.5 * x) + math.exp(-0.8 * x)) + 1e-3
+
+
+def made_up(task: Task, curve: Callable[[float], float] = bell) -> CaseRecord:
+    """Numbers of a contact of one mode that depend on vτ/a0 only, but for units; made up."""
+    modes = task.modes
+    scale = Scale.for_load(task.indenter, modes.E0 / (1.0 - task.poisson_ratio**2), task.load)
+    memory = task.speed * float(modes.tau[0]) / scale.length
+    friction, opened = curve(math.log(memory)), 1.0 / (1.0 + memory)
+    return CaseRecord(
+        speed=task.speed,
+        temperature=task.temperature,
+        load=task.load,
+        friction_coefficient=scale.slope * friction,
+        friction_error=1e-6 * scale.slope * friction,
+        indentation=scale.depth * (0.5 + opened),
+        indentation_error=1e-6 * scale.depth,
+        contact_area=scale.area * (0.5 + opened),
+        contact_area_error=1e-6 * scale.area,
+        front=scale.length * (0.5 + opened),
+        rear=scale.length * (opened - 0.5),
+        half_width=scale.length * (0.5 + opened),
+        edge_error=1e-6 * scale.length,
+        max_pressure=scale.pressure / (0.5 + opened),
+        max_pressure_error=1e-6 * scale.pressure,
+        centre_of_pressure=scale.length * friction,
+        energy_balance=1e-6,
+        complementarity=1e-9,
+        cells=128,
+        products=100,
+    )
+
+
+def solved(task: Task) -> Outcome:
+    """Tell what becomes of a task that is really solved."""
+    try:
+        return solve(task)
+    except (ConvergenceError, InputError) as error:
+        return Failure(str(error), task.label)
+
+
+def carry_out(
+    plan: Plan, answer: Callable[[Task], Outcome] = made_up, order: np.random.Generator | None = None
+) -> list[list[str]]:
+    """Answer all that a plan wants, wave by wave, in its own order or in any; the keys of every wave."""
+    waves = []
+    while tasks := plan.wanted():
+        waves.append(sorted(task.key for task in tasks))
+        for row in range(len(tasks)) if order is None else order.permutation(len(tasks)):
+            plan.receive(tasks[row].key, answer(tasks[row]))
+    return waves
