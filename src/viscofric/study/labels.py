@@ -4,7 +4,7 @@ The tree of a study's results (every variable in SI, with ``units`` and ``long_n
 
 ===========================  =====================================================================
 ``/isotherms`` …             the rubber: see `viscofric.study.rubber_labels`
-``/prediction``              one entry per speed and temperature asked for
+``/prediction``              one entry per case asked for: see `viscofric.study.sweep_labels`
 ``/prediction_master``       friction at the reference temperature over the reduced speeds α(T)·v
 ``/measurement``             the separated measurement and the prediction at the same points (if measured)
 ``/measurement_master``      measured friction over the reduced speed, at the load of the master curve
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
-# variable -> unit, long name
-_MEANING = {
+#: Variable -> unit, long name.
+MEANING = {
     "temperature": ("K", "temperature"),
     "angular_frequency": ("rad/s", "angular frequency"),
     "storage_modulus": ("Pa", "storage modulus"),
@@ -82,7 +82,12 @@ _MEANING = {
     "complementarity": ("1", "largest violation of the contact conditions over the indentation"),
     "cells": ("1", "cells along the longer edge of the finest window"),
     "products": ("1", "products with the influence matrix"),
-    "within_measured_frequencies": ("1", "whether v/a, reduced, lies within the measured frequencies (1) or not (0)"),
+    "within_measured_frequencies": (
+        "1",
+        "whether v/a, reduced, lies within the measured frequencies (1), not (0); -1: failed",
+    ),
+    "interpolated": ("1", "whether it lies between solved contacts (1) or was solved itself (0)"),
+    "failed": ("1", "whether the case could not be solved (1); its other variables are missing then"),
     "replicates": ("1", "repetitions"),
     "viscoelastic": ("1", "measured viscoelastic friction coefficient"),
     "viscoelastic_error": ("1", "standard error of the viscoelastic friction coefficient"),
@@ -136,7 +141,7 @@ def dataset(
     import xarray
 
     variables = {
-        name: (dimension, np.asarray(values), {"units": _MEANING[name][0], "long_name": _MEANING[name][1]})
+        name: (dimension, np.asarray(values), {"units": MEANING[name][0], "long_name": MEANING[name][1]})
         for name, values in columns.items()
     }
     result = xarray.Dataset(variables, attrs=attributes)
@@ -148,13 +153,13 @@ def prediction_data(
 ) -> xarray.Dataset:
     """Label solved cases, with whether they lie within the measured frequencies, and their bands, where known."""
     columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in NUMBERS}
-    columns |= _band(curves, "friction")
+    columns |= band(curves, "friction")
     if within is not None:
         columns["within_measured_frequencies"] = np.array(within, dtype=np.int8)
     return dataset("case", columns)
 
 
-def _band(curves: FrictionCurves, name: str) -> dict[str, Any]:
+def band(curves: FrictionCurves, name: str) -> dict[str, Any]:
     """Return the uncertainty that the rubber leaves on friction, where it is known."""
     found = {
         "material_error": curves.material_error,
@@ -181,7 +186,7 @@ def measurement_data(
     columns["reduced_speed"] = reduced_speed
     solved = np.array([record is not None for record in records])
     told = {"predicted": predicted.viscoelastic, "predicted_error": predicted.viscoelastic_error}
-    for name, values in (told | _band(predicted, "predicted")).items():
+    for name, values in (told | band(predicted, "predicted")).items():
         columns[name] = np.full(len(records), np.nan)
         columns[name][solved] = values
     if within is not None:
