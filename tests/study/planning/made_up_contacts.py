@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import viscofric as vf
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.study.record import CaseRecord, Failure
 from viscofric.study.solving import Task, solve
+from viscofric.study.sweep import Case
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     import numpy as np
 
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.layers import Layer
     from viscofric.study.planning.plan import Outcome, Plan
 
 BALL = vf.Ball(0.01)
@@ -28,19 +27,11 @@ SLS = vf.Material(
 )
 
 
-@dataclass(frozen=True)
-class Case:
-    """One contact asked for."""
-
-    speed: float
-    temperature: float = 303.15
-    load: float = 0.05
-    indenter: Indenter = BALL
-    material: int = 0
-    layer: Layer | None = None
-    indenter_modulus: float | None = None
-    indenter_poisson_ratio: float = 0.3
-    sample: int | None = None
+def case_of(
+    speed: float, temperature: float = 303.15, load: float = 0.05, indenter: Indenter = BALL, **others: Any
+) -> Case:
+    """Return a contact asked for, in all that matters to few as it mostly is."""
+    return Case(0, indenter, temperature, speed, load, **others)
 
 
 def bell(x: float) -> float:
@@ -51,7 +42,10 @@ def bell(x: float) -> float:
 def made_up(task: Task, curve: Callable[[float], float] = bell) -> CaseRecord:
     """Numbers of a contact of one mode that depend on vτ/a0 only, but for units; made up."""
     modes = task.modes
-    scale = Scale.for_load(task.indenter, modes.E0 / (1.0 - task.poisson_ratio**2), task.load)
+    assert isinstance(task.indenter, vf.Ball)
+    stiffness, radius = modes.E0 / (1.0 - task.poisson_ratio**2), float(task.indenter.radius)  # type: ignore[arg-type]
+    length = (0.75 * task.load * radius / stiffness) ** (1.0 / 3.0)  # Hertz
+    scale = Scale(task.indenter.geometry, length, length**2 / radius, stiffness)
     memory = task.speed * float(modes.tau[0]) / scale.length
     friction, opened = curve(math.log(memory)), 1.0 / (1.0 + memory)
     return CaseRecord(

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 import viscofric as vf
-from study.planning.made_up_contacts import SLS, Case, carry_out, made_up
+from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from viscofric.study.planning.conditions import Rubbers, Settings, task_of
 from viscofric.study.planning.families import Placing, Representative
 from viscofric.study.planning.numbers import ERRORS, NAMES, Node, units_of
@@ -17,9 +18,12 @@ from viscofric.study.planning.plan import Outcome, plan_cases
 from viscofric.study.record import CaseRecord, Failure
 from viscofric.study.solving import Task, solve
 
+if TYPE_CHECKING:
+    from viscofric.study.sweep import Case
+
 TEMPERATURES = np.linspace(283.15, 383.15, 8).tolist()
 SPEEDS = np.geomspace(1e-3, 1.0, 30).tolist()
-CASES = [Case(speed, temperature) for temperature in TEMPERATURES for speed in SPEEDS]
+CASES = [case_of(speed, temperature) for temperature in TEMPERATURES for speed in SPEEDS]
 
 
 def records(outcomes: list[Outcome]) -> list[CaseRecord]:
@@ -105,7 +109,7 @@ def test_a_study_that_gains_cases_uses_the_nodes_it_had() -> None:
 
 
 def test_fewer_cases_than_nodes_are_solved_by_themselves() -> None:
-    cases = [Case(speed) for speed in (1e-3, 1e-2, 1e-1, 1.0)]
+    cases = [case_of(speed) for speed in (1e-3, 1e-2, 1e-1, 1.0)]
     plan = plan_cases(cases, [SLS])
     assert [task.speed for task in plan.wanted()] == [case.speed for case in cases]
     carry_out(plan)
@@ -160,7 +164,7 @@ def test_fields_are_kept_of_cases_that_are_solved_by_themselves() -> None:
 
 
 def test_speed_zero_and_other_impossible_cases_fail_alone() -> None:
-    plan = plan_cases([*CASES, Case(0.0), Case(0.1, temperature=100.0)], [SLS])
+    plan = plan_cases([*CASES, case_of(0.0), case_of(0.1, temperature=100.0)], [SLS])
     carry_out(plan)
     *good, still, cold = plan.found()
     assert len(records(good)) == len(CASES)
@@ -178,13 +182,13 @@ VERTICAL = replace(
 @pytest.mark.parametrize(
     "case",
     [
-        Case(1.0, load=3.0, indenter=vf.Ball(0.03)),
-        Case(1.0, load=30.0, indenter=vf.Cylinder(0.02)),
-        Case(1.0, load=0.1, indenter=vf.Cone(0.1)),
-        Case(1.0, load=0.1, indenter=vf.Ellipsoid(0.01, 0.03)),
-        Case(1.0, indenter_modulus=5e6, indenter_poisson_ratio=0.4),
-        Case(1.0, layer=vf.Layer(1e-3)),
-        Case(1.0, layer=vf.Layer(1e-3), indenter_modulus=5e6),
+        case_of(1.0, load=3.0, indenter=vf.Ball(0.03)),
+        case_of(1.0, load=30.0, indenter=vf.Cylinder(0.02)),
+        case_of(1.0, load=0.1, indenter=vf.Cone(0.1)),
+        case_of(1.0, load=0.1, indenter=vf.Ellipsoid(0.01, 0.03)),
+        case_of(1.0, indenter_modulus=5e6, indenter_poisson_ratio=0.4),
+        case_of(1.0, layer=vf.Layer(1e-3)),
+        case_of(1.0, layer=vf.Layer(1e-3), indenter_modulus=5e6),
     ],
     ids=lambda case: (
         f"{case.indenter.noun}{'-layer' * (case.layer is not None)}{'-elastic' * bool(case.indenter_modulus)}"

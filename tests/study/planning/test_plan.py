@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from study.planning.made_up_contacts import SLS, Case, made_up
+from study.planning.made_up_contacts import SLS, case_of, made_up
 from viscofric.errors import InputError
 from viscofric.study.planning.plan import plan_cases
 from viscofric.study.record import CaseRecord, Failure
@@ -17,7 +17,7 @@ from viscofric.study.solving import solve
 
 
 def test_equal_cases_are_solved_once() -> None:
-    plan = plan_cases([Case(0.1), Case(0.2), Case(0.1)], [SLS], each=True)
+    plan = plan_cases([case_of(0.1), case_of(0.2), case_of(0.1)], [SLS], each=True)
     assert [task.speed for task in plan.wanted()] == [0.1, 0.2]
     for task in reversed(plan.wanted()):
         plan.receive(task.key, made_up(task))
@@ -26,7 +26,7 @@ def test_equal_cases_are_solved_once() -> None:
 
 
 def test_nothing_is_found_before_everything_is_known() -> None:
-    plan = plan_cases([Case(0.1), Case(0.2)], [SLS])
+    plan = plan_cases([case_of(0.1), case_of(0.2)], [SLS])
     assert (plan.done, plan.total) == (0, 2)
     plan.receive(plan.wanted()[0].key, made_up(plan.wanted()[0]))
     assert (plan.done, plan.total) == (1, 2)
@@ -35,7 +35,7 @@ def test_nothing_is_found_before_everything_is_known() -> None:
 
 
 def test_a_case_that_cannot_be_is_a_failure_and_the_others_go_on() -> None:
-    plan = plan_cases([Case(0.1, temperature=100.0), Case(0.1), Case(0.1, sample=3)], [SLS])
+    plan = plan_cases([case_of(0.1, temperature=100.0), case_of(0.1), case_of(0.1, sample=3)], [SLS])
     assert len(plan.wanted()) == 1
     plan.receive(plan.wanted()[0].key, Failure("the solver failed.", "here"))
     cold, failed, unknown = plan.found()
@@ -47,7 +47,7 @@ def test_a_case_that_cannot_be_is_a_failure_and_the_others_go_on() -> None:
 
 
 def test_key_changes_with_all_that_decides_the_answer() -> None:
-    (task,) = plan_cases([Case(0.1)], [SLS]).wanted()
+    (task,) = plan_cases([case_of(0.1)], [SLS]).wanted()
     others = [
         replace(task, **change)  # type: ignore[arg-type]
         for change in (
@@ -75,7 +75,7 @@ def test_key_changes_with_all_that_decides_the_answer() -> None:
 
 
 def test_a_task_that_travelled_gives_the_same_bits() -> None:
-    (task,) = plan_cases([Case(0.1)], [SLS], accuracy=1e-2, fields=True).wanted()
+    (task,) = plan_cases([case_of(0.1)], [SLS], accuracy=1e-2, fields=True).wanted()
     here, there = solve(task), solve(pickle.loads(pickle.dumps(task)))
     assert here == there
     assert here.fields is not None
@@ -88,12 +88,12 @@ def test_a_task_that_travelled_gives_the_same_bits() -> None:
 
 def test_members_of_the_posterior_are_solved_with_their_own_modes() -> None:
     softer = replace(SLS, spectrum=SLS.at().shifted(1.0, 0.5))  # type: ignore[union-attr]
-    plan = plan_cases([Case(0.1), Case(0.1, sample=1)], [SLS], members={0: [softer]})
+    plan = plan_cases([case_of(0.1), case_of(0.1, sample=1)], [SLS], members={0: [softer]})
     best, drawn = plan.wanted()
     assert (best.modes.E0, drawn.modes.E0) == (1e6, 0.5e6)
 
 
 def test_line_contacts_are_recorded_too() -> None:
-    (task,) = plan_cases([Case(0.1, load=100.0, indenter=vf.Cylinder(0.01))], [SLS], accuracy=1e-2).wanted()
+    (task,) = plan_cases([case_of(0.1, load=100.0, indenter=vf.Cylinder(0.01))], [SLS], accuracy=1e-2).wanted()
     record = solve(task)
     assert CaseRecord.from_json(record.to_json()) == record

@@ -1,1 +1,5 @@
-"""What has to be solved for a set of cases: families of similar ones, and curves that each family lies on."""
+"""What has to be solved for a set of cases: families of similar ones, and the curves that they lie on."""
+
+from viscofric.study.planning.plan import Plan, plan_cases
+
+__all__ = ["Plan", "plan_cases"]

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.study.planning.conditions import Case
     from viscofric.study.planning.curve import Curve, Interval
     from viscofric.study.planning.families import Place, Representative
     from viscofric.study.planning.stencils import Interpolated
+    from viscofric.study.sweep import Case
 
     Array: TypeAlias = NDArray[np.float64]
 

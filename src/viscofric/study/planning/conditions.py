@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from viscofric.errors import InputError
 from viscofric.study.record import Failure
@@ -13,50 +13,9 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.layers import Layer
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-
-class Case(Protocol):
-    """One contact asked for, SI."""
-
-    @property
-    def material(self) -> int:
-        """Which of the materials."""
-
-    @property
-    def indenter(self) -> Indenter:
-        """What slides or rolls."""
-
-    @property
-    def temperature(self) -> float:
-        """K."""
-
-    @property
-    def speed(self) -> float:
-        """m/s."""
-
-    @property
-    def load(self) -> float:
-        """N; N/m of a line contact."""
-
-    @property
-    def layer(self) -> Layer | None:
-        """Thickness and base of the rubber; a half-space without."""
-
-    @property
-    def indenter_modulus(self) -> float | None:
-        """Pa; a rigid indenter without."""
-
-    @property
-    def indenter_poisson_ratio(self) -> float:
-        """Of an elastic indenter."""
-
-    @property
-    def sample(self) -> int | None:
-        """Which member of the material's posterior; the best estimate without."""
+    from viscofric.study.sweep import Case
 
 
 @dataclass(frozen=True, eq=False)

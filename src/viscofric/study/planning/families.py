@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
     from viscofric.rheology.material import Material
-    from viscofric.study.planning.conditions import Case, Rubbers, Settings
+    from viscofric.study.planning.conditions import Rubbers, Settings
+    from viscofric.study.sweep import Case
 
 # Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
 _LOW_SLOPE = 0.01

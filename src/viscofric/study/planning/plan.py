@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping, Sequence
 
     from viscofric.rheology.material import Material
-    from viscofric.study.planning.conditions import Case
     from viscofric.study.planning.families import Family, Place
     from viscofric.study.solving import Task
+    from viscofric.study.sweep import Case
 
 Outcome: TypeAlias = CaseRecord | Failure
 

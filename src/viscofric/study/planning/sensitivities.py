@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+_ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, eq=False)
 class Sensitivities:
@@ -106,6 +108,14 @@ class Sensitivities:
             frequency=record.frequency,
         )
         # As the sensitivity itself tells it, so that the rubber's own modes change nothing.
-        own = sensitivity.at(np.log(modes.tau) + place.log_alpha)
+        own = _values_at(np.log(modes.tau) + place.log_alpha, sensitivity)
         part = (float(own @ modes.C) + sensitivity.glass / modes.E_inf) / place.b
         return replace(record, sensitivity=replace(sensitivity, compliance_part=part))
+
+
+def _values_at(log_tau: Array, sensitivity: ComplianceSensitivity) -> Array:
+    """Return g where it mostly is told already, so that nothing need be interpolated."""
+    rows = np.minimum(np.searchsorted(sensitivity.log_tau, log_tau - _ROUNDING), len(sensitivity.log_tau) - 1)
+    if np.all(np.abs(sensitivity.log_tau[rows] - log_tau) <= _ROUNDING):
+        return sensitivity.slope[rows]
+    return sensitivity.at(log_tau)
