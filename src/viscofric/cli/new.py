@@ -1,25 +1,97 @@
-"""``viscofric new FOLDER``: a run file to start from, with the synthetic example's data beside it."""
+"""``viscofric new FOLDER``: a study to start from, and the JSON schema of run files for editors."""
 
 from __future__ import annotations
 
+import json
 from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
 
-@click.command(name="new")
-@click.argument("folder", type=click.Path(path_type=Path, file_okay=False))
-def command(folder: Path) -> None:
-    """Write a study to start from into FOLDER: a commented run file and SYNTHETIC data to replace by your own."""
-    sources = [source for source in (files("viscofric") / "example").iterdir() if source.is_file()]
-    taken = [source.name for source in sources if (folder / source.name).exists()]
+SCHEMA = "study.schema.json"
+#: What a run file starts with for an editor to find the schema beside it.
+SCHEMA_LINE = f"#:schema ./{SCHEMA}\n"
+#: Starter files, by their names, and what they show.
+TEMPLATES = {
+    "example": "all keys of a run file, with measured friction beside the prediction",
+    "ball": "a ball over speed and temperature",
+    "measured": "measured friction beside the prediction",
+    "cylinder": "a roller, its load per length",
+    "layer": "rubber of finite thickness",
+    "sweep": "several rubbers, radii and loads",
+    "uncertainty": "how well friction is known",
+}
+
+_EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words in TEMPLATES.items())
+
+
+@click.command(name="new", epilog=_EPILOG)
+@click.argument("folder", required=False, metavar="[FOLDER|-]", type=click.Path(path_type=Path, allow_dash=True))
+@click.option(
+    "--template",
+    metavar="NAME",
+    type=click.Choice(list(TEMPLATES)),
+    default="example",
+    show_default=True,
+    help="What the study is to be like; see below.",
+)
+@click.option(
+    "--schema",
+    is_flag=True,
+    help=f"Write {SCHEMA} beside the run file, too, for editors to complete and check it by; without FOLDER, print it.",
+)
+def command(folder: Path | None, template: str, schema: bool) -> None:
+    """Write a study to start from into FOLDER: a commented run file and SYNTHETIC data to replace by your own.
+
+    With - instead of FOLDER, the run file alone is printed.
+    """
+    if folder is None:
+        if not schema:
+            raise click.UsageError("give the FOLDER to write the study into, or - to print its run file.")
+        click.echo(_schema(), nl=False)
+        return
+    run_file = template_text(template)
+    if schema:
+        run_file = SCHEMA_LINE + run_file
+    if str(folder) == "-":
+        click.echo(run_file, nl=False)
+        return
+    contents = {"study.toml": run_file.encode()}
+    contents |= {source.name: source.read_bytes() for source in _data() if f'"{source.name}"' in run_file}
+    if schema:
+        contents[SCHEMA] = _schema().encode()
+    _write(folder, contents)
+    click.echo(f"run file {folder / 'study.toml'}")
+
+
+def template_text(name: str) -> str:
+    """Return a starter file."""
+    home = files("viscofric")
+    source = home / "example" / "study.toml" if name == "example" else home / "templates" / f"{name}.toml"
+    return source.read_text(encoding="utf-8")
+
+
+def _data() -> list[Traversable]:
+    return [source for source in (files("viscofric") / "example").iterdir() if source.name.endswith(".csv")]
+
+
+def _schema() -> str:
+    from viscofric.study.json_schema import json_schema
+
+    return json.dumps(json_schema(), indent=1, ensure_ascii=False) + "\n"
+
+
+def _write(folder: Path, contents: dict[str, bytes]) -> None:
+    taken = [name for name in contents if (folder / name).exists()]
     if taken:
         raise click.ClickException(f"{folder} already holds {', '.join(sorted(taken))}; choose another folder.")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for source in sources:
-            (folder / source.name).write_bytes(source.read_bytes())
+        for name, content in contents.items():
+            (folder / name).write_bytes(content)
     except OSError as error:
         raise click.ClickException(f"{folder}: cannot be written ({error.strerror or error}).") from error
-    click.echo(f"run file {folder / 'study.toml'}")

@@ -15,6 +15,7 @@ from viscofric.study import labels
 from viscofric.study.assumptions import assumptions
 from viscofric.study.bands import FrictionBands
 from viscofric.study.cases import CaseSolver, Progress, kept
+from viscofric.study.checking import shift_of
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
 from viscofric.study.rubber import Rubber, make_rubber
@@ -87,7 +88,7 @@ def run_study(path: str | Path, *, output: str | Path | None = None, progress: P
     rubber = make_rubber(study.material)
     bands = FrictionBands(rubber, study.uncertainty.draws)
     progress("material", 1, 1)
-    shift = _shift(rubber)
+    shift = shift_of(rubber)
     # Temperatures without a shift factor are told now, not case by case.
     shift(np.array(study.conditions.temperature))
     ball = Ball(radius)
@@ -146,22 +147,6 @@ def _refuse_what_is_not_solved_yet(study: Study, path: Path) -> None:
 
 def _listed(sentences: Iterable[str]) -> str:
     return json.dumps(list(sentences), ensure_ascii=False)
-
-
-def _shift(rubber: Rubber) -> ShiftLaw:
-    """Return α(T) of a rubber that contacts can be solved with."""
-    material = rubber.material
-    if not isinstance(material.spectrum, RetardationSpectrum):
-        raise StudyError(
-            f"material: {material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball "
-            "needs retardation modes, which fitting a spectrum to the table gives (viscofric material fit)."
-        )
-    if material.shift is None:
-        raise StudyError(
-            f"material: {material.name or 'the rubber'} has no shift factors, so that its temperature cannot be "
-            "chosen; give a rubber that has, or sweeps at several temperatures."
-        )
-    return material.shift
 
 
 def _doubts(study: Study, rubber: Rubber, shift: ShiftLaw) -> list[str]:

@@ -83,7 +83,7 @@ class MaterialTable(Table):
         None, description="Instead: a name of the catalogue (viscofric material list)."
     )
 
-    name: Words = Field("", description="Of the rubber; several are told apart by it.")
+    name: Words = Field("", description="Name of the rubber; several are told apart by it.")
     deformation: Literal["tension", "shear"] | None = Field(
         None, description="How the sweeps were taken; what the file says, if it does: E = 2(1+ν)G."
     )
@@ -92,13 +92,13 @@ class MaterialTable(Table):
             tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1), one_or_more(schema_of(Temperature))
         ]
         | None
-    ) = Field(None, description="Of files that hold none: one, or one for each.")
+    ) = Field(None, description="Temperature of files that hold none: one, or one for each.")
     modulus_unit: Annotated[Words, AfterValidator(_unit_of_modulus)] | None = Field(
-        None, description="Of files that name none, such as 'MPa'."
+        None, description="Unit of moduli in files that name none, such as 'MPa'."
     )
     poisson_ratio: Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, the same at all frequencies.")
     reference_temperature: Temperature | None = Field(
-        None, description="Where the shift factor is one; needed with sweeps and master curves."
+        None, description="Temperature where the shift factor is one; needed with sweeps and master curves."
     )
     vertical_shift: Literal["none", "free", "density"] = Field(
         "none", description="b(T): none, fitted, or density times temperature."
@@ -106,17 +106,17 @@ class MaterialTable(Table):
     shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = Field(
         "measured", description="α(T): as measured, or a law fitted to it."
     )
-    shift_factors: FileName | None = Field(None, description="File of factors that are given, instead of found.")
+    shift_factors: FileName | None = Field(None, description="File of shift factors that are given, not found.")
     fixed_shift_factors: Annotated[
         dict[float, Number],
         BeforeValidator(_by_kelvin),
         WithJsonSchema({"type": "object", "additionalProperties": {"type": "number"}}),
-    ] = Field({}, max_length=1_000, description="Single ones that are held, log10: { '-20 degC' = 4.2 }.")
+    ] = Field({}, max_length=1_000, description="Single shift factors that are held, log10: { '-20 degC' = 4.2 }.")
     spectrum: Literal["non-negative", "regularised", "sparse"] = Field(
         "non-negative", description="How the retardation modes are fitted."
     )
-    modes: Count | None = Field(None, ge=1, le=200, description="At most, with spectrum = 'sparse'.")
-    tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="From one retardation time to the next.")
+    modes: Count | None = Field(None, ge=1, le=200, description="Retardation modes at most, with spectrum = 'sparse'.")
+    tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of one retardation time to the next.")
 
     def problems(self) -> Iterator[Problem]:
         """Yield what does not fit together within the table."""

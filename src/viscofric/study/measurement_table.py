@@ -45,11 +45,11 @@ class MeasurementTable(Table):
     mtm: FileNames = Field((), description="Traction runs: one file, a list, or a pattern such as 'run*.txt'.")
     curves: FileName | None = Field(None, description="Instead: friction curves that are separated already.")
     zero: SignedForce | None = Field(None, description="Reading of the force cell without traction, if it is known.")
-    zero_error: Force | None = Field(None, description="Its standard error.")
+    zero_error: Force | None = Field(None, description="Standard error of zero.")
     coulomb: Annotated[
         Any, BeforeValidator(_number_or_word), WithJsonSchema({"anyOf": [{"type": "number"}, {"const": "constant"}]})
     ] = Field(None, description="Coulomb friction where slip has one direction only: a coefficient, or 'constant'.")
-    coulomb_error: Annotated[Number, Field(gt=0.0)] | None = Field(None, description="Its standard error.")
+    coulomb_error: Annotated[Number, Field(gt=0.0)] | None = Field(None, description="Standard error of coulomb.")
     except_steps: Annotated[
         tuple[Count, ...], BeforeValidator(listed), one_or_more({"type": "integer"}), Field(max_length=MOST_POINTS)
     ] = Field((), description="Steps of the test to leave out: one or a list.")
@@ -57,7 +57,9 @@ class MeasurementTable(Table):
     speed_tolerance: Number = Field(
         0.05, gt=0.0, lt=1.0, description="Relative gap that parts nominal speeds and slips."
     )
-    temperature_tolerance: TemperatureStep = Field(1.0, description="Gap that parts nominal temperatures.")
+    temperature_tolerance: TemperatureStep = Field(
+        1.0, description="Gap that parts nominal temperatures.", json_schema_extra={"default": "1 delta_degC"}
+    )
 
     def problems(self) -> Iterator[Problem]:
         """Yield what does not fit together within the table."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, Strict, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainValidator, Strict, WithJsonSchema
 
 from viscofric.errors import InputError, brief
 from viscofric.units import Quantity, positive, to_si
@@ -62,7 +62,8 @@ Force = Annotated[float, _positive("N"), _text("25 N")]
 Speed = Annotated[float, _positive("m/s"), _text("100 mm/s")]
 Angle = Annotated[float, _positive("rad"), _text("5 deg")]
 Modulus = Annotated[float, _positive("Pa"), _text("200 GPa")]
-Load = Annotated[float, BeforeValidator(_load), _text("25 N", "2 N/mm")]
+# Plain, for else pydantic makes a bare float of a load per length.
+Load = Annotated[float, PlainValidator(_load), _text("25 N", "2 N/mm")]
 Temperature = Annotated[float, BeforeValidator(kelvin), _text("30 degC")]
 TemperatureStep = Annotated[float, _positive("delta_degC"), _text("1 delta_degC")]
 SignedForce = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "N", VALUE)), _text("0.12 N")]

@@ -35,6 +35,7 @@ def relations(tables: Tables) -> Iterator[Problem]:
     if not wrong:
         yield from _size(tables)
     yield from _measurement(tables)
+    yield from _members(tables)
 
 
 def _names_of_materials(tables: Tables) -> Iterator[Problem]:
@@ -84,6 +85,12 @@ def _known(tables: Tables) -> dict[str, tuple[Any, ...]]:
     return known
 
 
+def _together(tables: Tables, known: dict[str, tuple[Any, ...]]) -> list[list[str]]:
+    """Return what is stepped together, as far as it is known."""
+    groups = tables["sweep"].together if "sweep" in tables else ()
+    return [[name for name in group if name in known] for group in groups]
+
+
 def _sweep(tables: Tables) -> Iterator[Problem]:
     known = _known(tables)
     whole = all(name in tables for name in ("material", "indenter", "conditions", "layer"))
@@ -104,10 +111,7 @@ def _sweep(tables: Tables) -> Iterator[Problem]:
 
 def _twice(tables: Tables, known: dict[str, tuple[Any, ...]]) -> Iterator[Problem]:
     """Yield axes that hold a point twice."""
-    grouped = tables["sweep"].together if "sweep" in tables else ()
-    if any(name not in known for group in grouped for name in group):
-        return
-    for axis in axes_of(known, grouped):
+    for axis in axes_of(known, _together(tables, known)):
         if "material" in axis.columns:
             continue  # told by their names
         points = list(zip(*axis.columns.values(), strict=False))
@@ -130,7 +134,7 @@ def _repeated(points: list[tuple[Any, ...]]) -> list[int]:
 
 def _size(tables: Tables) -> Iterator[Problem]:
     known = _known(tables)
-    count = count_cases(axes_of(known, tables["sweep"].together if "sweep" in tables else ()))
+    count = count_cases(axes_of(known, _together(tables, known)))
     if count > MOST_CASES:
         told = " × ".join(f"{len(values):,} {name}" for name, values in known.items() if len(values) > 1)
         yield (
@@ -151,6 +155,18 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
         yield "measurement", f"is of one ball, but indenter.radius has {len(indenter.radius)} values"
     if tables.get("layer") is not None:
         yield "measurement", "is compared on a half-space, but there is a [layer]"
+
+
+def _members(tables: Tables) -> Iterator[Problem]:
+    if "uncertainty" not in tables or tables["uncertainty"].members == 0:
+        return
+    for number, material in enumerate(tables.get("material", ())):
+        if material.dma is None:
+            which = f"material[{number}]" if len(tables["material"]) > 1 else "[material]"
+            yield (
+                "uncertainty.members",
+                f"needs sweeps (dma), which tell how well the rubber is known; {which} has none",
+            )
 
 
 _PLACES = {

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 #: A run file is far shorter; what is longer is something else.
 LONGEST_RUN_FILE = 1_000_000  # characters
+_MOST_BYTES = 4 * LONGEST_RUN_FILE + 4
 #: Tables and lists within each other that a run file may need, and a little more.
 _DEEPEST = 10
 _MOST_MATERIALS = 100
@@ -45,12 +46,12 @@ def _several(value: object) -> object:
 class Study(Table):
     """A whole run file; quantities in SI, paths resolved against the run file's folder."""
 
-    title: str = Field("Viscoelastic friction", max_length=300, description="Of the report.")
+    title: str = Field("Viscoelastic friction", max_length=300, description="Title of the report.")
     data_origin: Literal["measured", "synthetic"] = Field(
         "measured", description="Whether the data were measured or made up; report and figures then say so."
     )
     materials: Annotated[
-        tuple[MaterialTable, ...], BeforeValidator(_several), Field(min_length=1, max_length=_MOST_MATERIALS)
+        tuple[MaterialTable, ...], Field(min_length=1, max_length=_MOST_MATERIALS), BeforeValidator(_several)
     ] = Field(alias="material", description="The rubber; [[material]] for each of several, with a name of its own.")
     indenter: IndenterTable = Field(description="What slides or rolls over the rubber.")
     layer: LayerTable | None = Field(None, description="Rubber of finite thickness; a half-space without this table.")
@@ -126,16 +127,23 @@ def read_study_text(path: Path) -> str:
     """Return the text of a run file."""
     try:
         with path.open("rb") as file:
-            data = file.read(4 * LONGEST_RUN_FILE)
-        return data.decode("utf-8-sig")
+            return decoded(file.read(_MOST_BYTES), path)
     except FileNotFoundError:
         raise StudyError(f"{path}: no such file.") from None
     except IsADirectoryError:
         raise StudyError(f"{path}: is a folder; a run file (TOML) is wanted.") from None
-    except UnicodeDecodeError:
-        raise StudyError(f"{path}: is not UTF-8 text; save it as UTF-8.") from None
+    except StudyError:
+        raise
     except (OSError, ValueError) as error:
         raise StudyError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error}).") from None
+
+
+def decoded(data: bytes, path: Path) -> str:
+    """Return the text that the bytes of a run file are."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise StudyError(f"{path}: is not UTF-8 text; save it as UTF-8.") from None
 
 
 def parse_study(text: str, path: Path) -> Study:

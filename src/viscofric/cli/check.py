@@ -1,0 +1,146 @@
+"""``viscofric check STUDY.toml``: whether anything is wrong, and how much it would be to solve."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.errors import told
+
+if TYPE_CHECKING:
+    from viscofric.study.checking import CheckedStudy
+    from viscofric.study.rubber import Rubber
+
+_STDIN = Path("standard input")
+# Axes that are not told when they stand alone: the materials are listed, and one sample is the best estimate.
+_NOT_SHOWN = {"material", "sample"}
+
+
+@click.command(name="check")
+@click.argument("study", metavar="STUDY|-", type=click.Path(path_type=Path, allow_dash=True))
+@click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON, in SI units.")
+def command(study: Path, as_json: bool) -> None:
+    """Check a run file and its data files, and say how much it asks for; nothing is solved.
+
+    All mistakes are told at once, each with its place in the file.  With - the run file is read from standard input,
+    and data files are looked for in this folder.
+    """
+    with told():
+        from viscofric.study.checking import check_study
+        from viscofric.study.run_file import decoded, parse_study, read_study_text
+
+        if str(study) == "-":
+            study = _STDIN
+            text = decoded(sys.stdin.buffer.read(), study)
+        else:
+            text = read_study_text(study)
+        found = check_study(parse_study(text, study), study)
+    record = _record(found, study)
+    if as_json:
+        click.echo(json.dumps(record, indent=2, ensure_ascii=False))
+        return
+    for word, line in _lines(found, record, study):
+        click.echo(f"{word:10} {line}")
+    for note in found.notes:
+        click.echo(f"Note: {note}", err=True)
+
+
+def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
+    """Return what was found, in plain types."""
+    study, sweep = found.study, found.sweep
+    extra = [form for form in ("csv", "excel", "zarr") if form in study.outputs.formats]
+    return {
+        "study": str(path),
+        "title": study.title,
+        "materials": [_of_rubber(rubber, material.name) for rubber, material in _pairs(found)],
+        "indenter": study.indenter.shape,
+        "axes": {axis.name: {name: list(values) for name, values in axis.columns.items()} for axis in sweep.axes},
+        "cases": len(sweep.cases),
+        "master_curve_points": study.solver.master_curve_points,
+        "measured_points": None if found.measured is None else len(found.measured.speed),
+        "outputs": ["netcdf", "figures", "report", *extra],
+        "notes": list(found.notes),
+    }
+
+
+def _pairs(found: CheckedStudy) -> list[tuple[Rubber, Any]]:
+    return list(zip(found.rubbers, found.study.materials, strict=True))
+
+
+def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+    spectrum = rubber.material.spectrum
+    return {
+        "name": name or rubber.material.name,
+        "isotherms": None if rubber.sweeps is None else len(rubber.sweeps.isotherms),
+        "modes": len(spectrum.C) if isinstance(spectrum, RetardationSpectrum) else None,
+        "reference_temperature": rubber.material.reference,
+        "shift": rubber.shift_used or None,
+        "synthetic": rubber.synthetic,
+    }
+
+
+def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tuple[str, str]]:
+    """Return what was found, for people: a word and a line each."""
+    lines = [("run file", f"{path}: nothing is wrong with it or its data")]
+    lines += [("material", _material_line(made)) for made in record["materials"]]
+    if record["measured_points"] is not None:
+        lines.append(("measured", f"{record['measured_points']} points of friction"))
+    line = found.study.indenter.LINE
+    shown = [
+        columns
+        for name, columns in record["axes"].items()
+        if name not in _NOT_SHOWN or (name == "sample" and len(columns[name]) > 1)
+    ]
+    lines += [("axis", _axis_line(columns, line)) for columns in shown]
+    points = [f"{len(axis)} {axis.name}" for axis in found.sweep.axes if len(axis) > 1]
+    product = f" = {' × '.join(points)}" if len(points) > 1 else ""
+    lines.append(("cases", f"{record['cases']:,}{product}"))
+    more = [f"{record['master_curve_points']} along the friction master curve"]
+    if record["measured_points"] is not None:
+        more.append(f"{record['measured_points']} at the measured points")
+    lines.append(("besides", ", ".join(more)))
+    files = ["results.nc", "figures", "report.html"]
+    files += [f"tables ({form})" if form != "zarr" else "results.zarr" for form in record["outputs"][3:]]
+    lines.append(("writes", f"{path.with_suffix('.results')}: {', '.join(files)}"))
+    return lines
+
+
+def _material_line(made: dict[str, Any]) -> str:
+    parts = [made["name"] or "the rubber"]
+    if made["isotherms"] is not None:
+        parts.append(f"{made['isotherms']} isotherms")
+    parts.append(f"{made['modes']} retardation modes")
+    return ", ".join(parts) + (", SYNTHETIC" if made["synthetic"] else "")
+
+
+def _axis_line(columns: dict[str, list[Any]], line: bool) -> str:
+    told = ", ".join(f"{name} {_span(name, values, line)}" for name, values in columns.items())
+    points = len(next(iter(columns.values())))
+    return told if points == 1 else f"{told} ({points:,})"
+
+
+def _span(name: str, values: list[Any], line: bool) -> str:
+    if name == "material":
+        return ", ".join(values)
+    if name == "sample":
+        return f"0 (the best estimate) to {values[-1]}"
+    ends = [_shown(name, value, line) for value in dict.fromkeys((values[0], values[-1]))]
+    return " to ".join(ends)
+
+
+def _shown(name: str, value: float, line: bool) -> str:
+    """Return a value of an axis in the unit that people use for it."""
+    if name == "temperature":
+        return f"{value - 273.15:.5g} °C"
+    if name == "angle":
+        return f"{math.degrees(value):.4g}°"
+    if name == "load":
+        return f"{value / 1e3:.4g} N/mm" if line else f"{value:.4g} N"
+    return f"{1e3 * value:.4g} {'mm/s' if name == 'speed' else 'mm'}"

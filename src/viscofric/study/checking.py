@@ -1,0 +1,112 @@
+"""A study checked without solving it: its run file, its data files, the rubber they make, and how much it asks for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import InputError, StudyError
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.study.measurement import read_measurement
+from viscofric.study.rubber import make_rubber
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.study.rubber import Rubber
+    from viscofric.study.run_file import Study
+    from viscofric.study.sweep import Sweep
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedStudy:
+    """A study in which nothing is wrong.
+
+    Parameters
+    ----------
+    study : Study
+    sweep : Sweep
+        The cases that it asks for.
+    rubbers : tuple of Rubber
+        One for each material.
+    measured : FrictionCurves, optional
+        Friction that was measured.
+    """
+
+    study: Study
+    sweep: Sweep
+    rubbers: tuple[Rubber, ...]
+    measured: FrictionCurves | None = None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was doubtful, changed or left out in reading the data: one sentence each."""
+        said = [note for rubber in self.rubbers for note in rubber.notes]
+        return tuple(dict.fromkeys([*said, *(self.measured.notes if self.measured is not None else ())]))
+
+
+def check_study(study: Study, path: Path) -> CheckedStudy:
+    """Read the data files of a study and make its rubbers, without solving any case.
+
+    Parameters
+    ----------
+    study : Study
+    path : Path
+        Its run file, for messages.
+
+    Raises
+    ------
+    StudyError
+        With all that is wrong with its data: one sentence for each material, and one for the measurement.
+    """
+    rubbers, wrong, measured = [], [], None
+    for number, material in enumerate(study.materials):
+        try:
+            rubber = make_rubber(material)
+            _check_temperatures(rubber, np.array(study.conditions.temperature))
+        except InputError as error:
+            place = f"material[{number}]: " if len(study.materials) > 1 else ""
+            wrong.append(f"{place}{error}")
+        else:
+            rubbers.append(rubber)
+    if study.measurement is not None:
+        try:
+            measured = read_measurement(study.measurement)
+        except InputError as error:
+            wrong.append(str(error))
+    if wrong:
+        raise StudyError("\n  ".join([f"{path}: its data cannot be used:", *wrong]))
+    return CheckedStudy(study, study.sweep(), tuple(rubbers), measured)
+
+
+def _check_temperatures(rubber: Rubber, temperatures: NDArray[np.float64]) -> None:
+    """Raise `InputError` where the rubber has no shift factor at a temperature that is asked for."""
+    shift_of(rubber)(temperatures)
+
+
+def shift_of(rubber: Rubber) -> ShiftLaw:
+    """Return α(T) of a rubber that contacts can be solved with.
+
+    Raises
+    ------
+    StudyError
+        If it has no spectrum, or no shift factors.
+    """
+    material = rubber.material
+    if not isinstance(material.spectrum, RetardationSpectrum):
+        raise StudyError(
+            f"material: {material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball "
+            "needs retardation modes, which fitting a spectrum to the table gives (viscofric material fit)."
+        )
+    if material.shift is None:
+        raise StudyError(
+            f"material: {material.name or 'the rubber'} has no shift factors, so that its temperature cannot be "
+            "chosen; give a rubber that has, or sweeps at several temperatures."
+        )
+    return material.shift

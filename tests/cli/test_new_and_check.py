@@ -1,0 +1,103 @@
+"""``viscofric new`` and ``viscofric check``: starter files that are right, mistakes that are all told."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import pytest
+from click.testing import CliRunner, Result
+
+from viscofric.cli import main
+from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def call(*arguments: str | Path, given: str | bytes | None = None) -> Result:
+    return CliRunner().invoke(main, [str(argument) for argument in arguments], input=given)
+
+
+@pytest.mark.parametrize("template", TEMPLATES)
+def test_starter_files_and_their_data_are_right(tmp_path: Path, template: str) -> None:
+    assert call("new", tmp_path, "--template", template).exit_code == 0
+    result = call("check", tmp_path / "study.toml", "--json")
+    assert result.exit_code == 0, result.output
+    found = json.loads(result.stdout)
+    points = [len(next(iter(columns.values()))) for columns in found["axes"].values()]
+    cases = 1
+    for count in points:
+        cases *= count
+    assert found["cases"] == cases
+    assert (found["measured_points"] is not None) == ("[measurement]" in template_text(template))
+    # Only what the run file names is written beside it.
+    data = {path.name for path in tmp_path.iterdir()} - {"study.toml"}
+    assert data == {name for name in ("dma.csv", "mtm.csv") if f'"{name}"' in template_text(template)}
+
+
+def test_check_says_how_much_is_asked_for(tmp_path: Path) -> None:
+    call("new", tmp_path, "--template", "sweep")
+    result = call("check", tmp_path / "study.toml")
+    assert result.exit_code == 0, result.output
+    assert "cases      744 = 2 material × 3 load_radius × 4 temperature × 31 speed" in result.stdout
+    assert "load 2.5 N to 40 N, radius 3 mm to 12 mm (3)" in result.stdout
+    assert "tables (csv), tables (excel)" in result.stdout
+    assert "SYNTHETIC" in result.stdout
+    assert "Note: The isotherm at" in result.stderr
+    assert not (tmp_path / "study.results").exists()
+
+
+def test_run_file_comes_from_standard_input_and_goes_to_standard_output() -> None:
+    written = call("new", "-", "--template", "layer")
+    assert written.stdout == template_text("layer")
+    result = call("check", "-", given=written.stdout)
+    assert result.exit_code == 0, result.output
+    assert "thickness 1 mm to 5 mm (3)" in result.stdout
+    bad = call("check", "-", given=b"\xff\xfe")
+    assert (bad.exit_code, bad.stderr) == (1, "Error: standard input: is not UTF-8 text; save it as UTF-8.\n")
+
+
+def test_check_tells_all_mistakes_at_once(tmp_path: Path) -> None:
+    text = template_text("ball").replace('"25 N"', '"25 mm"').replace("[solver]", "[solvr]")
+    (tmp_path / "study.toml").write_text(text.replace('"90 degC"', '"-300 degC"'), encoding="utf-8")
+    result = call("check", tmp_path / "study.toml")
+    assert result.exit_code == 1
+    first, *lines = result.stderr.splitlines()
+    assert first.endswith("study.toml: 3 things are wrong:")
+    assert [line.split(":")[0] for line in lines] == ["  conditions.load", "  conditions.temperature[2]", "  solvr"]
+
+
+def test_check_tells_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
+    text = template_text("measured").replace("dma.csv", "no.csv").replace("mtm.csv", "none.csv")
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    result = call("check", tmp_path / "study.toml")
+    assert result.exit_code == 1
+    assert "no.csv: no such file" in result.stderr
+    assert "none.csv: no such file" in result.stderr
+
+
+def test_check_tells_a_temperature_without_a_shift_factor(tmp_path: Path) -> None:
+    call("new", tmp_path, "--template", "ball")
+    text = (tmp_path / "study.toml").read_text(encoding="utf-8").replace('"90 degC"', '"400 degC"')
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    result = call("check", tmp_path / "study.toml")
+    assert result.exit_code == 1
+    assert "outside" in result.stderr
+
+
+def test_schema_is_printed_or_written_beside_the_run_file(tmp_path: Path) -> None:
+    printed = call("new", "--schema")
+    assert printed.exit_code == 0
+    assert json.loads(printed.stdout)["title"] == "Run file of viscofric"
+    assert call("new", tmp_path, "--schema").exit_code == 0
+    assert (tmp_path / SCHEMA).read_text(encoding="utf-8") == printed.stdout
+    text = (tmp_path / "study.toml").read_text(encoding="utf-8")
+    assert text.startswith(f"#:schema ./{SCHEMA}\n")
+    assert text.endswith(template_text("example"))
+
+
+def test_new_needs_a_folder() -> None:
+    result = call("new")
+    assert result.exit_code == 2
+    assert "give the FOLDER" in result.stderr

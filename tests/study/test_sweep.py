@@ -1,0 +1,191 @@
+"""The cases of a study: all combinations of its axes, those that go together stepped as one."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import viscofric as vf
+from viscofric.errors import StudyError
+from viscofric.study.run_file import parse_study
+from viscofric.study.sweep import axes_of, count_cases
+
+if TYPE_CHECKING:
+    from viscofric.study.run_file import Study
+    from viscofric.study.sweep import Case
+
+MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'
+TWO = (
+    '[[material]]\nname = "a"\ncatalogue = "synthetic fluoroelastomer"\n'
+    '[[material]]\nname = "b"\ncatalogue = "PVB interlayer"\n'
+)
+CONDITIONS = """
+[conditions]
+load = ["1 N", "4 N"]
+speed = { from = "1 mm/s", to = "1 m/s", points = 4 }
+temperature = ["30 degC", "60 degC", "90 degC"]
+"""
+BALLS = '[indenter]\nradius = ["5 mm", "10 mm"]\n'
+
+
+def study(text: str) -> Study:
+    return parse_study(text, Path("study.toml"))
+
+
+def told(text: str) -> str:
+    with pytest.raises(StudyError) as caught:
+        study(text)
+    return str(caught.value)
+
+
+def test_all_combinations_are_cases_and_speed_runs_fastest() -> None:
+    sweep = study(TWO + BALLS + CONDITIONS).sweep()
+    assert sweep.dimensions == ("material", "sample", "radius", "load", "temperature", "speed")
+    assert sweep.shape == (2, 1, 2, 2, 3, 4)
+    assert len(sweep.cases) == math.prod(sweep.shape)
+    values = [axis.columns[axis.name] for axis in sweep.axes]
+    expected = itertools.product(range(2), (None,), *values[2:])
+    assert [_values(case) for case in sweep.cases] == list(expected)
+    assert sweep.axes[0].columns == {"material": ("a", "b")}
+    assert sweep.axes[5].columns["speed"] == pytest.approx((1e-3, 1e-2, 1e-1, 1.0), rel=1e-12)
+    assert sweep.axes[4].columns["temperature"] == pytest.approx((303.15, 333.15, 363.15), rel=1e-15)
+
+
+def _values(case: Case) -> tuple[object, ...]:
+    assert isinstance(case.indenter, vf.Ball)
+    return (case.material, case.sample, case.indenter.radius, case.load, case.temperature, case.speed)
+
+
+def test_what_goes_together_is_one_axis_where_its_first_coordinate_stands() -> None:
+    sweep = study(MATERIAL + BALLS + CONDITIONS + '[sweep]\ntogether = [["load", "radius"]]').sweep()
+    assert sweep.dimensions == ("material", "sample", "load_radius", "temperature", "speed")
+    (joined,) = [axis for axis in sweep.axes if axis.name == "load_radius"]
+    assert joined.columns == {"load": (1.0, 4.0), "radius": (5e-3, 1e-2)}
+    pairs = {(case.load, case.indenter.radius) for case in sweep.cases}  # type: ignore[attr-defined]
+    assert pairs == {(1.0, 5e-3), (4.0, 1e-2)}
+    assert len(sweep.cases) == 2 * 3 * 4
+
+
+def test_materials_may_go_together_with_their_temperatures() -> None:
+    text = TWO + BALLS + CONDITIONS.replace(', "90 degC"', "") + '[sweep]\ntogether = [["material", "temperature"]]'
+    cases = study(text).sweep().cases
+    assert {(case.material, case.temperature) for case in cases} == {(0, 303.15), (1, 333.15)}
+
+
+def test_cylinder_layer_and_elastic_indenter_reach_every_case() -> None:
+    text = MATERIAL + '[indenter]\nshape = "cylinder"\nradius = "1 cm"\nmodulus = "3 GPa"\npoisson_ratio = 0.4\n'
+    text += '[layer]\nthickness = ["1 mm", "3 mm"]\nbase = "sliding"\n'
+    text += CONDITIONS.replace('["1 N", "4 N"]', '"2 N/mm"')
+    sweep = study(text).sweep()
+    assert sweep.dimensions == ("material", "sample", "radius", "thickness", "load", "temperature", "speed")
+    for case in sweep.cases:
+        assert case.indenter == vf.Cylinder(1e-2)
+        assert (case.load, case.indenter_modulus, case.indenter_poisson_ratio) == (2000.0, 3e9, 0.4)
+        assert type(case.load) is float
+        assert case.layer is not None
+        assert not case.layer.bonded
+    assert {case.layer.thickness for case in sweep.cases if case.layer} == {1e-3, 3e-3}
+
+
+def test_other_shapes_have_axes_of_their_own() -> None:
+    ellipsoid = '[indenter]\nshape = "ellipsoid"\nradius_x = "1 mm"\nradius_y = ["1 mm", "4 mm"]\n'
+    sweep = study(MATERIAL + ellipsoid + CONDITIONS).sweep()
+    assert sweep.dimensions[2:4] == ("radius_x", "radius_y")
+    assert {case.indenter for case in sweep.cases} == {vf.Ellipsoid(1e-3, 1e-3), vf.Ellipsoid(1e-3, 4e-3)}
+    cone = '[indenter]\nshape = "cone"\nangle = { from = "1 deg", to = "5 deg", points = 3, spacing = "linear" }\n'
+    sweep = study(MATERIAL + cone + CONDITIONS).sweep()
+    assert sweep.axes[2].columns["angle"] == pytest.approx([math.radians(degrees) for degrees in (1, 3, 5)])
+    assert "less than a right angle" in told(MATERIAL + cone.replace('"5 deg"', '"95 deg"') + CONDITIONS)
+
+
+def test_members_are_an_axis_that_begins_with_the_best_estimate() -> None:
+    sweeps = '[material]\ndma = "dma.csv"\nreference_temperature = "30 degC"\n'
+    sweep = study(sweeps + BALLS + CONDITIONS + "[uncertainty]\nmembers = 3").sweep()
+    assert sweep.axes[1].columns == {"sample": (0, 1, 2, 3)}
+    assert {case.sample for case in sweep.cases} == {None, 1, 2, 3}
+    assert "uncertainty.members: needs sweeps (dma)" in told(
+        MATERIAL + BALLS + CONDITIONS + "[uncertainty]\nmembers = 3"
+    )
+
+
+@given(
+    st.lists(st.integers(1, 5), min_size=1, max_size=5),
+    st.lists(st.integers(0, 4), min_size=2, max_size=3, unique=True),
+)
+def test_count_is_that_of_the_product(lengths: list[int], group: list[int]) -> None:
+    known = {f"x{place}": tuple(float(value) for value in range(length)) for place, length in enumerate(lengths)}
+    inside = [f"x{place}" for place in group if place < len(lengths)]
+    for name in inside:
+        known[name] = known[inside[0]]
+    axes = axes_of(known, [inside] if inside else [])
+    names = [name for axis in axes for name in axis.columns]
+    assert sorted(names) == sorted(known)
+    assert count_cases(axes) == len(list(itertools.product(*(range(len(axis)) for axis in axes))))
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ('[sweep]\ntogether = [["load", "temperature"]]', ["sweep.together[0]", "load has 2, temperature has 3"]),
+        (
+            '[sweep]\ntogether = [["laod", "radius"]]',
+            ["sweep.together[0][0]: 'laod' is no", "did you mean 'load'?"],
+        ),
+        ('[sweep]\ntogether = [["thickness", "radius"]]', ["'thickness' is no axis of this study"]),
+        ('[sweep]\ntogether = [["load", "radius"], ["load", "speed"]]', ["sweep.together[1][0]", "named twice"]),
+        ('[sweep]\ntogether = [["load"]]', ["sweep.together[0]", "at least 2"]),
+        ('[layer]\nthickness = ["1 mm", "1 mm"]', ["layer.thickness: holds the same value twice (entry 2)"]),
+        ('[measurement]\nmtm = "a.csv"', ["measurement: is of one ball, but indenter.radius has 2 values"]),
+        ("[cluster]\nqueue = 'q'", ["cluster.memory: is missing", "cluster.walltime: is missing"]),
+    ],
+)
+def test_what_does_not_go_together_is_told(more: str, words: list[str]) -> None:
+    message = told(MATERIAL + BALLS + CONDITIONS + more)
+    for word in words:
+        assert word in message
+
+
+def test_loads_are_those_of_the_shape() -> None:
+    cylinder = BALLS + 'shape = "cylinder"\n'
+    assert "conditions.load: 1 N is a force; the load of a cylinder is per length" in told(
+        MATERIAL + cylinder + CONDITIONS
+    )
+    mixed = CONDITIONS.replace('"4 N"', '"4 N/mm"')
+    assert "conditions.load[1]: 4000 N/m is a load per length; the load of a ball is a force" in told(
+        MATERIAL + BALLS + mixed
+    )
+
+
+def test_too_many_cases_are_told_before_any_is_made() -> None:
+    text = (
+        TWO
+        + BALLS
+        + CONDITIONS.replace("points = 4", "points = 10_000").replace(
+            '["30 degC", "60 degC", "90 degC"]', '{ from = "0 degC", to = "90 degC", points = 10_000 }'
+        )
+    )
+    message = told(text)
+    assert "asks for 800,000,000 cases (2 material × 2 radius × 2 load × 10,000 temperature × 10,000 speed)" in message
+    assert "more than 1,000,000" in message
+
+
+def test_several_materials_have_names_of_their_own() -> None:
+    assert "material[1].name: is missing" in told(TWO.replace('name = "b"\n', "") + BALLS + CONDITIONS)
+    message = told(TWO.replace('"b"', '"a"') + BALLS + CONDITIONS)
+    assert "material[0].name: 'a' is the name of 2 materials" in message
+    assert "material[1].name" in message
+
+
+def test_mistakes_of_tables_and_between_tables_are_told_together() -> None:
+    text = TWO.replace('"b"', '"a"') + BALLS + CONDITIONS + '[solver]\naccuracy = "high"\n[layr]\n'
+    text += '[sweep]\ntogether = [["load", "temperature"]]'
+    lines = told(text).splitlines()
+    assert lines[0] == "study.toml: 5 things are wrong:"
+    for place in ("  solver.accuracy", "  layr", "  material[0].name", "  material[1].name", "  sweep.together[0]"):
+        assert sum(line.startswith(place + ":") for line in lines) == 1, place
