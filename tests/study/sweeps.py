@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray
 
 import viscofric as vf
+from viscofric.study.labels import dataset
 from viscofric.study.record import CaseRecord, ContactFields, Failure
+from viscofric.study.results import StudyResults, provenance, save_results
 from viscofric.study.sweep import Axis, Case, Sweep
+from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
 #: Any numbers that a ball's contact might have.
 RECORD = CaseRecord(
@@ -97,3 +103,34 @@ def made_outcomes(sweep: Sweep, failed: Sequence[int] = (), fields: Sequence[int
             record = replace(record, fields=ContactFields(x, y, pressure, 1e-6 * pressure))
         found.append(record)
     return found
+
+
+def made_results(folder: Path, sweep: Sweep | None = None, failed: Sequence[int] = (), **about: Any) -> StudyResults:
+    """Return stored results of a sweep: the made-up cases, and a group of one rubber, or of each of several."""
+    sweep = sweep or made_sweep()
+    outcomes = made_outcomes(sweep, failed, fields=[len(sweep.cases) - 1])
+    materials = sweep.axes[0].columns["material"]
+    groups, attributes = material_groups(
+        [{"/spectrum": dataset("mode", {"retardation_time": [1e-3, 1.0], "creep_coefficient": [1e-7, 2e-7]})}]
+        * len(materials),
+        [{"name": name, "reference_temperature": 303.15} for name in materials],
+    )
+    tree = xarray.DataTree.from_dict(
+        {**groups, "/prediction": prediction(sweep, outcomes), **field_groups(sweep, outcomes)}
+    )
+    tree.attrs = {
+        "title": "made-up cases",
+        "data_origin": "synthetic",
+        "accuracy": 1e-3,
+        "study_file": "study.toml",
+        "study_text": 'title = "made-up cases"\n[conditions]\nload = "25 N"\n',
+        "notes": "[]",
+        "warnings": json.dumps(["=1+1 is no formula."]),
+        "failures": json.dumps([str(outcome) for outcome in outcomes if isinstance(outcome, Failure)]),
+        "input_hashes": json.dumps({"dma.csv": "0" * 64}),
+        **attributes,
+        **provenance(),
+        **about,
+    }
+    save_results(tree, folder)
+    return StudyResults(tree, folder)

@@ -13,14 +13,34 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import file_path
+from viscofric.study.integrity import DIGEST, digest, what_helps, what_is_wrong
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     import xarray
 
+    from viscofric.study.compare import ResultsComparison
+
 RESULTS_FILE = "results.nc"
+_PREDICTION = "prediction"
+#: Attributes of the whole that a data set taken out of it keeps: what it is, and where it comes from.
+_ABOUT = (
+    "title",
+    "data_origin",
+    "accuracy",
+    "seed",
+    "indenter",
+    "study_file",
+    "study_text",
+    "input_hashes",
+    "failures",
+    "viscofric_version",
+    "created",
+    "software",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +50,74 @@ class StudyResults:
     Attributes
     ----------
     tree : xarray.DataTree
-        Laid out as told in `viscofric.study.labels`.
+        Laid out as told in `viscofric.study.labels` and `viscofric.study.sweep_labels`.
     folder : Path
         Where it is stored.
     """
 
     tree: xarray.DataTree
     folder: Path
+
+    @property
+    def dataset(self) -> xarray.Dataset:
+        """The predicted cases over their axes, with the provenance in the attributes; SI units.
+
+        Every axis of the study with more than one point is a dimension (material, sample, radius, thickness, load,
+        temperature, speed …), the others are single coordinates.  Every coordinate and variable has `units` and
+        `long_name`.  Where `failed` is 1, the other variables are missing (NaN).
+
+        Raises
+        ------
+        InputError
+            If the results are of a rubber alone.
+        """
+        if _PREDICTION not in self.tree.children:
+            raise InputError(f"{self.folder}: these are results of a rubber alone, without a prediction of friction.")
+        found = self.tree[_PREDICTION].to_dataset()
+        return found.assign_attrs({name: self.tree.attrs[name] for name in _ABOUT if name in self.tree.attrs})
+
+    @property
+    def materials(self) -> dict[str, xarray.DataTree]:
+        """What is known of each rubber, by its name: its sweeps, shift factors, master curve and spectrum."""
+        branches = self.tree.children.get("materials")
+        if branches is None:
+            return {str(self.tree.attrs.get("material", "")): self.tree}
+        return {str(branch.attrs.get("name", number)): branch for number, branch in branches.children.items()}
+
+    @property
+    def fields(self) -> dict[int, xarray.Dataset]:
+        """Pressure and displacement of the cases that kept them, by the number of the case (from 1)."""
+        kept = self.tree.children.get("fields")
+        return {} if kept is None else {int(number): node.to_dataset() for number, node in kept.children.items()}
+
+    def to_csv(self, path: str | Path) -> Path:
+        """Write the cases as a table (CSV): a row each, units in the headings, provenance in lines with ``#``.
+
+        Parameters
+        ----------
+        path : str or Path
+            Replaced if it exists.
+
+        Raises
+        ------
+        DataFileError
+            If it cannot be written.
+        """
+        from viscofric.study.export import export_results
+
+        return export_results(self, "csv", path)
+
+    def to_excel(self, path: str | Path) -> Path:
+        """Write everything as a workbook (.xlsx), a sheet for each table; see `to_csv`."""
+        from viscofric.study.export import export_results
+
+        return export_results(self, "excel", path)
+
+    def compare(self, other: StudyResults, *, tolerance: float | None = None) -> ResultsComparison:
+        """Compare with other results; see `viscofric.compare_results`."""
+        from viscofric.study.compare import compare_results
+
+        return compare_results(self, other, tolerance=tolerance)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -54,47 +135,57 @@ class StudyResults:
         return tuple(json.loads(self.tree.attrs["warnings"]))
 
 
-def open_results(folder: str | Path) -> StudyResults:
+def open_results(path: str | Path) -> StudyResults:
     """Open the results of a study.
 
     Parameters
     ----------
-    folder : str or Path
+    path : str or Path
         The folder that `run_study` wrote, or the ``results.nc`` in it.
 
     Raises
     ------
     DataFileError
-        If there are no results, or they cannot be read.
+        If there are no results, they are of something else, or they are damaged.
     """
     import xarray
 
-    path = Path(folder)
-    if path.is_dir():
-        path = path / RESULTS_FILE
-    if not path.is_file():
-        raise DataFileError(path, "no such results file; run the study first.")
+    file = file_path(path)
+    if file.is_dir():
+        file = file / RESULTS_FILE
+        if not file.is_file() and any(file.parent.glob("cases/*.json")):
+            raise DataFileError(file, f"no such file: the study has not been finished.{what_helps(file)}")
+    if not file.is_file():
+        raise DataFileError(file, "no such results file; run the study first.")
     try:
-        with xarray.open_datatree(path, engine="h5netcdf") as stored:
+        with xarray.open_datatree(file, engine="h5netcdf") as stored:
             tree = stored.load()
-    except Exception as error:  # h5py raises many kinds; all mean the same to the user
-        raise DataFileError(path, f"cannot be read as results of viscofric ({error}).") from error
-    return StudyResults(tree, path.parent)
+            found = digest(tree)
+    except Exception as error:  # h5py raises many kinds; the file tells more than they do
+        raise DataFileError(file, what_is_wrong(file, error)) from error
+    if "viscofric_version" not in tree.attrs:
+        raise DataFileError(file, "is a netCDF file, but not one of results of viscofric.")
+    if tree.attrs.get(DIGEST, found) != found:
+        raise DataFileError(file, f"is damaged: it does not hold what was written into it.{what_helps(file)}")
+    return StudyResults(tree, file.parent)
 
 
 def save_results(tree: xarray.DataTree, folder: Path) -> Path:
     """Write a tree to a folder's ``results.nc``; the file is there whole or not at all."""
     target = folder / RESULTS_FILE
+    tree.attrs[DIGEST] = digest(tree)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder, prefix=".results.") as temporary:
             path = Path(temporary) / RESULTS_FILE
             tree.to_netcdf(path, engine="h5netcdf")
+            with path.open("rb+") as file:
+                os.fsync(file.fileno())
             path.replace(target)
-    except OSError as error:
+    except (OSError, RuntimeError) as error:  # RuntimeError: HDF5, where it closes a file on a full disk
         # h5py buries the reason in a long text of its own, and gives only the number apart.
-        reason = os.strerror(error.errno) if error.errno else str(error)
-        raise DataFileError(target, f"cannot be written ({reason}).") from error
+        number = getattr(error, "errno", None)
+        raise DataFileError(target, f"cannot be written ({os.strerror(number) if number else error}).") from error
     return target
 
 

@@ -1,0 +1,169 @@
+"""Cases of two results that are the same: found by their coordinates, whatever the order and the axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.study.columns import over_all_dimensions
+from viscofric.study.results import StudyResults, open_results
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+
+    Array: TypeAlias = NDArray[Any]
+
+#: Coordinates that agree to as many digits are the same.
+_DIGITS = 9
+# Friction curves -> the same variables of results.
+_OF_CURVES = {
+    "speed": "speed",
+    "temperature": "temperature",
+    "load": "load",
+    "friction_coefficient": "viscoelastic",
+    "friction_error": "viscoelastic_error",
+}
+_COORDINATES = ("speed", "temperature", "load")
+_TABLES = (".csv", ".txt", ".tsv")
+
+
+@dataclass(frozen=True, eq=False)
+class CaseTable:
+    """Cases one below the other.
+
+    Attributes
+    ----------
+    coordinates : tuple of str
+    columns : dict of str to (n,) array
+        Coordinates and variables, SI.
+    units : dict of str to str
+    solved : (n,) array of bool
+    attributes : dict
+        Provenance.
+    """
+
+    name: str
+    coordinates: tuple[str, ...]
+    columns: dict[str, Array]
+    units: dict[str, str]
+    solved: NDArray[np.bool_]
+    attributes: dict[Any, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, given: StudyResults | FrictionCurves | str | Path) -> CaseTable:
+        """Make a table of results or friction curves, or of the file that holds them."""
+        if isinstance(given, StudyResults):
+            return cls._of_results(given)
+        from viscofric.friction.curves import FrictionCurves
+
+        if isinstance(given, FrictionCurves):
+            return cls._of_curves(given)
+        if Path(given).suffix.lower() in _TABLES:
+            from viscofric.friction.curve_files import read_friction_curves
+
+            return cls._of_curves(read_friction_curves(given), str(given))
+        return cls._of_results(open_results(given))
+
+    @classmethod
+    def _of_results(cls, results: StudyResults) -> CaseTable:
+        dataset = results.dataset
+        columns = {str(name): over_all_dimensions(dataset, str(name)).ravel() for name in dataset.variables}
+        places = [str(name) for name in dataset.coords] or [name for name in _COORDINATES if name in columns]
+        friction = columns["friction_coefficient"]
+        units = {name: str(dataset[name].attrs.get("units", "1")) for name in columns}
+        solved = np.isfinite(friction)
+        return cls(str(results.folder), tuple(places), columns, units, solved, dict(dataset.attrs))
+
+    @classmethod
+    def _of_curves(cls, curves: FrictionCurves, name: str = "friction curves") -> CaseTable:
+        columns = {own: np.asarray(getattr(curves, theirs), dtype=float) for own, theirs in _OF_CURVES.items()}
+        units = {"speed": "m/s", "temperature": "K", "load": curves.load_unit}
+        units = {own: units.get(own, "1") for own in columns}
+        return cls(name, _COORDINATES, columns, units, np.isfinite(columns["friction_coefficient"]))
+
+    def __len__(self) -> int:
+        return len(self.solved)
+
+    @property
+    def accuracy(self) -> float | None:
+        """Numerical error that was aimed at, relative, where it is told."""
+        told = self.attributes.get("accuracy")
+        return None if told is None else float(told)
+
+    def varies(self, coordinate: str) -> bool:
+        """Whether the cases differ in a coordinate."""
+        return len(set(_keys(self.columns[coordinate]))) > 1
+
+    def place(self, row: int) -> dict[str, float | str]:
+        """Return the coordinates of a case."""
+        return {name: self.columns[name][row].item() for name in self.coordinates}
+
+
+class Common(NamedTuple):
+    """Cases in common: their rows in both tables, and what is to be said of the axes."""
+
+    first: NDArray[np.int64]
+    second: NDArray[np.int64]
+    remarks: tuple[str, ...]
+
+
+def common_cases(one: CaseTable, other: CaseTable) -> Common:
+    """Find the cases that two tables have in common.
+
+    Raises
+    ------
+    InputError
+        If there are none, a coordinate varies in one that the other does not have, or a case is there twice.
+    """
+    shared = [name for name in one.coordinates if name in other.coordinates]
+    remarks = []
+    for table, beside in ((one, other), (other, one)):
+        for name in table.coordinates:
+            if name in shared:
+                continue
+            if table.varies(name):
+                raise InputError(
+                    f"{table.name} varies the {name}, of which {beside.name} tells nothing: no case can be paired."
+                )
+            remarks.append(f"{table.name} has a {name} ({_shown(name, table.columns[name][0])}), the other tells none.")
+    rows = []
+    for table in (one, other):
+        keys = list(zip(*(_keys(table.columns[name]) for name in shared), strict=True))
+        found = {key: row for row, key in enumerate(keys)}
+        if len(found) < len(keys):
+            raise InputError(f"{table.name} holds cases of the same {', '.join(shared)} more than once.")
+        rows.append(found)
+    keys_of_both = [key for key in rows[0] if key in rows[1]]
+    for number, name in enumerate(shared):
+        here, there = ({key[number] for key in found} for found in rows)
+        if here != there:
+            more, less = sorted(here - there, key=str), sorted(there - here, key=str)
+            parts = [f"{len(more)} only in {one.name} (such as {_shown(name, more[0])})"] if more else []
+            parts += [f"{len(less)} only in {other.name} (such as {_shown(name, less[0])})"] if less else []
+            remarks.append(f"The {name} has other values: {', '.join(parts)}; {len(here & there)} in common.")
+    if not keys_of_both:
+        raise InputError(f"{one.name} and {other.name} have no case in common. {' '.join(remarks)}")
+    first, second = (np.array([found[key] for key in keys_of_both], dtype=np.int64) for found in rows)
+    return Common(first, second, tuple(remarks))
+
+
+def _keys(column: Array) -> list[Any]:
+    """Return values that are the same where coordinates agree but for rounding."""
+    if column.dtype.kind in "OUST":
+        return [str(value) for value in column.tolist()]
+    return [float(f"{value:.{_DIGITS - 1}e}") for value in column.tolist()]
+
+
+def _shown(name: str, value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if name == "temperature":
+        return f"{celsius(float(value)):z.6g} °C"
+    return f"{float(value):.6g}"

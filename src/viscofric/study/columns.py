@@ -1,0 +1,117 @@
+"""Labelled results as columns: a row for each case, units beside the names, and where the numbers come from."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.units import CELSIUS_ZERO
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    import xarray
+
+    from viscofric.study.results import StudyResults
+
+#: Coordinates of cases in the order of a table's columns; others come after these.
+_ORDER = ("material", "sample", "radius", "radius_x", "radius_y", "angle", "thickness", "load", "temperature", "speed")
+# Of a temperature in degC: what is beyond comes from the sum with 273.15.
+_DECIMALS = 9
+# Attribute -> what the lines above a table call it.
+_TOLD = {
+    "data_origin": "data",
+    "indenter": "indenter",
+    "accuracy": "accuracy",
+    "seed": "seed",
+    "study_file": "run file",
+    "viscofric_version": "viscofric",
+    "created": "created",
+}
+
+
+def table_text(results: StudyResults) -> str:
+    """Return the table of `export_results`: lines with ``#``, a line of headings, a row for each case."""
+    text = io.StringIO()
+    for line in about(results.dataset.attrs):
+        text.write(f"# {line}\n")
+    writer = csv.writer(text, lineterminator="\n")
+    names, units, columns = columns_of(results.dataset)
+    writer.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
+    writer.writerows(zip(*(map(written, column) for column in columns), strict=True))
+    return text.getvalue()
+
+
+def about(attributes: Mapping[Any, Any]) -> list[str]:
+    """Return what says where numbers come from, a line each."""
+    title = " ".join(str(attributes.get("title", "")).split())
+    lines = [f"viscofric results: {title}" if title else "viscofric results"]
+    lines += [f"{words}: {attributes[name]}" for name, words in _TOLD.items() if name in attributes]
+    hashes = json.loads(str(attributes.get("input_hashes", "{}")))
+    lines += [f"input: {path} (SHA-256 {digest})" for path, digest in hashes.items()]
+    software = json.loads(str(attributes.get("software", "{}")))
+    lines += [f"software: {name} {number}" for name, number in software.items()]
+    lines += [f"failed: {reason}" for reason in json.loads(str(attributes.get("failures", "[]")))]
+    return [" ".join(line.split()) for line in lines]
+
+
+def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list[Any]]]:
+    """Return a data set as columns: names, units and values, a row for each point, the last dimension running fastest.
+
+    Temperatures are in degC; what is missing is None.
+    """
+    known = [name for name in _ORDER if name in dataset.coords]
+    known += [str(name) for name in dataset.coords if name not in _ORDER]
+    # What is measured as well as calculated has its places among the variables.
+    places = [name for name in _ORDER if name in dataset.data_vars]
+    names = [*known, *places, *(str(name) for name in dataset.data_vars if name not in _ORDER)]
+    units, columns = [], []
+    for name in names:
+        variable = dataset[name]
+        values, unit = over_all_dimensions(dataset, name), str(variable.attrs.get("units", "1"))
+        if unit == "K":
+            unit, values = "degC", np.round(values - CELSIUS_ZERO, _DECIMALS)
+        units.append(unit)
+        columns.append([_plain(value) for value in values.ravel().tolist()])
+    return names, units, columns
+
+
+def over_all_dimensions(dataset: xarray.Dataset, name: str) -> Any:
+    """Return the values of a variable over all dimensions of its data set, in their order."""
+    variable, sizes = dataset[name], dataset.sizes
+    values = np.asarray(variable.values)
+    order = [variable.dims.index(dimension) for dimension in sizes if dimension in variable.dims]
+    shape = [size if dimension in variable.dims else 1 for dimension, size in sizes.items()]
+    return np.broadcast_to(values.transpose(order).reshape(shape), list(sizes.values()))
+
+
+def _plain(value: Any) -> Any:
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def written(value: Any) -> str:
+    """Return a value as a table has it: the shortest text that is the same number, nothing for what is missing."""
+    return "" if value is None else repr(value) if isinstance(value, float) else str(value)
+
+
+def tables(results: StudyResults) -> Iterator[tuple[str, xarray.Dataset]]:
+    """Yield all tables of results with their names, the cases first; those of several rubbers named after them."""
+    yield "prediction", results.dataset
+    for name, group in _tables_of(results.tree):
+        if name != "prediction":
+            yield name, group
+    if "materials" in results.tree.children:
+        for called, branch in results.materials.items():
+            for name, group in _tables_of(branch):
+                yield f"{called} {name}", group
+
+
+def _tables_of(tree: xarray.DataTree) -> Iterator[tuple[str, xarray.Dataset]]:
+    for name, node in tree.children.items():
+        group = node.to_dataset()
+        if not node.children and group.data_vars:
+            yield str(name).replace("_", " "), group

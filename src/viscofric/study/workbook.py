@@ -1,0 +1,137 @@
+"""Results as a workbook (.xlsx): what they are, every table on a sheet of its own, and what the variables mean."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from datetime import datetime
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import InputError
+from viscofric.study.columns import about, columns_of, tables
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.study.results import StudyResults
+
+#: Rows that a sheet of this format has at most.
+MOST_ROWS = 1_048_576
+_LONGEST_NAME = 31
+_NOT_IN_NAMES = re.compile(r"[\[\]:*?/\\]")
+_NARROWEST, _WIDEST = 8, 60
+_SENTENCES = ("warnings", "notes")
+
+
+def workbook(results: StudyResults) -> bytes:
+    """Return results as the bytes of a workbook, the same each time.
+
+    Parameters
+    ----------
+    results : StudyResults
+
+    Returns
+    -------
+    bytes
+        Sheets: summary, prediction, the other tables, variables.
+
+    Raises
+    ------
+    InputError
+        If there are more cases than a sheet has rows, or no prediction.
+    """
+    import xlsxwriter  # type: ignore[import-untyped]
+
+    target = io.BytesIO()
+    # Text stays text: what begins with = or http comes from files of others.
+    options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}
+    with xlsxwriter.Workbook(target, options) as book:
+        made = _Made(book)
+        made.summary(results)
+        for name, dataset in tables(results):
+            made.table(name, dataset)
+        made.variables()
+        attributes = results.tree.attrs
+        book.set_properties(
+            {
+                "title": str(attributes.get("title", "")),
+                "comments": f"viscofric {attributes.get('viscofric_version', '')}",
+                "created": datetime.fromisoformat(str(attributes["created"])),
+            }
+        )
+    return target.getvalue()
+
+
+class _Made:
+    """A workbook as it is made."""
+
+    def __init__(self, book: Any) -> None:
+        self.book = book
+        self.bold = book.add_format({"bold": True, "bottom": 1, "text_wrap": True, "valign": "bottom"})
+        self.names: set[str] = set()
+        self.meaning: dict[tuple[str, str, str], None] = {}
+
+    def sheet(self, name: str) -> Any:
+        """Add a sheet, under a name that the format allows and no other sheet has."""
+        plain = _NOT_IN_NAMES.sub(" ", name).strip("' ") or "sheet"
+        called, number = plain[:_LONGEST_NAME], 1
+        while called.lower() in self.names:
+            number += 1
+            ending = f" {number}"
+            called = plain[: _LONGEST_NAME - len(ending)] + ending
+        self.names.add(called.lower())
+        return self.book.add_worksheet(called)
+
+    def summary(self, results: StudyResults) -> None:
+        """Say what the results are, what is doubtful, and how to make them again."""
+        attributes = results.tree.attrs
+        rows = [tuple(line.partition(": ")[::2]) for line in about(attributes)]
+        for name in _SENTENCES:
+            rows += [(name[:-1], sentence) for sentence in json.loads(str(attributes.get(name, "[]")))]
+        lines = str(attributes.get("study_text", "")).splitlines()
+        rows += [("run file" if number == 0 else "", line) for number, line in enumerate(lines)]
+        page = self.sheet("summary")
+        for row, (name, text) in enumerate(rows):
+            page.write_string(row, 0, name, self.bold if row == 0 else None)
+            page.write_string(row, 1, text, self.bold if row == 0 else None)
+        page.set_column(0, 0, 18)
+        page.set_column(1, 1, 110)
+        page.freeze_panes(1, 0)
+
+    def table(self, name: str, dataset: xarray.Dataset) -> None:
+        """Write a data set on a sheet: headings with units that stay in sight, a row for each point."""
+        names, units, columns = columns_of(dataset)
+        count = len(columns[0])
+        if count >= MOST_ROWS:
+            raise InputError(
+                f"{name} has {count:,} rows, and a sheet of a workbook has {MOST_ROWS:,} at most; write CSV or netCDF."
+            )
+        page = self.sheet(name)
+        for column, (variable, unit, values) in enumerate(zip(names, units, columns, strict=True)):
+            heading = variable if unit == "1" else f"{variable} ({unit})"
+            page.write_string(0, column, heading, self.bold)
+            self.meaning[(variable, unit, str(dataset[variable].attrs.get("long_name", "")))] = None
+            for row, value in enumerate(values, 1):
+                _write(page, row, column, value)
+            widest = max((len(value) for value in values if isinstance(value, str)), default=0)
+            page.set_column(column, column, min(max(_NARROWEST, len(heading) + 2, widest), _WIDEST))
+        page.freeze_panes(1, sum(variable in dataset.coords for variable in names))
+        page.autofilter(0, 0, count, len(names) - 1)
+
+    def variables(self) -> None:
+        """Write what the headings mean."""
+        page = self.sheet("variables")
+        for row, cells in enumerate([("name", "unit", "meaning"), *self.meaning]):
+            for column, cell in enumerate(cells):
+                page.write_string(row, column, cell, self.bold if row == 0 else None)
+        for column, width in enumerate((28, 10, 90)):
+            page.set_column(column, column, width)
+        page.freeze_panes(1, 0)
+
+
+def _write(page: Any, row: int, column: int, value: Any) -> None:
+    if isinstance(value, str):
+        page.write_string(row, column, value)
+    elif value is not None:
+        page.write_number(row, column, value)

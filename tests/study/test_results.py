@@ -1,0 +1,129 @@
+"""Results on disk: what is written is what is read, and a damaged file is told in a sentence."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+import xarray
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import viscofric as vf
+from study.sweeps import made_results, made_sweep
+from viscofric.errors import DataFileError, InputError
+from viscofric.study.results import save_results
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def test_what_is_stored_is_what_is_read(tmp_path: Path) -> None:
+    made = made_results(tmp_path, made_sweep(materials=("NBR", "EPDM / carbon black")), failed=[3])
+    for path in (tmp_path, tmp_path / "results.nc", str(tmp_path)):
+        found = vf.open_results(path)
+        for group in made.tree.subtree:
+            xarray.testing.assert_identical(
+                found.tree[group.path].to_dataset().drop_attrs(deep=False), group.to_dataset().drop_attrs(deep=False)
+            )
+        assert found.failures == made.failures
+        assert list(found.materials) == ["NBR", "EPDM / carbon black"]
+        assert list(found.fields) == [36]
+    assert list(found.materials["NBR"].children) == ["spectrum"]
+
+
+def test_the_data_set_carries_its_provenance(tmp_path: Path) -> None:
+    made_results(tmp_path)
+    found = vf.open_results(tmp_path).dataset
+    assert {"title", "viscofric_version", "input_hashes", "study_text", "accuracy", "created"} <= set(found.attrs)
+    assert found.sel(speed=0.1)["friction_coefficient"].dims == ("load_radius", "temperature")
+
+
+def test_results_of_a_rubber_alone_have_no_data_set(tmp_path: Path) -> None:
+    made = made_results(tmp_path)
+    del made.tree["prediction"]
+    save_results(made.tree, tmp_path)
+    with pytest.raises(InputError, match="of a rubber alone"):
+        _ = vf.open_results(tmp_path).dataset
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "it is empty"),
+        (b"\x89HD", "only 3 bytes"),
+        (b"speed,friction\n1,2\n", "is no results file"),
+        (b"\x89HDF\r\n\x1a\n", "is damaged"),
+    ],
+)
+def test_what_is_no_results_file_is_told(tmp_path: Path, content: bytes, words: str) -> None:
+    (tmp_path / "results.nc").write_bytes(content)
+    with pytest.raises(DataFileError, match=words):
+        vf.open_results(tmp_path)
+
+
+def test_a_netcdf_file_of_others_is_told(tmp_path: Path) -> None:
+    xarray.Dataset({"a": 1.0}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    with pytest.raises(DataFileError, match="not one of results of viscofric"):
+        vf.open_results(tmp_path / "other.nc")
+
+
+def test_missing_results_are_told_and_what_helps(tmp_path: Path) -> None:
+    with pytest.raises(DataFileError, match="run the study first"):
+        vf.open_results(tmp_path)
+    (tmp_path / "cases").mkdir()
+    (tmp_path / "cases" / "a.json").touch()
+    with pytest.raises(DataFileError, match=r"not been finished.*finished cases beside it are kept"):
+        vf.open_results(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    folder = tmp_path_factory.mktemp("whole")
+    made_results(folder)
+    return (folder / "results.nc").read_bytes()
+
+
+@settings(max_examples=25, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(share=st.floats(0.0, 1.0, exclude_max=True))
+def test_a_file_cut_short_anywhere_is_one_sentence(whole: bytes, tmp_path: Path, share: float) -> None:
+    (tmp_path / "results.nc").write_bytes(whole[: int(share * len(whole))])
+    with pytest.raises(DataFileError, match=r"results\.nc: is damaged"):
+        vf.open_results(tmp_path)
+
+
+@settings(max_examples=25, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(share=st.floats(0.02, 1.0, exclude_max=True))
+def test_pages_that_a_power_cut_left_empty_are_never_taken_for_numbers(
+    whole: bytes, tmp_path: Path, share: float
+) -> None:
+    start = int(share * len(whole))
+    cut = whole[:start].ljust(len(whole), b"\0")
+    (tmp_path / "results.nc").write_bytes(cut)
+    if cut == whole:  # what was lost is the room that HDF5 leaves at the end
+        return
+    with pytest.raises(DataFileError, match=r"is damaged|not one of results"):
+        vf.open_results(tmp_path)
+
+
+def test_a_changed_number_is_noticed(whole: bytes, tmp_path: Path) -> None:
+    number = np.float64(vf.synthetic_fluoroelastomer().poisson_ratio)
+    friction = made_results(tmp_path).dataset["friction_coefficient"].values.ravel()[7]
+    place = whole.find(np.float64(friction).tobytes())
+    assert place > 0
+    (tmp_path / "results.nc").write_bytes(whole[:place] + number.tobytes() + whole[place + 8 :])
+    with pytest.raises(DataFileError, match="does not hold what was written into it"):
+        vf.open_results(tmp_path)
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="folders are writable to all here")
+def test_results_that_cannot_be_written_are_told(tmp_path: Path) -> None:
+    made = made_results(tmp_path / "made")
+    (tmp_path / "made").chmod(0o500)
+    try:
+        with pytest.raises(DataFileError, match="cannot be written"):
+            save_results(made.tree, tmp_path / "made")
+    finally:
+        (tmp_path / "made").chmod(0o700)
