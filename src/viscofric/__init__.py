@@ -105,8 +105,10 @@ if TYPE_CHECKING:
     from viscofric.roughness.spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum
     from viscofric.roughness.topography import Topography as Topography
+    from viscofric.study import ResultsComparison as ResultsComparison
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
+    from viscofric.study import compare_results as compare_results
     from viscofric.study import load_study as load_study
     from viscofric.study import open_results as open_results
     from viscofric.study import run_study as run_study
@@ -215,8 +217,10 @@ _HOME = {
     "PowerSpectrum": "viscofric.roughness.spectrum",
     "Topography": "viscofric.roughness.topography",
     "TractionStep": "viscofric.traction",
+    "compare_results": "viscofric.study",
     "load_study": "viscofric.study",
     "open_results": "viscofric.study",
+    "ResultsComparison": "viscofric.study",
     "run_study": "viscofric.study",
     "Study": "viscofric.study",
     "StudyResults": "viscofric.study",

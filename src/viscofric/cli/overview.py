@@ -15,6 +15,8 @@ GROUPS = {
         "check": "Check a run file and its data; tell how much it asks for.",
         "run": "Run a study: friction, figures and a report out of data.",
         "report": "Write figures and report of a finished study again.",
+        "export": "Write results as CSV, Excel workbook, netCDF or zarr.",
+        "compare": "Say where two results differ, and how they came about.",
     },
     "Rubber": {
         "material": "Make a rubber of DMA sweeps, show it, convert it, list.",

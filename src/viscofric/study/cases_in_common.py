@@ -31,6 +31,7 @@ _OF_CURVES = {
     "friction_error": "viscoelastic_error",
 }
 _COORDINATES = ("speed", "temperature", "load")
+_UNITS = {"speed": "m/s", "load": "N", "radius": "m", "thickness": "m", "angle": "rad"}
 _TABLES = (".csv", ".txt", ".tsv")
 
 
@@ -161,9 +162,15 @@ def _keys(column: Array) -> list[Any]:
     return [float(f"{value:.{_DIGITS - 1}e}") for value in column.tolist()]
 
 
+def shown_place(place: dict[str, float | str]) -> str:
+    """Return the coordinates of a case in words: "temperature 30 °C, speed 0.1 m/s"."""
+    return ", ".join(f"{name} {_shown(name, value)}" for name, value in place.items())
+
+
 def _shown(name: str, value: Any) -> str:
     if isinstance(value, str):
         return value
     if name == "temperature":
         return f"{celsius(float(value)):z.6g} °C"
-    return f"{float(value):.6g}"
+    unit = _UNITS.get(name, "")
+    return f"{float(value):.6g}" + (f" {unit}" if unit else "")

@@ -1,0 +1,55 @@
+"""``viscofric export RESULTS --to FORMAT``: results for other programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from viscofric.cli.errors import told
+from viscofric.cli.files import DASH, check_ending
+
+# format -> how its file's name ends
+_ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc", "zarr": ".zarr"}
+_EXAMPLE = """\b
+Such as
+  viscofric export study.results --to excel
+  viscofric export study.results --to csv -o - | head
+"""
+
+
+@click.command(name="export", epilog=_EXAMPLE)
+@click.argument("results", type=click.Path(path_type=Path))
+@click.option(
+    "--to",
+    "form",
+    required=True,
+    type=click.Choice(list(_ENDINGS)),
+    help="Excel holds all tables, the others the cases.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, allow_dash=True),
+    help="File to write; `-` prints a csv [default: results.csv, results.xlsx, prediction.nc or prediction.zarr in the "
+    "folder of the results].",
+)
+def command(results: Path, form: str, output: Path | None) -> None:
+    """Write RESULTS, the folder of a study's results or the file in it, for other programs.
+
+    csv: a row for each case, units in the headings.  excel: a workbook with a sheet for each table.  netcdf, zarr:
+    the cases over their axes, for any program that reads labelled data.
+    """
+    if output == DASH and form != "csv":
+        raise click.BadParameter(f"{form} cannot be printed; name a file.", param_hint="--output")
+    check_ending(output, "--output", (_ENDINGS[form],))
+    with told():
+        from viscofric.study import open_results
+        from viscofric.study.columns import table_text
+        from viscofric.study.export import FORMS, export_results
+
+        found = open_results(results)
+        if output == DASH:
+            click.echo(table_text(found), nl=False)
+            return
+        click.echo(f"{form:<8} {export_results(found, FORMS[list(_ENDINGS).index(form)], output)}")

@@ -1,0 +1,96 @@
+"""``viscofric export`` and ``viscofric compare``: what they write and print, and their exit statuses."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import pytest
+from click.testing import CliRunner, Result
+
+from study.sweeps import made_results, made_sweep
+from viscofric.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def call(*words: object) -> Result:
+    return CliRunner().invoke(main, [*map(str, words)])
+
+
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """Return two results that differ in their loads, and in accuracy."""
+    folder = tmp_path_factory.mktemp("pair")
+    made_results(folder / "a", failed=[2])
+    made_results(folder / "b", made_sweep(loads=(10.0, 30.0)), accuracy=1e-2)
+    return folder / "a", folder / "b"
+
+
+def test_each_format_is_written_beside_the_results(pair: tuple[Path, Path]) -> None:
+    for form, name in (("csv", "results.csv"), ("excel", "results.xlsx"), ("netcdf", "prediction.nc")):
+        done = call("export", pair[0], "--to", form)
+        assert done.exit_code == 0, done.output
+        assert done.stdout.split() == [form, str(pair[0] / name)]
+        assert (pair[0] / name).stat().st_size > 0
+
+
+def test_table_goes_into_a_pipe(pair: tuple[Path, Path], tmp_path: Path) -> None:
+    printed = call("export", pair[0], "--to", "csv", "-o", "-").stdout
+    call("export", pair[0], "--to", "csv", "-o", tmp_path / "a.csv")
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8") == printed
+    assert len([line for line in printed.splitlines() if not line.startswith("#")]) == 19
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["--to", "xml"], 2, "Invalid value"),
+        (["--to", "excel", "-o", "a.csv"], 2, "must end in .xlsx"),
+        (["--to", "excel", "-o", "-"], 2, "cannot be printed"),
+        ([], 2, "Missing option '--to'"),
+    ],
+)
+def test_mistakes_of_exporting_are_one_sentence(
+    pair: tuple[Path, Path], words: list[str], status: int, told: str
+) -> None:
+    done = call("export", pair[0], *words)
+    assert (done.exit_code, told in done.output) == (status, True), done.output
+
+
+def test_damaged_results_are_told(tmp_path: Path) -> None:
+    (tmp_path / "results.nc").touch()
+    for words in (["export", tmp_path, "--to", "csv"], ["report", tmp_path]):
+        done = call(*words)
+        assert done.exit_code == 1
+        assert "is damaged: it is empty" in done.stderr
+        assert "Traceback" not in done.output
+
+
+def test_the_same_results_compare_as_the_same(pair: tuple[Path, Path]) -> None:
+    done = call("compare", pair[0], pair[0] / "results.nc", "--tolerance", 0)
+    assert done.exit_code == 0
+    assert "18 cases in common" in done.stdout
+    assert done.stdout.splitlines()[-1] == "The same within a relative difference of 0."
+
+
+def test_different_results_are_told_with_their_provenance(pair: tuple[Path, Path]) -> None:
+    done = call("compare", *pair)
+    assert done.exit_code == 1
+    for words in (
+        "9 cases in common, 9 only in A, 9 only in B",
+        "1 of them solved in one only",
+        "The load has other values",
+        "Another accuracy: 0.001 and 0.01.",
+    ):
+        assert words in done.stdout
+    found = json.loads(call("compare", *pair, "--json").stdout)
+    assert (found["format"], found["equal"], found["cases"]) == ("viscofric comparison 1", False, 9)
+    assert {one["name"] for one in found["differences"]} >= {"friction_coefficient", "indentation", "max_pressure"}
+
+
+def test_what_cannot_be_compared_has_an_exit_status_of_its_own(pair: tuple[Path, Path], tmp_path: Path) -> None:
+    done = call("compare", pair[0], tmp_path)
+    assert done.exit_code == 2
+    assert done.stderr.startswith("Error: ")

@@ -1,0 +1,181 @@
+"""Two results beside each other: the same is found to be the same, and every kind of difference is found."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from study.sweeps import made_results, made_sweep
+from viscofric.errors import DataFileError, InputError
+from viscofric.study.results import StudyResults, save_results
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def changed(results: StudyResults, folder: Path, name: str, factor: float, case: int) -> StudyResults:
+    """Store results with one number of them changed."""
+    tree = results.tree.copy(deep=True)
+    tree["prediction"][name].values.reshape(-1)[case] *= factor
+    save_results(tree, folder)
+    return vf.open_results(folder)
+
+
+def difference(found: vf.ResultsComparison, name: str) -> Any:
+    return next(one for one in found.differences if one.name == name)
+
+
+def test_results_are_the_same_as_themselves(tmp_path: Path) -> None:
+    results = made_results(tmp_path, failed=[3])
+    found = vf.compare_results(results, tmp_path, tolerance=0.0)
+    assert found.equal
+    assert (found.cases, found.only_first, found.only_second, found.solved_once) == (18, 0, 0, 0)
+    assert found.axes == found.provenance == ()
+    assert {one.points for one in found.differences} == {17}
+    assert {one.largest for one in found.differences} == {0.0}
+    assert results.compare(results).equal
+
+
+def test_the_largest_difference_is_found_where_it_is(tmp_path: Path) -> None:
+    results = made_results(tmp_path / "a")
+    sweep = made_sweep()
+    other = changed(results, tmp_path / "b", "friction_coefficient", 1.01, 7)
+    found = vf.compare_results(results, other, tolerance=1e-3)
+    assert not found.equal
+    friction = difference(found, "friction_coefficient")
+    assert friction.largest == pytest.approx(0.01 / 1.01)
+    assert friction.rms == pytest.approx(0.01 / 1.01 / np.sqrt(18))
+    case = sweep.cases[7]
+    assert friction.where == {
+        "load": case.load,
+        "radius": case.indenter.radius,  # type: ignore[attr-defined]
+        "temperature": case.temperature,
+        "speed": case.speed,
+    }
+    assert friction.second == pytest.approx(1.01 * friction.first)
+    assert difference(found, "max_pressure").equal
+    assert vf.compare_results(results, other, tolerance=0.011).equal
+
+
+@pytest.mark.parametrize(("in_errors", "equal"), [(1.9, True), (2.1, False)])
+def test_without_a_tolerance_the_stated_errors_count(tmp_path: Path, in_errors: float, equal: bool) -> None:
+    results = made_results(tmp_path / "a")
+    # Both state 1e3 Pa of 1e6 Pa: together √2 times as much.
+    other = changed(results, tmp_path / "b", "max_pressure", 1.0 + in_errors * np.sqrt(2.0) * 1e-3, 4)
+    found = vf.compare_results(results, other)
+    assert found.equal is equal
+    assert difference(found, "max_pressure").in_errors == pytest.approx(in_errors)
+
+
+def test_what_has_no_error_of_its_own_agrees_within_the_accuracy(tmp_path: Path) -> None:
+    results = made_results(tmp_path / "a")
+    for factor, equal in ((1.0019, True), (1.0021, False)):
+        other = changed(results, tmp_path / "b", "centre_of_pressure", factor, 0)
+        assert vf.compare_results(results, other).equal is equal
+
+
+def test_a_beyond_small_error_is_pointed_at_rather_than_a_larger_one_within(tmp_path: Path) -> None:
+    results = made_results(tmp_path / "a")
+    tree = results.tree.copy(deep=True)
+    prediction = tree["prediction"]
+    prediction["indentation_error"].values.reshape(-1)[2] = 1.0
+    prediction["indentation"].values.reshape(-1)[2] *= 1.5
+    prediction["indentation"].values.reshape(-1)[11] *= 1.01
+    save_results(tree, tmp_path / "b")
+    indentation = difference(vf.compare_results(results, tmp_path / "b"), "indentation")
+    assert indentation.largest == pytest.approx(1 / 3)
+    assert indentation.second / indentation.first == pytest.approx(1.01)
+    assert not indentation.equal
+
+
+def test_order_and_extent_of_axes_do_not_matter_to_cases_in_common(tmp_path: Path) -> None:
+    whole = made_results(tmp_path / "a", made_sweep(together=False))
+    turned = made_sweep(
+        loads=[25.0], radii=[0.01], speeds=(0.2, 0.1, 0.4), temperatures=(363.15, 303.15), together=False
+    )
+    found = vf.compare_results(whole, made_results(tmp_path / "b", turned), tolerance=0.0)
+    assert not found.equal
+    assert (found.cases, found.only_first, found.only_second) == (4, 32, 2)
+    assert all(one.equal for one in found.differences)
+    said = " ".join(found.axes)
+    assert "The speed has other values" in said
+    assert "0.4" in said
+
+
+def test_coordinates_that_differ_by_rounding_are_the_same(tmp_path: Path) -> None:
+    speeds = (0.1, 0.2)
+    other = made_sweep(speeds=[speed * (1.0 + 1e-14) for speed in speeds])
+    pair = [made_results(tmp_path / name, sweep) for name, sweep in (("a", made_sweep(speeds=speeds)), ("b", other))]
+    assert vf.compare_results(*pair).cases == 12
+
+
+def test_cases_that_one_only_solved_are_counted(tmp_path: Path) -> None:
+    found = vf.compare_results(made_results(tmp_path / "a", failed=[1]), made_results(tmp_path / "b", failed=[2]))
+    assert found.solved_once == 2
+    assert not found.equal
+
+
+def test_other_provenance_is_named(tmp_path: Path) -> None:
+    text = 'title = "made-up cases"\n[conditions]\nload = "30 N"\n'
+    other = made_results(
+        tmp_path / "b",
+        accuracy=1e-2,
+        study_text=text,
+        input_hashes=json.dumps({"elsewhere/dma.csv": "1" * 64, "mtm.csv": "2" * 64}),
+        viscofric_version="0.0.1",
+        software=json.dumps({"numpy": "1.0"}),
+    )
+    said = vf.compare_results(made_results(tmp_path / "a"), other).provenance
+    assert "Another accuracy: 0.001 and 0.01." in said
+    assert "The input dma.csv has other contents." in said
+    assert "The input mtm.csv belongs to the second only." in said
+    assert 'The run files differ in conditions.load: "25 N" and "30 N".' in said
+    assert any(sentence.startswith("Other versions: viscofric") and "numpy" in sentence for sentence in said)
+
+
+def test_the_same_input_elsewhere_is_the_same(tmp_path: Path) -> None:
+    moved = made_results(tmp_path / "b", input_hashes=json.dumps({"another/folder/dma.csv": "0" * 64}))
+    assert vf.compare_results(made_results(tmp_path / "a"), moved).provenance == ()
+
+
+def test_friction_curves_are_compared_with_results(tmp_path: Path) -> None:
+    results = made_results(tmp_path, made_sweep(loads=[25.0], radii=[0.01]))
+    cases = results.dataset.stack(case=["temperature", "speed"])
+    friction = cases["friction_coefficient"].values
+    curves = vf.FrictionCurves(
+        speed=cases["speed"].values,
+        temperature=cases["temperature"].values,
+        load=np.full(9, 25.0),
+        viscoelastic=friction,
+        viscoelastic_error=1e-6 * np.ones(9),
+        viscoelastic_scatter=np.zeros(9),
+        replicates=np.ones(9, dtype=np.int64),
+    )
+    vf.write_friction_curves(curves, tmp_path / "curves.csv")
+    for given in (curves, tmp_path / "curves.csv"):
+        found = vf.compare_results(results, given)
+        assert found.equal
+        assert [one.name for one in found.differences] == ["friction_coefficient"]
+        assert any("radius" in sentence for sentence in found.axes)
+        assert "not compared" in found.provenance[0]
+    off = replace(curves, viscoelastic=1.001 * friction)
+    assert not vf.compare_results(off, results).equal
+
+
+def test_what_cannot_be_paired_is_told(tmp_path: Path) -> None:
+    one = made_results(tmp_path / "a")
+    cold = made_results(tmp_path / "b", made_sweep(temperatures=[253.15]))
+    with pytest.raises(InputError, match=r"no case in common.*such as -20 °C"):
+        vf.compare_results(one, cold)
+    several = made_results(tmp_path / "c", made_sweep(materials=("NBR", "EPDM")))
+    with pytest.raises(InputError, match="varies the material"):
+        vf.compare_results(one, several)
+    with pytest.raises(InputError, match="tolerance"):
+        vf.compare_results(one, one, tolerance=-1.0)
+    with pytest.raises(DataFileError, match="run the study first"):
+        vf.compare_results(one, tmp_path)
