@@ -49,7 +49,6 @@ if TYPE_CHECKING:
     from viscofric.friction.curve_files import read_friction_curves as read_friction_curves
     from viscofric.friction.curve_files import write_friction_curves as write_friction_curves
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
-    from viscofric.friction.flash_temperature import ThermalProperties as ThermalProperties
     from viscofric.friction.identification.anchors import ContactAnchor as ContactAnchor
     from viscofric.friction.identification.anchors import ModulusAnchor as ModulusAnchor
     from viscofric.friction.identification.identify import identify_material as identify_material
@@ -101,6 +100,8 @@ if TYPE_CHECKING:
     from viscofric.roughness.made import surface_from_spectrum as surface_from_spectrum
     from viscofric.roughness.measured_spectrum import line_spectrum as line_spectrum
     from viscofric.roughness.measured_spectrum import power_spectrum as power_spectrum
+    from viscofric.roughness.persson import PerssonTheory as PerssonTheory
+    from viscofric.roughness.persson import persson_theory as persson_theory
     from viscofric.roughness.reading import read_topography as read_topography
     from viscofric.roughness.spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum
@@ -112,6 +113,7 @@ if TYPE_CHECKING:
     from viscofric.study import load_study as load_study
     from viscofric.study import open_results as open_results
     from viscofric.study import run_study as run_study
+    from viscofric.thermal import ThermalProperties as ThermalProperties
     from viscofric.traction import TractionRuns as TractionRuns
     from viscofric.traction import TractionStep as TractionStep
 
@@ -160,7 +162,7 @@ _HOME = {
     "AssumptionCheck": "viscofric.friction.assumptions",
     "check_assumptions": "viscofric.friction.assumptions",
     "FrictionCurves": "viscofric.friction.curves",
-    "ThermalProperties": "viscofric.friction.flash_temperature",
+    "ThermalProperties": "viscofric.thermal",
     "ContactAnchor": "viscofric.friction.identification.anchors",
     "ModulusAnchor": "viscofric.friction.identification.anchors",
     "identify_material": "viscofric.friction.identification.identify",
@@ -212,6 +214,8 @@ _HOME = {
     "surface_from_spectrum": "viscofric.roughness.made",
     "line_spectrum": "viscofric.roughness.measured_spectrum",
     "power_spectrum": "viscofric.roughness.measured_spectrum",
+    "PerssonTheory": "viscofric.roughness.persson",
+    "persson_theory": "viscofric.roughness.persson",
     "read_topography": "viscofric.roughness.reading",
     "LineSpectrum": "viscofric.roughness.spectrum",
     "PowerSpectrum": "viscofric.roughness.spectrum",

@@ -8,14 +8,11 @@ from scipy.integrate import quad
 
 from viscofric.errors import InputError
 from viscofric.friction.flash_temperature import (
-    FILLED_RUBBER,
-    PTFE,
-    STEEL,
-    ThermalProperties,
     bulk_temperature,
     flash_temperature,
     shared_flash_temperature,
 )
+from viscofric.thermal import FILLED_RUBBER, PTFE, STEEL, ThermalProperties
 
 HEAT, RADIUS = 0.5, 2e-3
 MEAN = HEAT / (np.pi * RADIUS**2)

@@ -11,13 +11,9 @@ from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
-from viscofric.friction.flash_temperature import (
-    FILLED_RUBBER,
-    PTFE,
-    ThermalProperties,
-)
 from viscofric.friction.warming import Warming
 from viscofric.rheology.material import Material, insist_on_material
+from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties
 from viscofric.units import Quantity, celsius, positive, to_si_array
 
 if TYPE_CHECKING:

@@ -8,7 +8,6 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.friction.flash_temperature import (
-    ThermalProperties,
     bulk_temperature,
     flash_temperature,
     shared_flash_temperature,
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
 
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.thermal import ThermalProperties
 
     Array: TypeAlias = NDArray[np.float64]
 

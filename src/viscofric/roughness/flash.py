@@ -1,0 +1,124 @@
+"""Flash temperatures in Persson's theory: how warm the rubber is where waves of each length deform it.
+
+What is dissipated at the scale q' heats the rubber to a depth of 1/(2q'), in the macroasperity contacts, where it sums
+to ``Q(z) = ρc ∫ dq' f(q') exp(−2q'z)``.  A spot of diameter R has been in contact for about t0 = R/v.  With its surface
+insulated and heat flowing along z only, the temperature that waves of the scale q meet, the mean over their depth with
+the weight 2q exp(−2qz), is [1]_ ::
+
+    T_q = T0 + ∫ dq' g(q, q') f(q')
+    f(q') = v q'⁴/(ρc) C(q') S(q') P(q')/P(q_m) ∫dφ cos φ Im E(q'v cos φ, T_q')/(1−ν²)
+    g(q, q') = 1/π ∫_0^∞ dk (1 − exp(−D k² t0))/(D k²) · 4q'/(k² + 4q'²) · 4q²/(k² + 4q²)
+
+D the diffusivity; S, 1 in [1]_, makes the heat that of the friction.  q_m is the scale of the macroasperities, at which
+P has fallen to a given share, and R = π/q_m half their wavelength.
+
+References
+----------
+.. [1] B. N. J. Persson, J. Phys.: Condens. Matter 18 (2006) 7789, doi:10.1088/0953-8984/18/32/025
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import ConvergenceError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from viscofric.thermal import ThermalProperties
+
+    Array: TypeAlias = NDArray[np.float64]
+
+_MOST_ITERATIONS = 200
+#: Temperatures are settled when they change by less than this, K, plus the same share of the largest rise.
+_SETTLED = 1e-5
+_PER_DECADE = 12  # wave numbers k of the temperature field
+
+
+@dataclass(frozen=True)
+class Flash:
+    """What hot spots need to know.
+
+    Parameters
+    ----------
+    thermal : ThermalProperties
+        Of the rubber.
+    macroasperity_area : float
+        P(q_m).
+    """
+
+    thermal: ThermalProperties
+    macroasperity_area: float
+
+    def settled(
+        self, q: Array, log_weights: Array, speed: float, heated: Callable[[Array], tuple[Array, Array]]
+    ) -> tuple[Array, Array, Array]:
+        """Return P(q), the dissipation and the rise of temperature (K) that reproduce one another.
+
+        Parameters
+        ----------
+        q : (n,) array
+            rad/m.
+        log_weights : (n,) array
+            Of a quadrature over ln q.
+        speed : float
+            m/s.
+        heated : callable
+            Gives P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, from the rise of temperature.
+
+        Raises
+        ------
+        ConvergenceError
+            If they do not settle.
+        """
+        rise = np.zeros(len(q))
+        step, before = 1.0, math.inf
+        for _ in range(_MOST_ITERATIONS):
+            area, dissipated = heated(rise)
+            change = self.rise(q, log_weights, speed, area, dissipated) - rise
+            largest = float(np.abs(change).max())
+            if largest <= _SETTLED * (1.0 + float(rise.max())):
+                return area, dissipated, rise
+            # Warmer rubber dissipates less, or more: the answer is approached from both sides, ever more cautiously.
+            if largest > 0.7 * before:
+                step = max(0.6 * step, 0.02)
+            before = largest
+            rise = rise + step * change
+        raise ConvergenceError(
+            f"the flash temperature at {speed:g} m/s did not settle after {_MOST_ITERATIONS} iterations; it still "
+            f"changes by {largest:.2g} K."
+        )
+
+    def rise(self, q: Array, log_weights: Array, speed: float, area: Array, dissipated: Array) -> Array:
+        """Return the rise of temperature at each scale, K, from given areas and dissipation."""
+        # ln P against ln q falls steadily; beyond the last scale there is no wave.
+        below = np.flatnonzero(area <= self.macroasperity_area)
+        place = int(below[0]) if below.size else len(q) - 1
+        if below.size and place > 0:
+            part = (area[place - 1] - self.macroasperity_area) / (area[place - 1] - area[place])
+            q_m, area_m = float(q[place - 1] * (q[place] / q[place - 1]) ** part), self.macroasperity_area
+        else:
+            q_m, area_m = float(q[place]), float(area[place])
+        time = math.pi / q_m / speed
+        source = speed / self.thermal.volume_heat * q * dissipated * area / area_m
+        diffusivity = self.thermal.diffusivity
+        lowest = 1e-3 * min(2.0 * float(q[0]), 1.0 / math.sqrt(diffusivity * time))
+        highest = 1e3 * 2.0 * float(q[-1])
+        count = math.ceil(_PER_DECADE * math.log10(highest / lowest))
+        k = np.geomspace(lowest, highest, count)
+        spacing = math.log(highest / lowest) / (count - 1)
+        lasting = -np.expm1(-diffusivity * k**2 * time) / (diffusivity * k**2) / math.pi
+        # Trapezoids in ln k, which converge fast for what falls smoothly at both ends; below the lowest k all is even.
+        weights = spacing * k * lasting
+        weights[0] = 0.5 * weights[0] + lowest * lasting[0]
+        k_square = np.square(k)
+        given = (4.0 * q[:, None] / (k_square + 4.0 * np.square(q)[:, None])).T @ (log_weights * q * source)
+        met = 4.0 * np.square(q)[:, None] / (k_square + 4.0 * np.square(q)[:, None])
+        return np.asarray(met @ (weights * given))

@@ -1,0 +1,189 @@
+"""Persson's theory against its limits, another quadrature, and solved contacts where it is exact."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.special import erf
+
+import viscofric as vf
+from viscofric.roughness.flash import Flash
+
+RUBBER = vf.Material.standard_linear_solid("1 MPa", "30 MPa", "1 ms", poisson_ratio=0.4)
+ROAD = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", rolloff="0.3 mm", shortest="5 um", rms_slope=0.4)
+FLUOROELASTOMER = vf.synthetic_fluoroelastomer()
+THERMAL = vf.ThermalProperties(0.25, 1200.0, 1500.0, "rubber")
+
+
+def test_small_loads_on_an_elastic_solid_give_an_area_that_grows_with_the_load():
+    for pressure in (1.0, 10.0):
+        found = vf.persson_theory(RUBBER, ROAD, speeds=0.0, pressure=pressure)
+        wanted = math.sqrt(8.0 / math.pi) * pressure * (1.0 - 0.4**2) / (1e6 * ROAD.rms_slope())
+        assert found.contact_area_fraction[0, 0] == pytest.approx(wanted, rel=1e-4)
+        assert found.friction_coefficient[0, 0] == 0.0
+
+
+def test_fast_and_slow_sliding_are_elastic_contacts_of_glass_and_rubber():
+    slow = vf.persson_theory(RUBBER, ROAD, speeds=[0.0, 1e-9], pressure=1e5)
+    fast = vf.persson_theory(RUBBER, ROAD, speeds=1e9, pressure=1e5)
+    glass = vf.Material.standard_linear_solid("29.999999 MPa", "30 MPa", "1 ms", poisson_ratio=0.4)
+    assert slow.contact_area_fraction[0, 1] == pytest.approx(slow.contact_area_fraction[0, 0], rel=1e-6)
+    stiff = vf.persson_theory(glass, ROAD, speeds=0.0, pressure=1e5).contact_area_fraction
+    assert fast.contact_area_fraction == pytest.approx(stiff, rel=1e-4)
+    assert fast.friction_coefficient[0, 0] < 1e-6
+
+
+def test_all_is_in_contact_under_a_high_pressure_and_friction_is_that_of_the_solved_contact():
+    """In full contact the theory is exact, up to the difference between an integral and a sum over waves."""
+    period, points = 1e-3, 128
+    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=period / 6, shortest=period / 30, rms_slope=0.05)
+    surface = vf.surface_from_spectrum(spectrum, shape=(points, points), spacing=period / points, seed=1)
+    for speed in (1e-3, 0.05):
+        solved = vf.solve_periodic(RUBBER, surface.to_surface(), speed=speed, pressure="60 MPa")
+        theory = vf.persson_theory(RUBBER, spectrum, speeds=speed, pressure="60 MPa")
+        assert solved.diagnostics.full_contact
+        assert theory.contact_area_fraction[0, 0] == pytest.approx(1.0, abs=1e-12)
+        # rms slopes of sum and integral differ by some tenths of a per cent.
+        scale = (surface.rms_slope / spectrum.rms_slope()) ** 2
+        assert theory.friction_coefficient[0, 0] * scale == pytest.approx(solved.friction_coefficient, rel=0.02)
+
+
+@pytest.mark.parametrize("gamma", [1.0, 0.5, 0.0])
+def test_another_quadrature_finds_the_same(gamma):
+    speed, pressure = 0.02, 2e5
+
+    def over_directions(q: float, kind: str) -> float:
+        def part(phi: float) -> float:
+            modulus = complex(RUBBER.complex_modulus(q * speed * math.cos(phi))) / (1.0 - 0.4**2) / pressure
+            return abs(modulus) ** 2 if kind == "square" else math.cos(phi) * modulus.imag
+
+        return 4.0 * quad(part, 0.0, 0.5 * math.pi, epsabs=0.0, epsrel=1e-8)[0]
+
+    q = np.exp(np.linspace(math.log(2e3 * math.pi), math.log(4e5 * math.pi), 1201))
+    density = ROAD(q)
+    integrand = 0.125 * q**4 * density * np.array([over_directions(one, "square") for one in q])
+    step = math.log(q[1] / q[0])
+    spread = np.concatenate([[0.0], np.cumsum(0.5 * step * (integrand[1:] + integrand[:-1]))])
+    area = erf(0.5 / np.sqrt(np.maximum(spread, 1e-300)))
+    follows = gamma + (1.0 - gamma) * area**2
+    loss = np.array([over_directions(one, "loss") for one in q])
+    wanted = 0.5 * np.trapezoid(q**4 * density * follows * area * loss, dx=step)
+    found = vf.persson_theory(RUBBER, ROAD, speeds=speed, pressure=pressure, gamma=gamma, accuracy=1e-6)
+    # Trapezoids of 1/226 of the logarithm.
+    assert found.contact_area_fraction[0, 0] == pytest.approx(area[-1], rel=2e-4)
+    assert found.friction_coefficient[0, 0] == pytest.approx(wanted, rel=5e-4)
+
+
+def test_what_each_scale_adds_sums_to_the_whole_and_area_falls_from_scale_to_scale():
+    found = vf.persson_theory(RUBBER, ROAD, speeds=[0.001, 0.01, 0.1], pressure=1e5)
+    assert found.area_by_scale.shape == (1, 3, len(found.wave_number))
+    assert np.all(found.area_by_scale[..., 0] == 1.0)
+    assert np.all(np.diff(found.area_by_scale) <= 0.0)
+    assert np.all(np.diff(found.friction_by_scale) >= 0.0)
+    np.testing.assert_array_equal(found.friction_by_scale[..., -1], found.friction_coefficient)
+    shorter = vf.persson_theory(RUBBER, ROAD.limited(shortest="50 um"), speeds=0.01, pressure=1e5)
+    place = np.log(found.wave_number)
+    at = np.interp(math.log(2.0 * math.pi / 50e-6), place, found.friction_by_scale[0, 1])
+    # Linear interpolation between scales a sixteenth of a decade apart.
+    assert shorter.friction_coefficient[0, 0] == pytest.approx(at, rel=3e-3)
+
+
+def test_temperature_shifts_speed():
+    shift = FLUOROELASTOMER.shift(333.15) / FLUOROELASTOMER.shift(303.15)
+    warm = vf.persson_theory(FLUOROELASTOMER, ROAD, speeds=[0.01, 0.1], pressure=1e5, temperatures="60 degC")
+    cold = vf.persson_theory(
+        FLUOROELASTOMER, ROAD, speeds=[0.01 * shift, 0.1 * shift], pressure=1e5, temperatures="30 degC"
+    )
+    np.testing.assert_allclose(warm.friction_coefficient, cold.friction_coefficient, rtol=1e-10)
+
+
+def test_other_units_give_the_same_answer():
+    length, force, time = 1e-3, 1e5, 1e6
+    stress = force / length**2
+    other = vf.Material.standard_linear_solid(1e6 * stress, 30e6 * stress, 1e-3 * time, poisson_ratio=0.4)
+    road = vf.PowerSpectrum(ROAD.wave_number / length, ROAD.density * length**4)
+    one = vf.persson_theory(RUBBER, ROAD, speeds=0.01, pressure=1e5)
+    two = vf.persson_theory(other, road, speeds=0.01 * length / time, pressure=1e5 * stress)
+    np.testing.assert_allclose(two.friction_coefficient, one.friction_coefficient, rtol=1e-10)
+    np.testing.assert_allclose(two.contact_area_fraction, one.contact_area_fraction, rtol=1e-10)
+
+
+def test_partial_contact_lies_between_no_and_all_of_the_dissipation_of_the_theory_of_2001():
+    frictions = [
+        vf.persson_theory(RUBBER, ROAD, speeds=0.01, pressure=1e5, gamma=gamma).friction_coefficient[0, 0]
+        for gamma in (0.0, 0.5, 1.0)
+    ]
+    assert frictions[0] < frictions[1] < frictions[2]
+    assert frictions[1] == pytest.approx(0.5 * (frictions[0] + frictions[2]), rel=2e-4)
+
+
+SCALES = np.geomspace(1e3, 1e6, 301)
+LOG_WEIGHTS = np.full(301, math.log(1e3) / 300)
+
+
+def test_short_contacts_keep_the_heat_where_it_was_made():
+    """Without conduction T_q = t0 ∫ f q/(q + q') dq'."""
+    insulator = vf.ThermalProperties(1e-9, 1000.0, 2000.0, "insulator")
+    area, dissipated = np.linspace(1.0, 0.1, 301), 1e3 * np.exp(-(np.log(SCALES / 3e4) ** 2))
+    found = Flash(insulator, 0.3).rise(SCALES, LOG_WEIGHTS, 0.5, area, dissipated)
+    q_m = np.interp(-0.3, -area, SCALES)
+    source = 0.5 / 2e6 * SCALES * dissipated * area / 0.3
+    kernel = SCALES[:, None] / (SCALES[:, None] + SCALES)
+    wanted = (math.pi / q_m / 0.5) * kernel @ (LOG_WEIGHTS * SCALES * source)
+    np.testing.assert_allclose(found, wanted, rtol=1e-3)
+
+
+def test_long_contacts_warm_the_surface_as_a_flux_of_heat_does():
+    """What is dissipated close to the surface of a half-space: ΔT = 2 Q √(t0/(π k ρ c))."""
+    area = np.where(SCALES < 2e3, 1.0, 0.2)
+    dissipated = np.where(SCALES > 3e5, 1e3, 0.0)
+    conductor = vf.ThermalProperties(1.0, 1000.0, 1000.0, "conductor")
+    q_m = float(SCALES[np.argmax(SCALES >= 2e3)])
+    speed = 1e-3  # 1.6 s, in which heat goes 1 mm deep, thousands of times the depth of its sources
+    found = Flash(conductor, 0.3).rise(SCALES, LOG_WEIGHTS, speed, area, dissipated)
+    flux = speed * float(LOG_WEIGHTS @ (0.5 * SCALES * dissipated * area / 0.3))
+    wanted = 2.0 * flux * math.sqrt(math.pi / q_m / speed / (math.pi * 1e6))
+    # The shortest waves see the surface; q_m lies between two scales, some per cent apart.
+    assert found[-1] == pytest.approx(wanted, rel=0.02)
+
+
+def test_flash_temperature_lowers_the_friction_of_fast_sliding_and_not_that_of_slow():
+    road = vf.PowerSpectrum.self_affine(0.8, longest="5 mm", rolloff="3 mm", shortest="5 um", rms_slope=1.0)
+    asked = {"speeds": [1e-6, 1.0], "pressure": "0.1 MPa", "temperatures": "30 degC"}
+    cold = vf.persson_theory(FLUOROELASTOMER, road, **asked)
+    hot = vf.persson_theory(FLUOROELASTOMER, road, **asked, thermal=THERMAL)
+    assert hot.friction_coefficient[0, 0] == pytest.approx(cold.friction_coefficient[0, 0], rel=1e-3)
+    assert hot.friction_coefficient[0, 1] < 0.9 * cold.friction_coefficient[0, 1]
+    assert hot.contact_area_fraction[0, 1] > cold.contact_area_fraction[0, 1]
+    assert 1.0 < hot.flash_temperature[0, 1] < 100.0
+    assert np.all(cold.flash_temperature == 0.0)
+    # Friction and heat answer one another: the rubber at the mean temperature of its scales rubs alike.
+    rise = hot.temperature_rise_by_scale[0, 1]
+    ends = vf.persson_theory(
+        FLUOROELASTOMER, road, speeds=1.0, pressure="0.1 MPa", temperatures=[303.15 + rise.min(), 303.15 + rise.max()]
+    ).friction_coefficient[:, 0]
+    assert ends.min() < hot.friction_coefficient[0, 1] < ends.max()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"spectrum": 1.0}, "must be a PowerSpectrum"),
+        ({"speeds": []}, "at least one value"),
+        ({"speeds": -1.0}, "none of them below zero"),
+        ({"pressure": 0.0}, "above zero"),
+        ({"gamma": 1.5}, "between 0 and 1"),
+        ({"accuracy": 1.0}, "between 1e-08 and 0.1"),
+        ({"thermal": 1.0}, "must be ThermalProperties"),
+        ({"thermal": THERMAL}, "needs a material with a shift"),
+        ({"temperatures": 300.0}, "no shift"),
+        ({"material": 1.0}, "must be a Material"),
+    ],
+)
+def test_what_cannot_be_predicted_is_refused(arguments, words):
+    asked = {"material": RUBBER, "spectrum": ROAD, "speeds": 1.0, "pressure": 1e5, **arguments}
+    with pytest.raises(vf.InputError, match=words):
+        vf.persson_theory(asked.pop("material"), asked.pop("spectrum"), **asked)
