@@ -39,6 +39,7 @@ _EXAMPLE = {
     "rad/s": "'10 rad/s'",
     "delta_degC": "'10 K'",
     "J/mol": "'120 kJ/mol'",
+    "byte": "'8 GB'",
     "dimensionless": "the plain number 0.5",
 }
 

@@ -151,6 +151,102 @@ def test_each_mistake_is_told_by_its_field(good: str, bad: str, told: list[str])
         assert words in message
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('title = "a\n', "study.toml, line 1, column 11: is not valid TOML: Illegal character '\\n'."),
+        ("a = 1\na = 2\n", "study.toml, line 2, column 6: a key is given twice in the same table."),
+        ("[solver]\n[solver]\n", "study.toml, line 2, column 8: the table [solver] is there twice"),
+        ("[material", "study.toml, at its end: is not valid TOML"),
+        ("a = " + "[" * 5000, "study.toml: lists or tables lie within each other too deeply for a run file."),
+        (".".join("a" * 5000) + " = 1", "study.toml: tables lie within each other too deeply for a run file."),
+        ("a = " + "9" * 5000, "study.toml: a whole number has thousands of digits."),
+        ("#" * 1_000_001, "study.toml: has more than 1,000,000 characters; is this a run file?"),
+    ],
+)
+def test_what_is_no_toml_is_told_by_its_line(text: str, told: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        parse_study(text, Path("study.toml"))
+    assert str(caught.value).startswith(told)
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "told"),
+    [
+        ('title = "a rubber"', "title = 3", "title: 3 is not text; text stands between quotes."),
+        ('radius = "9.525 mm"', 'load = "25 N"\nradius = "1 mm"', "indenter.load: unknown key; it belongs below [cond"),
+        ('radius = "9.525 mm"', 'shape = "bal"', "indenter: shape = 'bal' is not known; did you mean 'ball'?"),
+        ('radius = "9.525 mm"', 'shape = "cone"', "indenter.angle: is missing (between the flank"),
+        ('radius = "9.525 mm"', "shape = 5", "indenter: shape is not text"),
+        ('radius = "9.525 mm"', 'radius = "1 mm"\npoisson_ratio = 0.2', "indenter.poisson_ratio: is for an elastic"),
+        ("points = 3", "points = true", "conditions.speed.points: true is not a whole number."),
+        ("points = 3", "points = 3.5", "conditions.speed.points: 3.5 is not a whole number."),
+        ("points = 3", "points = 10_001", "points: 10001 is too large; it must be 10,000 or less."),
+        (
+            "points = 3",
+            'points = 3, spacing = "lin"',
+            "speed.spacing: 'lin' is not known; did you mean 'linear'?",
+        ),
+        ('to = "200 mm/s"', 'to = "20 mm/s"', "conditions.speed.to: is the same as from"),
+        ('"20 mm/s"', '"-20 mm/s"', "conditions.speed.from: '-20 mm/s': must be above zero"),
+        (TWO, 'temperature = { from = "1 degC", to = "2 degC", points = 2, spacing = "log" }', "spacing: 'log' is not"),
+        (TWO, 'temperature = ["30 degC", "86 degF"]', "conditions.temperature: holds the same value twice (entry 2)"),
+        (TWO, "temperature = true", "conditions.temperature: true has no unit"),
+        (
+            TWO,
+            f'{TWO}\n[layer]\nthickness = "1 mm"\nbase = "glued"',
+            "layer.base: 'glued' is not known; right",
+        ),
+        (
+            TWO,
+            f'{TWO}\nthickness = "1 mm"\n[layer]\nthickness = "1 mm"',
+            "conditions.thickness: checks",
+        ),
+        ('"dma.csv"', '"a\\u0000b"', "material.dma: 'a\\x00b' cannot be the name of a file"),
+        ('"dma.csv"', '"/**/*"', "material.dma: '/**/*' looks into all folders"),
+        ('"dma.csv"', '["dma.csv", 3]', "material.dma[1]: 3 is not the name of a file"),
+        ('"dma.csv"', '"dma.csv"\npoisson_ratio = nan', "material.poisson_ratio: nan is not a finite number"),
+        ("[indenter]", '[outputs]\nformats = ["csv", "xls"]\n[indenter]', "outputs.formats[1]: 'xls' is not known"),
+        ("[indenter]", '[cluster]\nmemory = "8 mm"\nwalltime = "2 h"\n[indenter]', "for instance, '8 GB'"),
+        ("[indenter]", '[uncertainty]\nseed = "x"\n[indenter]', "uncertainty.seed: 'x' is not a whole number."),
+    ],
+)
+def test_the_sentence_says_what_would_be_right(good: str, bad: str, told: str) -> None:
+    assert good in GOOD
+    with pytest.raises(StudyError) as caught:
+        parse_study(GOOD.replace(good, bad), Path("study.toml"))
+    assert told in str(caught.value)
+
+
+def test_ranges_end_exactly_where_they_are_said_to() -> None:
+    text = GOOD.replace("points = 3", "points = 1000").replace('"200 mm/s"', '"0.3 m/s"')
+    speeds = parse_study(text, Path("study.toml")).conditions.speed
+    assert (len(speeds), speeds[0], speeds[-1]) == (1000, 0.02, 0.3)
+    text = GOOD.replace(TWO, 'temperature = { from = "90 degC", to = "30 degC", points = 3 }')
+    falling = parse_study(text, Path("study.toml")).conditions.temperature
+    assert falling == pytest.approx((363.15, 333.15, 303.15), rel=1e-15)
+
+
+def test_a_cluster_and_what_is_kept_are_read() -> None:
+    text = (
+        GOOD
+        + """
+[cluster]
+queue = "short"
+memory = "1.5 GiB"
+walltime = "90 min"
+extra = ["--nice=100"]
+[outputs]
+fields = "none"
+formats = ["csv", "zarr"]
+"""
+    )
+    study = parse_study(text, Path("study.toml"))
+    assert study.cluster is not None
+    assert (study.cluster.memory, study.cluster.walltime, study.cluster.jobs) == (1_610_612_736, 5400, 1)
+    assert (study.outputs.fields, study.outputs.formats) == ("none", ("csv", "zarr"))
+
+
 def test_all_mistakes_are_told_at_once() -> None:
     text = GOOD.replace('"25 N"', '"25 mm"').replace("[indenter]", "[indentr]").replace("points = 3", "points = 1")
     with pytest.raises(StudyError) as caught:

@@ -15,10 +15,15 @@ VALUE = "value"
 MOST_POINTS = 10_000
 
 
+def as_written(value: object) -> str:
+    """Return how a value is written, on one line and cut where it is too long for a sentence."""
+    return str(value).lower() if isinstance(value, bool) else brief(value)
+
+
 def with_unit(value: object) -> Quantity:
     """Refuse bare numbers: in a run file every quantity carries its unit."""
     if not isinstance(value, str):
-        raise ValueError(f"{brief(value)} has no unit; write text such as '25 N', '100 mm/s', '30 degC'")
+        raise ValueError(f"{as_written(value)} has no unit; write text such as '25 N', '100 mm/s', '30 degC'")
     return value
 
 

@@ -126,9 +126,11 @@ def _repeated(points: list[tuple[Any, ...]]) -> list[int]:
     seen: set[tuple[Any, ...]] = set()
     again = []
     for place, point in enumerate(points):
-        if point in seen:
+        # The same value in two units differs by rounding.
+        rounded = tuple(f"{value:.12g}" if isinstance(value, float) else value for value in point)
+        if rounded in seen:
             again.append(place)
-        seen.add(point)
+        seen.add(rounded)
     return again
 
 

@@ -179,14 +179,26 @@ def _toml(text: str, path: Path) -> dict[str, Any]:
     except RecursionError:
         raise StudyError(f"{path}: lists or tables lie within each other too deeply for a run file.") from None
     except ValueError as error:  # of TOML, and of whole numbers with thousands of digits
-        where, words = str(path), str(error)
-        if at := re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)$", words):
-            where += f", line {at[1]}, column {at[2]}" if at[1] else ", at its end"
-            words = words[: at.start()]
-        raise StudyError(f"{where}: is not valid TOML: {words}.") from None
+        raise StudyError(_of_syntax(path, str(error))) from None
     if _depth(values) > _DEEPEST:
         raise StudyError(f"{path}: tables lie within each other too deeply for a run file.")
     return values
+
+
+def _of_syntax(path: Path, words: str) -> str:
+    """Say what is wrong with the TOML, in words for people, and where."""
+    where = str(path)
+    if at := re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)$", words):
+        where += f", line {at[1]}, column {at[2]}" if at[1] else ", at its end"
+        words = words[: at.start()]
+    if twice := re.match(r"Cannot (?:declare|mutate immutable namespace) \(('.*?),?\)", words):
+        table = ".".join(part.strip(" '") for part in twice[1].split(","))
+        return f"{where}: the table [{table[:100]}] is there twice, or has keys in two places."
+    if words.startswith("Cannot overwrite a value"):
+        return f"{where}: a key is given twice in the same table."
+    if "integer string conversion" in words:
+        return f"{where}: a whole number has thousands of digits."
+    return f"{where}: is not valid TOML: {words}."
 
 
 def _depth(values: dict[str, Any]) -> int:

@@ -6,7 +6,7 @@ import difflib
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import brief
-from viscofric.study.quantities import VALUE
+from viscofric.study.quantities import VALUE, as_written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -85,9 +85,9 @@ def _sentence(problem: Any, values: object, tables: Mapping[str, type[BaseModel]
     kind = problem["type"]
     if kind == "extra_forbidden":
         return told(where, f"unknown key; {_right_key(problem['loc'], tables)}")
-    shown, limit = brief(problem["input"]), problem.get("ctx", {})
+    shown, limit = as_written(problem["input"]), problem.get("ctx", {})
     words: dict[str, Callable[[], str]] = {
-        "missing": lambda: "is missing",
+        "missing": lambda: f"is missing{_what_for(problem['loc'], tables)}",
         "too_short": lambda: _too_short(limit),
         "too_long": lambda: f"has {limit['actual_length']} entries; at most {limit['max_length']:,} can be given",
         "tuple_type": lambda: f"{shown} is not a list",
@@ -125,7 +125,7 @@ def _right_word(given: object, limit: dict[str, Any], before: str = "") -> str:
     choices = limit.get("expected") or limit["expected_tags"]
     known = [word.strip("<>") for word in choices.replace(" or ", ", ").replace("'", "").split(", ")]
     hint = nearest(given, known) if isinstance(given, str) else f"right would be {', '.join(known)}"
-    return f"{before}{brief(given)} is not known; {hint}"
+    return f"{before}{as_written(given)} is not known; {hint}"
 
 
 def _right_key(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> str:
@@ -137,6 +137,15 @@ def _right_key(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) ->
     if homes:
         return f"it belongs below [{homes[0]}]"
     return f"known keys are {', '.join(known)}"
+
+
+def _what_for(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> str:
+    """Return what a key that is missing stands for."""
+    fields = _table(parts[:-1], tables).model_fields
+    about = [field.description for name, field in fields.items() if (field.alias or name) == parts[-1]]
+    if not about or not about[0]:
+        return ""
+    return f" ({about[0][0].lower()}{about[0][1:].rstrip('.')})"
 
 
 def _table(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> type[BaseModel]:
