@@ -113,7 +113,7 @@ def made_results(folder: Path, sweep: Sweep | None = None, failed: Sequence[int]
     groups, attributes = material_groups(
         [{"/spectrum": dataset("mode", {"retardation_time": [1e-3, 1.0], "creep_coefficient": [1e-7, 2e-7]})}]
         * len(materials),
-        [{"name": name, "reference_temperature": 303.15} for name in materials],
+        [{"reference_temperature": 303.15} for name in materials],
     )
     tree = xarray.DataTree.from_dict(
         {**groups, "/prediction": prediction(sweep, outcomes), **field_groups(sweep, outcomes)}

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
-#: A table of friction curves has a column of it, the files of a tribometer have none.
-_MARK = "viscoelastic"
+#: A table of friction curves has a column of one of these, the files of a tribometer have none.
+_MARKS = ("viscoelastic", "friction_coefficient")
 #: Of the sentence that refuses a table as one of traction runs.
 _WITHOUT = "no column for"
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
@@ -93,7 +93,8 @@ def _holds_curves(path: Path) -> bool:
     from viscofric.files import read_text
 
     try:
-        return any(_MARK in line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#"))
+        lines = [line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#")]
+        return any(mark in line for line in lines for mark in _MARKS)
     except DataFileError:
         return False  # what is wrong with it is told by the reader of runs
 

@@ -33,9 +33,9 @@ _COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "viscoelastic": (
         "",
         "viscoelastic friction",
-        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic"),
+        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic", "friction coefficient"),
     ),
-    "viscoelastic_error": ("", "viscoelastic friction standard error", ("viscoelastic error",)),
+    "viscoelastic_error": ("", "viscoelastic friction standard error", ("viscoelastic error", "friction error")),
     "viscoelastic_scatter": ("", "viscoelastic friction scatter", ("viscoelastic scatter",)),
     "viscoelastic_freedom": ("", "viscoelastic friction degrees of freedom", ("viscoelastic freedom",)),
     "replicates": ("", "replicates", ("repetitions", "repeats")),
@@ -51,9 +51,9 @@ _COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "consistency_error": ("", "consistency standard error", ("consistency error",)),
     "slip": ("m/s", "slip", ("sliding velocity",)),
     "offset": ("N", "offset", ("zero",)),
-    "material_error": ("", "material standard error", ("material error",)),
-    "viscoelastic_lower": ("", "viscoelastic friction lower limit", ("viscoelastic lower",)),
-    "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper",)),
+    "material_error": ("", "material standard error", ("material error", "friction material error")),
+    "viscoelastic_lower": ("", "viscoelastic friction lower limit", ("viscoelastic lower", "friction lower")),
+    "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper", "friction upper")),
 }
 _NEEDED = ("speed", "temperature", "load", "viscoelastic")
 #: What is infinite where it is not known, an empty cell in the file.
@@ -107,11 +107,11 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
     Parameters
     ----------
     path : str or path
-        What `write_friction_curves` wrote; or a text table with the columns ``speed``, ``temperature``, ``load`` and
-        ``viscoelastic friction``, and optionally ``viscoelastic friction standard error``, ``… scatter``,
-        ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard error, scatter and degrees of
-        freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``; coefficients have none, or are
-        in ``%``.  The load of a line contact is in N/m.
+        What `write_friction_curves` or `viscofric export` wrote; or a text table with the columns ``speed``,
+        ``temperature``, ``load`` and ``viscoelastic friction``, and optionally ``viscoelastic friction standard
+        error``, ``… scatter``, ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard error,
+        scatter and degrees of freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``;
+        coefficients have none, or are in ``%``.  The load of a line contact is in N/m.
 
     Returns
     -------

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
-from viscofric.study.columns import over_all_dimensions
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_text
+from viscofric.study.columns import PLACES, TITLE, over_all_dimensions, read_table_text
 from viscofric.study.results import StudyResults, open_results
 from viscofric.units import celsius
 
@@ -67,9 +68,7 @@ class CaseTable:
         if isinstance(given, FrictionCurves):
             return cls._of_curves(given)
         if Path(given).suffix.lower() in _TABLES:
-            from viscofric.friction.curve_files import read_friction_curves
-
-            return cls._of_curves(read_friction_curves(given), str(given))
+            return cls._of_table(given)
         return cls._of_results(open_results(given))
 
     @classmethod
@@ -81,6 +80,22 @@ class CaseTable:
         units = {name: str(dataset[name].attrs.get("units", "1")) for name in columns}
         solved = np.isfinite(friction)
         return cls(str(results.folder), tuple(places), columns, units, solved, dict(dataset.attrs))
+
+    @classmethod
+    def _of_table(cls, path: str | Path) -> CaseTable:
+        """Read the table that results were exported to, or one of friction curves."""
+        text = read_text(path)
+        if not text.startswith(f"# {TITLE}"):
+            from viscofric.friction.curve_files import read_friction_curves
+
+            return cls._of_curves(read_friction_curves(path), str(path))
+        try:
+            attributes, units, columns = read_table_text(text)
+            solved = np.isfinite(columns["friction_coefficient"])
+        except (ValueError, KeyError) as error:
+            raise DataFileError(path, f"cannot be read as a table of results: {error}") from error
+        places = tuple(name for name in PLACES if name in columns)
+        return cls(str(path), places, columns, units, solved, dict(attributes))
 
     @classmethod
     def _of_curves(cls, curves: FrictionCurves, name: str = "friction curves") -> CaseTable:

@@ -18,8 +18,12 @@ if TYPE_CHECKING:
 
     from viscofric.study.results import StudyResults
 
+#: How a table of results begins, after its ``#``.
+TITLE = "viscofric results"
+# Columns that are no numbers.
+_TEXTS = ("material",)
 #: Coordinates of cases in the order of a table's columns; others come after these.
-_ORDER = ("material", "sample", "radius", "radius_x", "radius_y", "angle", "thickness", "load", "temperature", "speed")
+PLACES = ("material", "sample", "radius", "radius_x", "radius_y", "angle", "thickness", "load", "temperature", "speed")
 # Of a temperature in degC: what is beyond comes from the sum with 273.15.
 _DECIMALS = 9
 # Attribute -> what the lines above a table call it.
@@ -46,10 +50,62 @@ def table_text(results: StudyResults) -> str:
     return text.getvalue()
 
 
+def read_table_text(text: str) -> tuple[dict[str, str], dict[str, str], dict[str, Any]]:
+    """Read what `table_text` wrote.
+
+    Returns
+    -------
+    attributes, units : dict of str to str
+        Of the data set, as far as the lines above the table tell them; and of the columns, SI.
+    columns : dict of str to (n,) array
+        Numbers, missing ones NaN, or texts; SI.
+
+    Raises
+    ------
+    ValueError
+        If it is something else.
+    """
+    lines = text.splitlines()
+    remarks = [line.removeprefix("#").strip() for line in lines if line.startswith("#")]
+    if not remarks or not remarks[0].startswith(TITLE):
+        raise ValueError("is no table of results of viscofric.")
+    headings, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    if any(len(row) != len(headings) for row in rows):
+        raise ValueError("has rows of other lengths than its headings; it was cut short or changed.")
+    units, columns = {}, {}
+    for heading, cells in zip(headings, zip(*rows, strict=True), strict=True):
+        name, _, unit = heading.removesuffix(")").partition(" (")
+        if name in _TEXTS:
+            values: Any = np.array(cells, dtype=object)
+        else:
+            values = np.array([float(cell) if cell else np.nan for cell in cells])
+        units[name], columns[name] = unit or "1", values
+        if unit == "degC":
+            units[name], columns[name] = "K", values + CELSIUS_ZERO
+    return _attributes(remarks), units, columns
+
+
+def _attributes(remarks: list[str]) -> dict[str, str]:
+    """Return the attributes that the lines above a table tell."""
+    names = {words: name for name, words in _TOLD.items()}
+    found, tables = {}, {"input": {}, "software": {}}  # type: ignore[var-annotated]
+    for remark in remarks:
+        words, _, value = remark.partition(": ")
+        if words in names:
+            found[names[words]] = value
+        elif words == "input":
+            path, _, digest = value.removesuffix(")").rpartition(" (SHA-256 ")
+            tables["input"][path] = digest
+        elif words == "software":
+            name, _, number = value.rpartition(" ")
+            tables["software"][name] = number
+    return found | {"input_hashes": json.dumps(tables["input"]), "software": json.dumps(tables["software"])}
+
+
 def about(attributes: Mapping[Any, Any]) -> list[str]:
     """Return what says where numbers come from, a line each."""
     title = " ".join(str(attributes.get("title", "")).split())
-    lines = [f"viscofric results: {title}" if title else "viscofric results"]
+    lines = [f"{TITLE}: {title}" if title else TITLE]
     lines += [f"{words}: {attributes[name]}" for name, words in _TOLD.items() if name in attributes]
     hashes = json.loads(str(attributes.get("input_hashes", "{}")))
     lines += [f"input: {path} (SHA-256 {digest})" for path, digest in hashes.items()]
@@ -64,11 +120,11 @@ def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list
 
     Temperatures are in degC; what is missing is None.
     """
-    known = [name for name in _ORDER if name in dataset.coords]
-    known += [str(name) for name in dataset.coords if name not in _ORDER]
+    known = [name for name in PLACES if name in dataset.coords]
+    known += [str(name) for name in dataset.coords if name not in PLACES]
     # What is measured as well as calculated has its places among the variables.
-    places = [name for name in _ORDER if name in dataset.data_vars]
-    names = [*known, *places, *(str(name) for name in dataset.data_vars if name not in _ORDER)]
+    places = [name for name in PLACES if name in dataset.data_vars]
+    names = [*known, *places, *(str(name) for name in dataset.data_vars if name not in PLACES)]
     units, columns = [], []
     for name in names:
         variable = dataset[name]

@@ -80,5 +80,5 @@ def what_is_wrong(path: Path, error: Exception) -> str:
 def what_helps(path: Path) -> str:
     """Return what gives the results back, where finished cases lie beside them."""
     if any(path.parent.glob("cases/*.json")):
-        return " The finished cases beside it are kept: running the study again puts the results together from them."
+        return " The finished cases beside it are kept: running the study with --resume puts results together."
     return " Run the study again, or take a copy of the file."

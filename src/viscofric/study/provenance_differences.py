@@ -62,7 +62,7 @@ def _inputs(here: dict[str, str], there: dict[str, str]) -> Iterator[str]:
 
 
 def _run_files(first: str, second: str) -> Iterator[str]:
-    if first == second:
+    if first == second or not (first and second):  # a table of results does not hold its run file
         return
     try:
         here, there = (dict(_flat(tomllib.loads(text))) for text in (first, second))

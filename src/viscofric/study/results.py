@@ -82,7 +82,9 @@ class StudyResults:
         branches = self.tree.children.get("materials")
         if branches is None:
             return {str(self.tree.attrs.get("material", "")): self.tree}
-        return {str(branch.attrs.get("name", number)): branch for number, branch in branches.children.items()}
+        told = self.dataset.coords["material"].values.tolist() if _PREDICTION in self.tree.children else []
+        names = dict(enumerate(map(str, told), 1))
+        return {names.get(int(number), number): branch for number, branch in branches.children.items()}
 
     @property
     def fields(self) -> dict[int, xarray.Dataset]:

@@ -7,7 +7,7 @@
 ===============================  ====================================================================
 
 The numbers of a case that could not be solved are missing (NaN), and its `failed` is 1; the reasons stand in the
-attribute `failures` of the results, in the order of the cases.
+attribute `failures` of the results, those of the cases first and in their order.
 """
 
 from __future__ import annotations
