@@ -96,13 +96,20 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
+    from viscofric.roughness.ensemble import RoughFriction as RoughFriction
+    from viscofric.roughness.ensemble import predict_rough_friction as predict_rough_friction
     from viscofric.roughness.made import self_affine as self_affine
     from viscofric.roughness.made import surface_from_spectrum as surface_from_spectrum
     from viscofric.roughness.measured_spectrum import line_spectrum as line_spectrum
     from viscofric.roughness.measured_spectrum import power_spectrum as power_spectrum
+    from viscofric.roughness.patches import ContactStatistics as ContactStatistics
+    from viscofric.roughness.patches import contact_statistics as contact_statistics
+    from viscofric.roughness.patches import pressure_distribution as pressure_distribution
     from viscofric.roughness.persson import PerssonTheory as PerssonTheory
     from viscofric.roughness.persson import persson_theory as persson_theory
     from viscofric.roughness.reading import read_topography as read_topography
+    from viscofric.roughness.scales import FrictionByWavelength as FrictionByWavelength
+    from viscofric.roughness.scales import friction_by_wavelength as friction_by_wavelength
     from viscofric.roughness.spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum
     from viscofric.roughness.topography import Topography as Topography
@@ -210,13 +217,20 @@ _HOME = {
     "Superposition": "viscofric.rheology.superposition.superpose",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
+    "RoughFriction": "viscofric.roughness.ensemble",
+    "predict_rough_friction": "viscofric.roughness.ensemble",
     "self_affine": "viscofric.roughness.made",
     "surface_from_spectrum": "viscofric.roughness.made",
     "line_spectrum": "viscofric.roughness.measured_spectrum",
     "power_spectrum": "viscofric.roughness.measured_spectrum",
+    "ContactStatistics": "viscofric.roughness.patches",
+    "contact_statistics": "viscofric.roughness.patches",
+    "pressure_distribution": "viscofric.roughness.patches",
     "PerssonTheory": "viscofric.roughness.persson",
     "persson_theory": "viscofric.roughness.persson",
     "read_topography": "viscofric.roughness.reading",
+    "FrictionByWavelength": "viscofric.roughness.scales",
+    "friction_by_wavelength": "viscofric.roughness.scales",
     "LineSpectrum": "viscofric.roughness.spectrum",
     "PowerSpectrum": "viscofric.roughness.spectrum",
     "Topography": "viscofric.roughness.topography",

@@ -1,0 +1,278 @@
+"""Friction on an ensemble of rough surfaces, at every speed and temperature, with confidence intervals."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypedDict, Unpack
+
+import numpy as np
+
+from viscofric.contact.periodic.solve import solve_periodic
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.processes import Workers, call_all
+from viscofric.rheology.material import Material, insist_on_material
+from viscofric.roughness.patches import contact_statistics
+from viscofric.roughness.topography import Topography
+from viscofric.units import Quantities, Quantity, positive, share, to_si_array
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray
+    from numpy.typing import NDArray
+
+    from viscofric.contact.arrays.backend import Backend
+    from viscofric.contact.layers import Layer
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Of the complementarity: what the grid does to friction is a thousand times more.
+_TOLERANCE = 1e-6
+
+
+class PeriodicSettings(TypedDict, total=False):
+    """Settings of `viscofric.contact.periodic.solve.solve_periodic` that may be passed on, by the same names."""
+
+    direction: Sequence[float]
+    layer: Layer | None
+    indenter_modulus: Quantity | None
+    indenter_poisson_ratio: float
+    tolerance: float
+    most_products: int
+    backend: Backend | str
+
+
+@dataclass(frozen=True, eq=False)
+class RoughFriction:
+    """Friction and contact area on several rough surfaces, over temperatures and speeds.
+
+    Attributes
+    ----------
+    temperature : (m,) array
+        K; NaN for a material without a shift, which has no temperature.
+    speed : (n,) array
+        m/s.
+    pressure : float
+        Nominal, Pa.
+    surfaces : tuple of str
+        Names of the k surfaces.
+    friction_coefficient : (m, n, k) array
+        For every temperature, speed and surface.
+    friction_error : (m, n, k) array
+        Estimated error that the grid makes in each; see `PeriodicDiagnostics.friction_error`.
+    contact_area_fraction : (m, n, k) array
+        Points under pressure over all.
+    stretch : (m, n, k) array
+        How many times longer the contact patches are along the motion than across; see `ContactStatistics`.
+    """
+
+    temperature: Array
+    speed: Array
+    pressure: float
+    surfaces: tuple[str, ...]
+    friction_coefficient: Array
+    friction_error: Array
+    contact_area_fraction: Array
+    stretch: Array
+
+    @property
+    def mean_friction(self) -> Array:
+        """Mean friction coefficient over the surfaces, (m, n) array."""
+        return np.asarray(self.friction_coefficient.mean(axis=-1))
+
+    @property
+    def mean_area(self) -> Array:
+        """Mean contact area fraction over the surfaces, (m, n) array."""
+        return np.asarray(self.contact_area_fraction.mean(axis=-1))
+
+    def interval(self, probability: float = 0.95) -> tuple[Array, Array]:
+        """Return the limits between which the mean friction of all such surfaces lies.
+
+        By Student's t, as if friction scattered normally from surface to surface.
+
+        Parameters
+        ----------
+        probability : float
+            Between 0 and 1.
+
+        Returns
+        -------
+        lower, upper : (m, n) array
+
+        Raises
+        ------
+        InputError
+            If there is one surface only, or the probability is out of range.
+        """
+        from scipy.special import stdtrit
+
+        wanted, count = share(probability, "probability", example=0.95), len(self.surfaces)
+        if count < 2:
+            raise InputError("interval: one surface does not show how friction scatters from surface to surface.")
+        error = self.friction_coefficient.std(axis=-1, ddof=1) / math.sqrt(count)
+        reach = float(stdtrit(count - 1, 0.5 + 0.5 * wanted)) * error
+        return self.mean_friction - reach, self.mean_friction + reach
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return everything as labelled data with units in its attributes."""
+        import xarray
+
+        told = {
+            "friction_coefficient": "friction coefficient",
+            "friction_error": "estimated error of the friction coefficient",
+            "contact_area_fraction": "real over nominal contact area",
+            "stretch": "length of contact patches along over across the motion",
+        }
+        axes = ("temperature", "speed", "surface")
+        return xarray.Dataset(
+            {name: (axes, getattr(self, name), {"units": "1", "long_name": text}) for name, text in told.items()},
+            coords={
+                "temperature": ("temperature", self.temperature, {"units": "K"}),
+                "speed": ("speed", self.speed, {"units": "m/s"}),
+                "surface": ("surface", list(self.surfaces)),
+            },
+            attrs={"pressure": self.pressure},
+        )
+
+
+def predict_rough_friction(
+    material: Material,
+    surfaces: Topography | PeriodicSurface | Sequence[Topography | PeriodicSurface],
+    *,
+    speeds: Quantities,
+    pressure: Quantity,
+    temperatures: Quantities | None = None,
+    workers: int | Workers = 1,
+    progress: Callable[[int, int], object] | None = None,
+    **settings: Unpack[PeriodicSettings],
+) -> RoughFriction:
+    """Solve the contact on every one of several rough surfaces at every speed and temperature.
+
+    Parameters
+    ----------
+    material : Material
+    surfaces : Topography, PeriodicSurface, or a list of them
+        That repeat themselves; an ensemble is, for instance, ``[vf.self_affine(…, seed=seed) for seed in range(8)]``.
+    speeds : float, str, pint.Quantity, or an array or list of them
+        Of sliding, m/s; at rest the contact is elastic.
+    pressure : float, str or pint.Quantity
+        Nominal pressure, Pa.
+    temperatures : float, str, pint.Quantity, or an array or list of them, optional
+        K if plain numbers; may be left out for a material without a shift.
+    workers : int or Workers
+        Processes that share the contacts out among them; the result is the same to the last digit.
+    progress : callable, optional
+        Called as ``progress(done, total)`` before the first and after every contact.
+    **settings
+        Of `solve_periodic`: `direction`, `layer`, `indenter_modulus`, `indenter_poisson_ratio`, `tolerance` (1e-6 if
+        left out), `most_products` and `backend`.
+
+    Returns
+    -------
+    RoughFriction
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    ConvergenceError
+        If a contact cannot be solved; it is named.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> roads = [
+    ...     vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=seed)
+    ...     for seed in range(3)
+    ... ]
+    >>> found = vf.predict_rough_friction(rubber, roads, speeds="0.1 m/s", pressure="20 kPa")
+    >>> lower, upper = found.interval()
+    >>> bool(lower[0, 0] < found.mean_friction[0, 0] < upper[0, 0])
+    True
+    """
+    insist_on_material(material)
+    if unknown := settings.keys() - PeriodicSettings.__annotations__.keys():
+        raise TypeError(f"predict_rough_friction() got an unexpected keyword argument {min(unknown)!r}")
+    named = _named(surfaces)
+    velocities = to_si_array(speeds, "m/s", "speeds")
+    if not velocities.size:
+        raise InputError("speeds must hold at least one value.")
+    kelvins: list[float | None] = [None]
+    if temperatures is not None:
+        kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
+        if not kelvins:
+            raise InputError("temperatures must hold at least one value.")
+    load = positive(pressure, "Pa", "pressure")
+    calls: list[dict[str, Any]] = [
+        {
+            "name": name,
+            "material": material,
+            "surface": surface,
+            "speed": float(speed),
+            "temperature": kelvin,
+            "pressure": load,
+            "tolerance": _TOLERANCE,
+            **settings,
+        }
+        for kelvin in kelvins
+        for speed in velocities
+        for name, surface in named
+    ]
+
+    def tell(done: int) -> None:
+        if progress is not None:
+            progress(done, len(calls))
+
+    tell(0)
+    found: list[_Numbers] = call_all(solve_one, calls, workers=workers, progress=tell)
+    shape = len(kelvins), len(velocities), len(named)
+    numbers = {name: np.array([getattr(one, name) for one in found]).reshape(shape) for name in _Numbers._fields}
+    return RoughFriction(
+        temperature=np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins]),
+        speed=velocities,
+        pressure=load,
+        surfaces=tuple(name for name, _ in named),
+        **numbers,
+    )
+
+
+class _Numbers(NamedTuple):
+    """What is kept of one contact."""
+
+    friction_coefficient: float
+    friction_error: float
+    contact_area_fraction: float
+    stretch: float
+
+
+def solve_one(name: str, **call: Any) -> _Numbers:
+    """Solve one contact of an ensemble, in whatever process; keep its numbers."""
+    try:
+        solution = solve_periodic(**call)
+    except ConvergenceError as error:
+        raise ConvergenceError(f"surface {name!r} at {call['speed']:g} m/s: {error}") from None
+    return _Numbers(
+        solution.friction_coefficient,
+        solution.diagnostics.friction_error,
+        solution.contact_area_fraction,
+        contact_statistics(solution).stretch,
+    )
+
+
+def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:
+    each = [surfaces] if isinstance(surfaces, (Topography, PeriodicSurface)) else surfaces
+    if not isinstance(each, Sequence) or not each:
+        raise InputError(f"surfaces = {brief(surfaces)}: must be a Topography or PeriodicSurface, or a list of them.")
+    found = []
+    for place, one in enumerate(each, 1):
+        if isinstance(one, Topography):
+            found.append((one.name or f"surface {place}", one.to_surface()))
+        elif isinstance(one, PeriodicSurface):
+            found.append((f"surface {place}", one))
+        else:
+            raise InputError(f"surfaces: number {place} is {brief(one)}, not a Topography or PeriodicSurface.")
+    return found

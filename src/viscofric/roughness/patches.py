@@ -1,0 +1,155 @@
+"""What a map of contact looks like: its patches, how they stretch, pressures and gaps."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.periodic.solution import PeriodicSolution
+from viscofric.errors import InputError, brief
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+_BORDER = (math.pi - 1.0 + math.log(2.0)) / 24.0
+
+
+@dataclass(frozen=True)
+class ContactStatistics:
+    """Numbers that describe a contact of rough surfaces.
+
+    Attributes
+    ----------
+    area_fraction : float
+        Points under pressure over all.
+    corrected_area_fraction : float
+        The same less (π − 1 + ln 2)/24 of the points times the borders along the edge of the contact, by which counting
+        points takes too much [1]_; equal where everything is in contact.
+    patches : int
+        Contact patches, those that touch at corners counted as one, across the edges of the period too.
+    chord_along, chord_across : float
+        Mean length of the pieces that lines along the motion and across it have in contact, m; infinite if all is in
+        contact.  For an oblique motion those along the axis of the grid that is nearer to it and the other one.
+    stretch : float
+        Their ratio: above one where patches are longer along the motion.
+    pressure_in_contact : float
+        Mean, Pa.
+    pressure_deviation : float
+        Standard deviation within the contact, Pa.
+    gap_outside : float
+        Mean gap where there is no contact, m; zero if all is in contact.
+    gap_deviation : float
+        Standard deviation of the gap over the whole surface, m.
+
+    References
+    ----------
+    .. [1] V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribol. Int. 114 (2017) 161, doi:10.1016/j.triboint.2017.04.023
+    """
+
+    area_fraction: float
+    corrected_area_fraction: float
+    patches: int
+    chord_along: float
+    chord_across: float
+    stretch: float
+    pressure_in_contact: float
+    pressure_deviation: float
+    gap_outside: float
+    gap_deviation: float
+
+
+def contact_statistics(solution: PeriodicSolution) -> ContactStatistics:
+    """Describe the contact patches, pressures and gaps of a periodic contact.
+
+    Parameters
+    ----------
+    solution : PeriodicSolution
+
+    Returns
+    -------
+    ContactStatistics
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    _insist(solution)
+    loaded = solution.pressure > 0.0
+    borders = tuple(int(np.count_nonzero(loaded != np.roll(loaded, 1, axis))) for axis in (0, 1))
+    steps = tuple(float(one[1] - one[0]) if len(one) > 1 else 0.0 for one in (solution.x, solution.y))
+    count = int(np.count_nonzero(loaded))
+    # Every piece of a line has two ends.
+    chords = [step * 2.0 * count / ends if ends else math.inf for step, ends in zip(steps, borders, strict=True)]
+    if abs(solution.direction[1]) > abs(solution.direction[0]):
+        chords.reverse()
+    along, across = chords
+    within, outside = solution.pressure[loaded], solution.gap[~loaded]
+    return ContactStatistics(
+        area_fraction=count / loaded.size,
+        corrected_area_fraction=(count - _BORDER * sum(borders)) / loaded.size,
+        patches=_patches(loaded),
+        chord_along=along,
+        chord_across=across,
+        stretch=along / across if math.isfinite(along) and math.isfinite(across) else 1.0,
+        pressure_in_contact=float(within.mean()),
+        pressure_deviation=float(within.std()),
+        gap_outside=float(outside.mean()) if outside.size else 0.0,
+        gap_deviation=float(solution.gap.std()),
+    )
+
+
+def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 50) -> tuple[Array, Array]:
+    """Return how the pressure is distributed over the contact.
+
+    Parameters
+    ----------
+    solution : PeriodicSolution
+    edges : int or (n + 1,) array
+        Number of classes of equal width from zero to the highest pressure, or their edges, Pa.
+
+    Returns
+    -------
+    pressure : (n,) array
+        Middles of the classes, Pa.
+    density : (n,) array
+        Share of the whole surface per pressure, 1/Pa: its integral is the contact area fraction.
+
+    Raises
+    ------
+    InputError
+        If it is no solution of a periodic contact.
+    """
+    _insist(solution)
+    loaded = solution.pressure[solution.pressure > 0.0]
+    limits = np.linspace(0.0, solution.max_pressure, edges + 1) if isinstance(edges, int) else np.asarray(edges, float)
+    counts, found = np.histogram(loaded, limits)
+    return 0.5 * (found[1:] + found[:-1]), counts / (solution.pressure.size * np.diff(found))
+
+
+def _insist(solution: object) -> None:
+    if not isinstance(solution, PeriodicSolution):
+        raise InputError(f"solution = {brief(solution)}: must be what solve_periodic gave.")
+
+
+def _patches(loaded: NDArray[np.bool_]) -> int:
+    """Count patches that touch at sides or corners, on a surface that repeats itself."""
+    from scipy.ndimage import label
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    labels, count = label(loaded, np.ones((3, 3)))
+    joined = []
+    for axis in (0, 1):
+        first, last = np.take(labels, 0, axis), np.take(labels, -1, axis)
+        for shift in (-1, 0, 1):
+            pairs = np.stack([last, np.roll(first, shift)])
+            joined.append(pairs[:, np.all(pairs > 0, axis=0)] - 1)
+    one, other = np.concatenate(joined, axis=1)
+    graph = coo_array((np.ones(len(one)), (one, other)), shape=(count, count))
+    return int(connected_components(graph, directed=False)[0])

@@ -1,0 +1,117 @@
+"""How much the waves of each length add to the friction of a solved contact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.periodic.solution import PeriodicSolution
+from viscofric.contact.periodic.waves import hermitian_factor, wave_number, without_nyquist
+from viscofric.errors import InputError, brief
+from viscofric.units import Quantities, to_si_array
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: A wave just at an edge belongs to the longer ones, whatever the rounding.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionByWavelength:
+    """Friction coefficient of a contact, parted among wavelengths of the pressure.
+
+    Attributes
+    ----------
+    edges : (n + 1,) array
+        Wavelengths, from long to short, m.
+    contribution : (n,) array
+        What the waves between two edges add to the friction coefficient.
+    """
+
+    edges: Array
+    contribution: Array
+
+    @property
+    def total(self) -> float:
+        """Sum of the contributions: the friction coefficient, if the edges hold all waves."""
+        return float(self.contribution.sum())
+
+    @property
+    def cumulative(self) -> Array:
+        """Friction coefficient of all waves down to each edge, (n + 1,) array that begins at zero."""
+        return np.concatenate([[0.0], np.cumsum(self.contribution)])
+
+
+def friction_by_wavelength(
+    solution: PeriodicSolution, edges: Quantities | None = None, *, per_decade: int = 6
+) -> FrictionByWavelength:
+    """Part the friction coefficient of a periodic contact among wavelengths.
+
+    Parameters
+    ----------
+    solution : PeriodicSolution
+    edges : list of float, str or pint.Quantity, optional
+        Wavelengths between which to sum, m, in any order; a wave just at an edge counts with the longer ones.  If left
+        out, from the longest to the shortest wave of the grid.
+    per_decade : int
+        Edges for each decade, where they are left out.
+
+    Returns
+    -------
+    FrictionByWavelength
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two edges, or they are not lengths above zero.
+
+    Notes
+    -----
+    The solid dissipates (q·n) Im(û_q p̂_q*) for each wave and unit of length that the surface has gone, n the direction
+    of the motion, û = 2(1−ν²) S(−q·v) p̂/|q|.  Waves do not exchange energy, so that their sum is the friction force
+    per area, to rounding.  The waves are those of the pressure: where contact is partial, its edges have waves shorter
+    than all those of the surface.
+    """
+    if not isinstance(solution, PeriodicSolution):
+        raise InputError(f"solution = {brief(solution)}: must be what solve_periodic gave.")
+    shape = solution.pressure.shape[0], solution.pressure.shape[1]
+    spacing = tuple(float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (solution.x, solution.y))
+    qx, qy = wave_number(shape, (spacing[0], spacing[1]))
+    along = solution.direction[0] * without_nyquist(qx, shape[0]) + solution.direction[1] * without_nyquist(
+        qy, shape[1]
+    )
+    pressure = scipy.fft.rfft2(solution.pressure)
+    displacement = scipy.fft.rfft2(solution.displacement)
+    work = along * (displacement * np.conj(pressure)).imag * hermitian_factor(shape[1])
+    work /= float(shape[0] * shape[1]) ** 2 * solution.mean_pressure
+    q = np.hypot(qx, qy)
+    q[0, 0] = np.inf
+    limits = _limits(edges, q, per_decade)
+    q[0, 0] = 0.0
+    # Edges from long to short wavelengths are wave numbers that grow.
+    place = np.searchsorted(2.0 * math.pi / limits * (1.0 + _ROUNDING), q.ravel(), side="left") - 1
+    # The longest edge itself belongs to the waves below it.
+    place[(place == -1) & (q.ravel() >= 2.0 * math.pi / limits[0] * (1.0 - _ROUNDING))] = 0
+    inside = (place >= 0) & (place < len(limits) - 1)
+    found = np.bincount(place[inside], work.ravel()[inside], minlength=len(limits) - 1)
+    return FrictionByWavelength(limits, found.astype(np.float64))
+
+
+def _limits(edges: Quantities | None, q: Array, per_decade: int) -> Array:
+    if edges is not None:
+        given = np.sort(to_si_array(edges, "m", "edges"))[::-1]
+        if len(given) < 2 or given[-1] <= 0.0 or np.any(np.diff(given) == 0.0):
+            raise InputError("edges: must be two wavelengths at least, different and above zero.")
+        return given
+    if not (type(per_decade) is int and per_decade > 0):
+        raise InputError(f"per_decade = {per_decade!r}: must be a whole number above zero.")
+    first, last = float(q.min()), float(q[np.isfinite(q)].max())
+    count = max(1, math.ceil(per_decade * math.log10(last / first) - _ROUNDING))
+    return np.asarray(2.0 * math.pi / (first * 10.0 ** (np.arange(count + 1) / per_decade)), dtype=np.float64)
