@@ -20,7 +20,7 @@ from friction.identification.planted import (
 )
 from friction.synthetic_curves import synthetic_curves
 from viscofric.errors import InputError, SuperpositionError
-from viscofric.friction.identification.iteration import Contacts
+from viscofric.friction.identification.solving import Contacts
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -160,6 +160,15 @@ def test_curves_that_do_not_overlap_are_refused_unless_the_shift_is_given() -> N
     gap = synthetic_curves(30.0, 60.0, 90.0)
     with pytest.raises(SuperpositionError, match="overlap"):
         vf.identify_material(gap, indenter=vf.Ball(radius="9.525 mm"))
+
+
+def test_a_reference_whose_curve_was_left_out_is_refused_with_the_reason() -> None:
+    """Friction at 30 °C is far above that of the other temperatures, so that no shift brings them together."""
+    curves = closed_form_curves(*WARM)
+    raised = np.where(curves.temperature == REFERENCE, 50.0, 1.0)
+    curves = replace(curves, viscoelastic=raised * curves.viscoelastic)
+    with pytest.raises(InputError, match=r"the friction curve at 30\.0 °C was left out: .*; choose one of 34\.0, 39"):
+        vf.identify_material(curves, reference=REFERENCE, **SETTINGS)
 
 
 def test_bad_input_is_refused_in_one_sentence() -> None:

@@ -9,10 +9,11 @@ import numpy as np
 
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band
-from viscofric.friction.identification.iteration import Contacts, Weighed, most_evident, spectrum_of, weighed
+from viscofric.friction.identification.fitting import Weighed, most_evident, weighed
 from viscofric.friction.identification.level_family import level_family
 from viscofric.friction.identification.origin import with_origin
 from viscofric.friction.identification.result import IdentifiedMaterial, LevelFit
+from viscofric.friction.identification.solving import Contacts, spectrum_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 

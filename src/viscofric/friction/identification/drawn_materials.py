@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.identification.iteration import Weighed, most_evident, spectrum_of
+from viscofric.friction.identification.fitting import Weighed, most_evident
 from viscofric.friction.identification.posterior import draws
 from viscofric.friction.identification.result import IdentifiedBand
+from viscofric.friction.identification.solving import spectrum_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 

@@ -11,10 +11,11 @@ from viscofric.errors import InputError, brief
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.conclusions import Outcome, conclude
-from viscofric.friction.identification.iteration import Contacts, identify
+from viscofric.friction.identification.iteration import identify
 from viscofric.friction.identification.known_moduli import Known, anchored, known_part
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.setting_up import alone_or_many, problem_of, shifts_of
+from viscofric.friction.identification.solving import Contacts
 from viscofric.processes import Workers
 from viscofric.threads import one_blas_thread
 from viscofric.units import positive, to_si

@@ -2,40 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.contacts import SolvedContact
-from viscofric.friction.identification.corrected import CorrectedFriction, Solved
-from viscofric.friction.identification.posterior import Minimum, descend, log_evidence
-from viscofric.friction.identification.response import friction_response
-from viscofric.friction.identification.smoothness import ROUGHNESS
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.friction.identification.fitting import Weighed, most_evident, weighed
+from viscofric.friction.identification.posterior import descend
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.identification.anchors import ContactAnchor
+    from viscofric.friction.identification.posterior import Residuals
     from viscofric.friction.identification.problem import Problem
-    from viscofric.processes import Workers
+    from viscofric.friction.identification.solving import Contacts
 
     Array = NDArray[np.float64]
 
-#: Contacts that are solved per decade of reduced speed, and how far beyond the points, decades.  What the closed form
-#: misses changes so slowly that four per decade carry it to 1e-4 of the friction.
-NODES_PER_DECADE = 4
-BEYOND = 0.15
-FEWEST_NODES = 5
-ITERATIONS = 15
+#: Rubbers for which contacts are solved, at most.
+STEPS = 20
 #: Root mean square change of the friction in a step, in standard errors of the points, with which it ends.
 SETTLED = 0.1
-HALVINGS = 4
 #: Errors of ln μ with which the first fits are made.
 TEMPERED = (1.0, 0.3, 0.1, 0.05)
 #: … and standard deviation about the first guess that ln α has in them.
@@ -43,122 +31,125 @@ HELD = 0.2
 #: Errors of ln μ with which the first steps from solved contacts are made at the least: small ones would ask the
 #: neighbourhood of those contacts for more than it tells.
 FIRST_STEPS = (0.01, 0.003, 0.001)
-LN10 = float(np.log(10.0))
+#: Contacts of the first rubbers, which are only passed through, are solved with this relative error.
+FIRST_ACCURACY = 1e-2
+#: A step is made if the misfit falls by this part of what was promised, and the next one is damped no more if by that.
+LEAST_GAIN, GOOD_GAIN = 0.1, 0.7
+#: By what the damping grows at least if a step is not made.
+GROWTH = 4.0
+HALVINGS = 4
 
 
-class Weighed(NamedTuple):
-    """A fit under one roughness of the prior, and the logarithm of the evidence for it."""
+class Here(NamedTuple):
+    """Unknowns (p,), and the problem with contacts solved for the rubber that they describe, with what accuracy."""
 
+    place: Array
     problem: Problem
-    minimum: Minimum
-    log_evidence: float
-
-
-@dataclass(frozen=True, eq=False)
-class Contacts:
-    """How contacts are solved.
-
-    Attributes
-    ----------
-    indenter : Indenter
-    poisson_ratio : float
-    load : float
-        N or N/m.
-    accuracy : float
-    workers : int or Workers
-    anchors : tuple of ContactAnchor
-        Contacts whose size was measured.
-    progress : callable or None
-        Called with the number of the step, and how many of how many contacts are solved in it.
-    """
-
-    indenter: Indenter
-    poisson_ratio: float
-    load: float
     accuracy: float
-    workers: int | Workers
-    anchors: tuple[ContactAnchor, ...] = ()
-    progress: Callable[[int, int, int], object] | None = None
-
-    def solved(self, problem: Problem, unknowns: Array, step: int) -> Problem:
-        """Return the problem with contacts solved for the rubber that the unknowns describe.
-
-        Raises
-        ------
-        ConvergenceError
-            If a contact is not solved.
-        """
-        compliances, log_alpha = problem.split(unknowns)
-        spectrum = spectrum_of(compliances, problem.smoothness.tau)
-        points = problem.observations.points
-        reduced = points.log_speed + log_alpha[points.number]
-        low, high = reduced.min() - BEYOND * LN10, reduced.max() + BEYOND * LN10
-        count = max(FEWEST_NODES, int(np.ceil(NODES_PER_DECADE * (high - low) / LN10)) + 1)
-        nodes = np.linspace(low, high, count)
-        response = friction_response(
-            spectrum,
-            self.poisson_ratio,
-            self.indenter,
-            np.exp(nodes),
-            self.load,
-            accuracy=self.accuracy,
-            workers=self.workers,
-            progress=lambda done, total: None if self.progress is None else self.progress(step, done, total),
-        )
-        friction = response.friction
-        if not np.all(friction > 0.0):
-            raise ConvergenceError("the friction of a contact came out negative; solve more accurately.")
-        by_glass = np.column_stack([-response.log_E_inf, response.log_C])
-        solved = Solved(
-            compliances,
-            nodes,
-            np.log(friction),
-            response.error / friction,
-            by_glass / friction[:, None],
-            response.log_load / friction,
-        )
-        sizes = tuple(
-            SolvedContact.of(
-                anchor,
-                self.indenter,
-                spectrum,
-                self.poisson_ratio,
-                self.accuracy,
-                compliances,
-                float(problem.shifts.row(float(anchor.temperature)) @ log_alpha),
-            )
-            for anchor in self.anchors
-        )
-        return replace(problem, friction=CorrectedFriction(problem.friction.first, solved), contacts=sizes)
 
 
-def spectrum_of(compliances: Array, tau: Array) -> RetardationSpectrum:
-    """Return the spectrum of ln(1/E_inf) and every ln C."""
-    values = np.exp(compliances)
-    return RetardationSpectrum(1.0 / float(values.sum()), 1.0 / float(values[0]), values[1:], tau)
+def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[Weighed], int]:
+    """Iterate until the friction settles; return the fits under every roughness, and the number of iterations.
 
-
-def weighed(problem: Problem, start: Array) -> list[Weighed]:
-    """Fit under every roughness of the prior, outward from that of the problem; the smoothest comes first.
+    Each step goes to the minimum that the neighbourhood of the solved contacts promises.  Where contacts solved there
+    do not keep the promise, it is tried anew nearer by: a trust region, with the step damped in the metric of the
+    prior (A. R. Conn, N. I. M. Gould, P. L. Toint, Trust-Region Methods, SIAM 2000).  The roughness for which there is
+    most evidence is chosen before a step and compared with itself, so that the misfit is one function during a step.
 
     Raises
     ------
     ConvergenceError
-        If no fit settles.
+        If it does not settle, or contacts fail wherever it is tried.
     """
-    middle = int(np.argmin(np.abs(np.log(ROUGHNESS / problem.smoothness.roughness))))
-    found: dict[int, Weighed] = {}
-    for way in (range(middle, len(ROUGHNESS)), range(middle - 1, -1, -1)):
-        place = start if middle not in found else found[middle].minimum.place
-        for number in way:
-            tried = replace(problem, smoothness=replace(problem.smoothness, roughness=float(ROUGHNESS[number])))
-            minimum = descend(tried, place, metric=tried.metric)
-            found[number] = Weighed(tried, minimum, log_evidence(minimum, tried.smoothness.log_volume))
-            place = minimum.place
-    settled = [found[number] for number in sorted(found) if found[number].minimum.settled]
-    if not settled:
-        raise ConvergenceError("the fit of the spectrum to the friction does not settle; give an anchor or a prior.")
-    return settled
+    observations = problem.observations
+    typical = float(np.median(observations.points.error))
+    floors = iter([error for error in FIRST_STEPS if error > typical])
+    now = replace(contacts, accuracy=max(FIRST_ACCURACY, contacts.accuracy))
+    here, number, damping = _first_solved(problem, now, start), 1, 0.0
+    while True:
+        floor = next(floors, 0.0)
+        fits = weighed(here.problem.blurred(floor), here.place)
+        best = most_evident(fits)
+        change = here.problem.log_friction(best.minimum.place)[0] - here.problem.log_friction(here.place)[0]
+        settled = floor == 0.0 and float(np.sqrt(np.mean((change / observations.points.error) ** 2))) < SETTLED
+        if settled and here.accuracy == contacts.accuracy:
+            return fits, number
+        if settled or number >= len(FIRST_STEPS):
+            now = contacts
+        moved, number, damping = _stepped(here, best, now, number, damping)
+        if moved is None:
+            raise ConvergenceError(
+                f"the identification did not settle with contacts solved for {number} rubbers: the friction should "
+                f"still change by {100.0 * float(np.sqrt(np.mean(change**2))):.2g} %; give an anchor, a prior or fewer "
+                "modes."
+            )
+        here = moved._replace(problem=replace(moved.problem, observations=observations))
+
+
+def _stepped(
+    here: Here, best: Weighed, contacts: Contacts, number: int, damping: float
+) -> tuple[Here | None, int, float]:
+    """Return where a step leads (None if nowhere), the number of rubbers solved by then, and the next damping."""
+    target, near = best.problem, here.place
+    before = _squares(target, near)
+    allowed = _allowance(target, near, here.accuracy)
+    while number < STEPS:
+        number += 1
+        place = best.minimum.place
+        if damping > 0.0:
+            place = descend(_damped(target, near, damping), near, metric=target.metric).place
+        promised = before - _squares(target, place)
+        try:
+            solved = contacts.solved(target, place, number)
+            gained = before - _squares(solved, place)
+        except (ConvergenceError, InputError):  # the latter: wider than the indenter
+            if number == STEPS:
+                raise
+            gained = -np.inf
+        if gained + allowed > LEAST_GAIN * promised:
+            next_damping = 0.0 if gained > GOOD_GAIN * promised else damping
+            return Here(place, solved, contacts.accuracy), number, next_damping
+        # With that, the way that was tried would have cost as much as it promised.
+        away = place - near
+        damping = max(GROWTH * damping, promised / float(away @ target.metric @ away))
+    return None, number, damping
+
+
+def _squares(residuals: Residuals, place: Array) -> float:
+    values, _ = residuals(place)
+    return float(values @ values)
+
+
+def _allowance(problem: Problem, place: Array, accuracy: float) -> float:
+    """Return by how much the misfit may err because contacts are solved no better than this."""
+    error = problem.observations.points.error
+    away = problem.measured(place)[0][: len(error)]
+    # Solved contacts are known to a quarter of their accuracy, as a rule.
+    return 0.5 * accuracy * float(np.linalg.norm(away) * np.linalg.norm(1.0 / error))
+
+
+def _damped(problem: Problem, near: Array, damping: float) -> Residuals:
+    """Return the residuals of a problem with the way from a place added to them."""
+    root = np.sqrt(damping) * np.linalg.cholesky(problem.metric).T
+
+    def together(place: Array) -> tuple[Array, Array]:
+        values, jacobian = problem(place)
+        return np.concatenate([values, root @ (place - near)]), np.concatenate([jacobian, root])
+
+    return together
+
+
+def _first_solved(problem: Problem, contacts: Contacts, start: Array) -> Here:
+    """Return the rubber that fits roughly with its contacts solved, or one on the way to it that can be solved."""
+    place = first_fit(problem, start)
+    for halving in range(HALVINGS + 1):
+        try:
+            return Here(place, contacts.solved(problem, place, 1), contacts.accuracy)
+        except (ConvergenceError, InputError):
+            if halving == HALVINGS:
+                raise
+        place = 0.5 * (place + start)
+    raise AssertionError
 
 
 def first_fit(problem: Problem, start: Array) -> Array:
@@ -167,54 +158,10 @@ def first_fit(problem: Problem, start: Array) -> Array:
     A fit to small errors from far away would end where some points are met and others given up, with shifts that have
     run away from each other; they are held near their first guess meanwhile.
     """
-    if problem.shifts.found:
-        held = np.eye(len(problem.shifts.middle)) / HELD
-        problem = replace(problem, shifts=replace(problem.shifts, whitening=held))
+    shifts = problem.shifts
+    if shifts.found:
+        held = np.concatenate([shifts.whitening, np.eye(len(shifts.middle)) / HELD])
+        problem = replace(problem, shifts=replace(shifts, whitening=held))
     for error in TEMPERED:
         start = descend(problem.blurred(error), start, metric=problem.metric).place
     return start
-
-
-def most_evident(fits: list[Weighed]) -> Weighed:
-    """Return the fit of the roughness for which there is most evidence."""
-    return max(fits, key=lambda fit: fit.log_evidence)
-
-
-def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[Weighed], int]:
-    """Iterate until the friction settles; return the fits under every roughness, and the number of iterations.
-
-    Raises
-    ------
-    ConvergenceError
-        If it does not settle, or contacts fail wherever it is tried.
-    """
-    here = first_fit(problem, start)
-    before, least = start, np.inf
-    typical = float(np.median(problem.observations.points.error))
-    floors = iter([error for error in FIRST_STEPS if error > typical])
-    for iteration in range(1, ITERATIONS + 1):
-        for halving in range(HALVINGS + 1):
-            try:
-                solved = contacts.solved(problem, here, iteration)
-            except (ConvergenceError, InputError):  # the latter: wider than the indenter
-                if halving == HALVINGS:
-                    raise
-            else:
-                values, _ = solved(here)
-                squares = float(values @ values)
-                if squares < 1.5 * least + 1.0 or halving == HALVINGS:
-                    break
-            here = 0.5 * (here + before)
-        points = problem.observations.points
-        floor = next(floors, 0.0)
-        fits = weighed(solved.blurred(floor), here)
-        best = most_evident(fits)
-        moved = (solved.log_friction(best.minimum.place)[0] - solved.log_friction(here)[0]) / points.error
-        problem, before, least = replace(best.problem, observations=problem.observations), here, squares
-        here = best.minimum.place
-        if floor == 0.0 and float(np.sqrt(np.mean(moved**2))) < SETTLED:
-            return fits, iteration
-    raise ConvergenceError(
-        f"the identification did not settle in {ITERATIONS} steps: the friction still changes by "
-        f"{100.0 * float(np.sqrt(np.mean((moved * points.error) ** 2))):.2g} %; give an anchor, a prior or fewer modes."
-    )

@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.identification.drawn_materials import MaterialOf
-    from viscofric.friction.identification.iteration import Contacts, Weighed
+    from viscofric.friction.identification.fitting import Weighed
     from viscofric.friction.identification.problem import Problem
+    from viscofric.friction.identification.solving import Contacts
 
     Array = NDArray[np.float64]
 

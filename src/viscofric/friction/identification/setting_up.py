@@ -27,9 +27,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.identification.iteration import Contacts
     from viscofric.friction.identification.known_moduli import Block
     from viscofric.friction.identification.points import Points
+    from viscofric.friction.identification.solving import Contacts
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
     Array = NDArray[np.float64]
 
@@ -112,16 +113,28 @@ def shifts_of(
     middle = float(found.reference) if reference is None else reference
     nearest = float(found.temperatures[np.argmin(np.abs(found.temperatures - middle))])
     if reference is not None and abs(nearest - reference) > SAME_TEMPERATURE:
-        shown = ", ".join(f"{celsius(float(one)):.1f}" for one in found.temperatures)
-        raise InputError(
-            f"reference = {celsius(reference):.1f} °C was not measured, and α(T) is to be found; choose one of "
-            f"{shown} °C, and describe the material at another with its at_reference()."
-        )
+        raise _not_among(reference, found, points)
     notes = points.notes
     if not kept.all():
         notes = (*notes, *found.notes, f"{np.count_nonzero(~kept)} points were left out with them.")
     chosen = replace(points.chosen(kept), temperatures=found.temperatures, number=number[kept], notes=notes)
     return chosen, Shifts.unknown(found.temperatures, nearest, found)
+
+
+def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputError:
+    """Say that there is no α at the reference, because it was not measured or its curve tells none."""
+    shown = ", ".join(f"{celsius(float(one)):.1f}" for one in found.temperatures)
+    asked = f"{celsius(reference):.1f} °C"
+    if np.abs(points.temperatures - reference).min() > SAME_TEMPERATURE:
+        return InputError(
+            f"reference = {asked} was not measured, and α(T) is to be found; choose one of {shown} °C, and describe "
+            "the material at another with its at_reference()."
+        )
+    why = next((note for note in found.notes if asked in note.partition("was left out")[0]), f"{asked} was left out.")
+    return InputError(
+        f"reference = {asked}: α(T) is to be found, and {why[0].lower()}{why[1:-1]}; choose one of {shown} °C, give "
+        "shift=, or measure there over more speeds."
+    )
 
 
 def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contacts: Contacts, modes: int) -> Problem:
