@@ -122,8 +122,9 @@ def identify_material(
     prior, with a random walk of second order over ln C assumed of the spectrum, of a level and slope that hardly
     matter; how rough it may be is weighed by the evidence.  ln μ is that of solved contacts with their adjoint
     derivatives at four reduced speeds per decade; between them, and for neighbouring rubbers, what contacts differ by
-    from friction to first order in the loss is interpolated, and contacts are solved again until nothing moves.  The
-    uncertainty is that of fits to other errors, of the measurement and of what was assumed (randomised maximum
+    from friction to first order in the loss is interpolated, and contacts are solved again until nothing moves, the
+    first ones to 1 % only.  A step whose contacts do not fit as it promised is tried again nearer by (a trust region).
+    The uncertainty is that of fits to other errors, of the measurement and of what was assumed (randomised maximum
     likelihood).
 
     Errors of the points are taken to be independent.  Those of replicates are drawn towards a common scatter.
