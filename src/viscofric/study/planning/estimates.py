@@ -1,0 +1,138 @@
+"""What a set of cases will take, roughly, before anything is solved: contacts, processor time and memory."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.indenters.indenter import Ball, Cylinder
+from viscofric.contact.indenters.shapes import Ellipsoid
+from viscofric.errors import InputError
+from viscofric.study.planning.conditions import Rubbers
+from viscofric.study.planning.curve import Curve
+from viscofric.study.planning.families import Placing
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    from viscofric.rheology.material import Material
+    from viscofric.study.planning.families import Family
+    from viscofric.study.sweep import Case
+
+# Processor time of a contact on one core of 2020, s: at low accuracy, and what 1e-3 adds, which grows as 1/accuracy.
+# Means over six speeds at two temperatures of the synthetic fluoroelastomer (benchmarks/study/costs.py).
+_SECONDS = {"paraboloid": (0.08, 0.05), "line": (0.08, 0.02), "other": (0.09, 0.10), "layer": (0.13, 0.05)}
+#: Finding how friction answers to the rubber takes about as long as finding friction.
+_SENSITIVE = 2.0
+# Bytes: of a process that solves; of each cell of the finest window while it does; of a record and its sensitivity.
+_PROCESS, _PER_CELL, _RECORD, _SENSITIVITY = 1.1e8, 240.0, 2.5e3, 3e3
+# Cells along the finest window that some of many contacts take at 1e-3; they grow as 1/√accuracy up to the most.
+_CELLS, _MOST_CELLS, _FIELD_CELLS = 512.0, 2048.0, 256.0
+_FIELD = 16.0  # bytes of pressure and displacement in a cell
+_LINE_CELLS = 65536.0
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """What a set of cases will take, all but the number of cases rough: by a factor of two as a rule.
+
+    Attributes
+    ----------
+    cases : int
+        Asked for.
+    solves : int
+        Contacts that will be solved for them.
+    seconds : float
+        Processor time of all, on one core of 2020, s.
+    memory : float
+        Of the study itself, with all records and fields, bytes.
+    memory_per_process : float
+        Of each process that solves, at most, bytes.
+    """
+
+    cases: int
+    solves: int
+    seconds: float
+    memory: float
+    memory_per_process: float
+
+
+def estimate(
+    cases: Sequence[Case],
+    materials: Sequence[Material],
+    *,
+    accuracy: float = 1e-3,
+    sensitive: bool = False,
+    fields: bool | Collection[int] = False,
+    each: bool = False,
+) -> Expectation:
+    """Estimate what `plan_cases` with the same arguments will take.
+
+    Parameters
+    ----------
+    cases, materials, accuracy, sensitive, fields, each
+        See `plan_cases`.  Members of posteriors need not be drawn: they are taken to be like the best estimate.
+
+    Returns
+    -------
+    Expectation
+    """
+    kept = range(len(cases)) if fields is True else () if fields is False else frozenset(fields)
+    drawn = max((case.sample or 0 for case in cases), default=0)
+    rubbers = Rubbers(materials, {number: [material] * drawn for number, material in enumerate(materials)})
+    solves: dict[str, float] = defaultdict(float)
+    if each:
+        for case in set(cases):
+            solves[_kind(case)] += 1
+    else:
+        for kind, curve in _curves(cases, rubbers, kept, accuracy, solves):
+            solves[kind] += curve.expected
+    seconds = sum(number * _seconds(kind, accuracy) for kind, number in solves.items())
+    cells = min(_MOST_CELLS, _CELLS * np.sqrt(1e-3 / accuracy)) ** 2
+    record = _RECORD + _SENSITIVITY * sensitive
+    return Expectation(
+        cases=len(cases),
+        solves=round(sum(solves.values())),
+        seconds=float(seconds * (_SENSITIVE if sensitive else 1.0)),
+        memory=_PROCESS + record * len(cases) + _FIELD * _FIELD_CELLS**2 * len(kept),
+        memory_per_process=float(_PROCESS + _PER_CELL * (_LINE_CELLS if set(solves) == {"line"} else cells)),
+    )
+
+
+def _curves(
+    cases: Sequence[Case], rubbers: Rubbers, kept: Collection[int], accuracy: float, solves: dict[str, float]
+) -> list[tuple[str, Curve]]:
+    """Return the curves of all families, with their kinds; cases that are solved by themselves are counted."""
+    placing = Placing(rubbers)
+    places: dict[Family, list[float]] = defaultdict(list)
+    kinds: dict[Family, str] = {}
+    for number, case in enumerate(cases):
+        if number in kept:
+            solves[_kind(case)] += 1
+            continue
+        try:
+            place = placing.place(case)
+        except InputError:
+            continue  # it fails at once
+        places[place.family].append(place.s)
+        kinds[place.family] = _kind(case)
+    return [(kinds[family], Curve(np.array(values), accuracy)) for family, values in places.items()]
+
+
+def _kind(case: Case) -> str:
+    if case.layer is not None:
+        return "layer"
+    match case.indenter:
+        case Cylinder():
+            return "line"
+        case Ball() | Ellipsoid():
+            return "paraboloid"
+    return "other"
+
+
+def _seconds(kind: str, accuracy: float) -> float:
+    least, more = _SECONDS[kind]
+    return least + more * 1e-3 / accuracy
