@@ -203,6 +203,7 @@ def test_what_is_no_toml_is_told_by_its_line(text: str, told: str) -> None:
             "conditions.thickness: checks",
         ),
         ('"dma.csv"', '"a\\u0000b"', "material.dma: 'a\\x00b' cannot be the name of a file"),
+        ('"dma.csv"', f'"{300 * "x"}"', "cannot be the name of a file"),
         ('"dma.csv"', '"/**/*"', "material.dma: '/**/*' looks into all folders"),
         ('"dma.csv"', '["dma.csv", 3]', "material.dma[1]: 3 is not the name of a file"),
         ('"dma.csv"', '"dma.csv"\npoisson_ratio = nan', "material.poisson_ratio: nan is not a finite number"),

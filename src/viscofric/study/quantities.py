@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,6 +15,8 @@ from viscofric.units import Quantity, positive, to_si
 # Stands for the field's name in messages about units; the location says it better.
 VALUE = "value"
 MOST_POINTS = 10_000
+_LONGEST_NAME = 255  # bytes between two slashes, on all common file systems
+_SPACE = 32
 
 
 def as_written(value: object) -> str:
@@ -92,15 +96,12 @@ def _file_name(value: object) -> object:
     if isinstance(value, str):
         if not value.strip():
             raise ValueError("is empty; the name of a file is wanted")
-        if len(value) > _LONGEST_NAME or any(ord(mark) < _SPACE for mark in value):
+        parts = re.split(r"[/\\]", value)
+        if max(len(os.fsencode(part)) for part in parts) > _LONGEST_NAME or any(ord(mark) < _SPACE for mark in value):
             raise ValueError(f"{brief(value)} cannot be the name of a file")
         if "**" in value:
             raise ValueError(f"{brief(value)} looks into all folders; write a pattern such as 'sweeps/*.txt'")
     return value
-
-
-_LONGEST_NAME = 1_000
-_SPACE = 32
 
 
 def schema_of(kind: Any) -> dict[str, Any]:
