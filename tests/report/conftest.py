@@ -260,3 +260,33 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> None:
 def tree(make_tree: Callable[..., xr.DataTree]) -> xr.DataTree:
     """Return the usual results: three temperatures, with a measurement."""
     return make_tree()
+
+
+UNITS = {"speed": "m/s", "temperature": "K", "load": "N", "radius": "m", "thickness": "m", "material": "1"}
+
+
+@pytest.fixture
+def make_sweep() -> Callable[..., xr.Dataset]:
+    """Return a maker of labelled friction over any axes, from a formula with a maximum along the speed."""
+
+    def make(axes: dict[str, Any], failed: tuple[int, ...] = (), **scalars: Any) -> xr.Dataset:
+        grid = {
+            name: np.asarray(
+                np.arange(len(points)) if isinstance(points[0], str) else points, dtype=float
+            ).reshape([-1 if place == index else 1 for index in range(len(axes))])
+            for place, (name, points) in enumerate(axes.items())
+        }  # fmt: skip
+        speed, kelvin = grid.get("speed", 0.1), grid.get("temperature", REFERENCE)
+        place = np.log10(speed) + log10_alpha(kelvin) + 3.0 + 0.5 * grid.get("material", 0.0)
+        size = (grid.get("load", 25.0) / 25.0) ** (1 / 3) * (0.01 / grid.get("radius", 0.01)) ** (2 / 3)
+        mu = (0.005 + 0.03 / (1.0 + place**2)) * size * (1.0 + 0.01 * grid.get("sample", 0.0))
+        mu = np.broadcast_to(mu, [len(points) for points in axes.values()]).copy()
+        mu.ravel()[list(failed)] = np.nan
+        flat = np.isnan(mu)
+        columns = {"friction_coefficient": mu, "friction_error": 4e-4 * mu, "cells": np.where(flat, np.nan, 256.0)}
+        columns |= {"failed": flat.astype(float), "interpolated": (np.arange(mu.size) % 2.0).reshape(mu.shape)}
+        coordinates = {name: (name, points, {"units": UNITS.get(name, "1")}) for name, points in axes.items()}
+        coordinates |= {name: ((), value, {"units": UNITS.get(name, "1")}) for name, value in scalars.items()}
+        return xr.Dataset({name: (tuple(axes), values) for name, values in columns.items()}, coordinates)
+
+    return make

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from viscofric.report.captions import captions
 from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
+from viscofric.report.question import what_was_asked
 from viscofric.report.tables import detail_tables
-from viscofric.report.words import captions, key_numbers, what_was_asked
+from viscofric.report.words import key_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Callable

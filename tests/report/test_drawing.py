@@ -21,14 +21,16 @@ if TYPE_CHECKING:
     import xarray as xr
 
 NAMES = [
-    "isotherms",
-    "superposition",
-    "shift_factors",
-    "master_curve",
-    "spectrum",
     "friction_against_speed",
+    "friction_map",
     "friction_master_curve",
     "coulomb_friction",
+    "convergence",
+    "master_curve",
+    "spectrum",
+    "shift_factors",
+    "superposition",
+    "isotherms",
 ]
 
 
@@ -55,7 +57,8 @@ def test_same_results_give_the_same_bytes(
     make_tree: Callable[..., xr.DataTree], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     name = "friction_against_speed"
-    monkeypatch.setattr(drawing, "FIGURES", {name: drawing.FIGURES[name]})
+    monkeypatch.setattr(drawing, "FRICTION_FIGURES", {name: drawing.FRICTION_FIGURES[name]})
+    monkeypatch.setattr(drawing, "RUBBER_FIGURES", {})
     first, second = (drawing.figure_images(make_tree()) for _ in range(2))
     assert list(first) == [name]
     assert first == second
@@ -117,7 +120,14 @@ def test_figures_that_the_results_lack_are_left_out(tree: xr.DataTree, tmp_path:
     for name in ("isotherms", "prediction_master", "measurement"):
         del tree[name]
     names = {path.stem for path in report.draw_figures(tree, tmp_path)}
-    assert names == {"shift_factors", "master_curve", "spectrum", "friction_against_speed"}
+    assert names == {
+        "shift_factors",
+        "master_curve",
+        "spectrum",
+        "friction_against_speed",
+        "friction_map",
+        "convergence",
+    }
 
 
 @pytest.mark.usefixtures("unrendered")
@@ -131,10 +141,16 @@ def test_figures_survive_the_round_trip_through_a_file(tree: xr.DataTree, tmp_pa
 
 
 def test_all_cases_failed_is_still_drawn(tree: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
-    of_friction = NAMES[-2:]
-    monkeypatch.setattr(drawing, "FIGURES", {name: drawing.FIGURES[name] for name in of_friction})
+    of_friction = NAMES[:4]
+    monkeypatch.setattr(drawing, "FRICTION_FIGURES", {name: drawing.FRICTION_FIGURES[name] for name in of_friction})
+    monkeypatch.setattr(drawing, "RUBBER_FIGURES", {})
     for name in ("prediction", "prediction_master"):
         part = tree[name].to_dataset()
         part["friction_coefficient"] = part["friction_coefficient"] * np.nan
         tree[name].dataset = part
-    assert list(drawing.figure_images(tree, ("svg",))) == of_friction
+    # What was measured is shown all the same.
+    assert list(drawing.figure_images(tree, ("svg",))) == [
+        "friction_against_speed",
+        "friction_master_curve",
+        "coulomb_friction",
+    ]

@@ -10,10 +10,12 @@ import pytest
 import xarray as xr
 
 from viscofric.report import drawing
+from viscofric.report.captions import captions
 from viscofric.report.checks import all_checks
 from viscofric.report.friction_tables import agreement_table
+from viscofric.report.question import what_was_asked
 from viscofric.report.tables import detail_tables
-from viscofric.report.words import captions, key_numbers, what_was_asked
+from viscofric.report.words import key_numbers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -94,7 +96,9 @@ def test_shift_factors_of_friction_are_drawn_beside_those_that_are_known(
         return b""
 
     monkeypatch.setattr(drawing, "_image", points)
-    monkeypatch.setattr(drawing, "FIGURES", {"friction_shift_factors": drawing.FIGURES["friction_shift_factors"]})
+    name = "friction_shift_factors"
+    monkeypatch.setattr(drawing, "FRICTION_FIGURES", {name: drawing.FRICTION_FIGURES[name]})
+    monkeypatch.setattr(drawing, "RUBBER_FIGURES", {})
     drawing.figure_images(with_friction_shifts(tree), ("svg",))
     assert sorted(drawn.values()) == [2, 3]
 

@@ -16,6 +16,7 @@ from viscofric import report
 from viscofric.errors import DataFileError
 from viscofric.report import html
 from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
+from viscofric.report.results import table as table_of
 from viscofric.report.tables import detail_tables
 
 if TYPE_CHECKING:
@@ -85,14 +86,15 @@ def test_page_has_every_part(tree: xr.DataTree, tmp_path: Path) -> None:
     assert len(ids) == len(set(ids))
     assert {"asked", "answer", "checks", "figures", "tables", "reproduce"} <= set(ids)
     assert {f"figure-{name}" for name in ("friction_against_speed", "master_curve", "isotherms")} <= set(ids)
-    assert page.count("img") == 8
+    assert page.count("img") == 10
     assert all(page.attributes("alt"))
 
 
 def test_page_loads_nothing_from_elsewhere(tree: xr.DataTree, tmp_path: Path) -> None:
     source, page = write(tree, tmp_path)
     assert not {"script", "link", "iframe", "object", "embed", "base"} & {tag for tag, _ in page.tags}
-    assert page.attributes("href") == []
+    ids = page.attributes("id")
+    assert all(address.removeprefix("#") in ids for address in page.attributes("href"))
     images = page.attributes("src")
     assert all(address.startswith("data:image/svg+xml;base64,") for address in images)
     assert "://" not in re.sub(r"base64,[A-Za-z0-9+/=]+", "", source)
@@ -116,7 +118,8 @@ def test_figures_drawn_once_are_those_of_the_files_and_of_the_report(tree: xr.Da
 def test_tables_hold_every_number(tree: xr.DataTree, tmp_path: Path) -> None:
     _, page = write(tree, tmp_path)
     tables = [friction_at_a_glance(tree), agreement_table(tree), *detail_tables(tree)]
-    assert [table.key for table in tables if table] == [
+    tables = [table for table in tables if table is not None]
+    assert [table.key for table in tables] == [
         "at-a-glance",
         "agreement",
         "prediction",
@@ -125,8 +128,17 @@ def test_tables_hold_every_number(tree: xr.DataTree, tmp_path: Path) -> None:
         "shift-factors",
         "spectrum",
     ]
-    expected = [cell for table in tables if table for row in [table.headings, *table.rows] for cell in row]
-    assert page.cells[: len(expected)] == expected
+    hashes = [
+        "input file",
+        "SHA-256",
+        *(text for pair in table_of(tree.attrs, "input_hashes").items() for text in pair),
+    ]
+    expected = hashes
+    for table in tables:
+        # Of a long table the first rows are shown before all of them.
+        parts = [table.rows] if len(table.rows) <= 12 else [table.rows[:5], table.rows]
+        expected += [cell for part in parts for row in [table.headings, *part] for cell in row]
+    assert page.cells == expected
     friction = tree["prediction"]["friction_coefficient"].values
     for value in friction:
         assert np.any([cell == f"{value:#.4g}" for cell in page.cells])
@@ -184,7 +196,7 @@ def test_synthetic_data_are_announced_first(
     _, page = write(make_tree(data_origin=origin), tmp_path)
     assert ("Synthetic data" in page.text) == banner
     if banner:
-        assert page.text.index("Synthetic data:") < page.text.index("What was asked")
+        assert page.text.index("Synthetic data:") < page.text.index("The question")
 
 
 @pytest.mark.usefixtures("unrendered")
@@ -202,7 +214,8 @@ def test_page_of_one_case(make_tree: Callable[..., xr.DataTree], tmp_path: Path)
     _, page = write(make_tree(measurement=False, speeds=1, temperatures=1), tmp_path)
     text = page.text.replace("\N{NO-BREAK SPACE}", " ")
     assert "at 20 mm/s and 30 °C" in text
-    assert "(1 row)" in text
+    assert "All 41 rows" in text
+    assert "figure-friction_against_speed" not in page.attributes("id")
 
 
 @pytest.mark.usefixtures("undrawn")

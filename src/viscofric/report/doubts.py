@@ -21,9 +21,10 @@ WIDE, EXTRAPOLATED = "wide contact", "beyond the sweeps"
 
 def reach(tree: xr.DataTree, cases: xr.Dataset) -> Array:
     """Return how far each contact reaches from the ball's axis, over the ball's radius; nan if not known."""
+    radius = values(cases, "radius") if "radius" in cases.variables else number(tree.attrs, "indenter_radius")
     sides = np.array([values(cases, name) for name in ("front", "rear", "half_width")])
     farthest: Array = np.where(np.isfinite(sides), sides, -np.inf).max(axis=0)
-    ratio: Array = np.where(farthest > 0.0, farthest, np.nan) / number(tree.attrs, "indenter_radius")
+    ratio: Array = np.where(farthest > 0.0, farthest, np.nan) / radius
     return ratio
 
 
@@ -49,3 +50,9 @@ def remarks(tree: xr.DataTree, cases: xr.Dataset) -> list[str]:
     """Return what is doubtful about each case, in a word or two; empty texts for sound ones."""
     marks = [(WIDE, is_wide(tree, cases)), (EXTRAPOLATED, is_extrapolated(cases))]
     return ["; ".join(word for word, mask in marks if mask[row]) for row in range(len(marks[0][1]))]
+
+
+def interpolated(cases: xr.Dataset) -> Mask:
+    """Whether each case was interpolated on a curve of solved ones, instead of solved itself."""
+    found: Mask = values(cases, "interpolated") == 1.0
+    return found

@@ -12,14 +12,19 @@ import numpy as np
 from viscofric.files import write_atomically
 from viscofric.report.consistency_figures import plot_cole_cole, plot_van_gurp_palmen
 from viscofric.report.figure_data import law_of, vertical_shift_of
-from viscofric.report.friction_figures import (
-    plot_coulomb_friction,
-    plot_friction_curves,
-    plot_friction_master_curve,
+from viscofric.report.friction_drawing import (
+    contacts,
+    convergence,
+    coulomb_friction,
+    friction_against_speed,
+    friction_map,
+    friction_master_curve,
+    friction_sweep,
+    recovery_trail,
 )
 from viscofric.report.house_style import STYLE, mark_synthetic, new_figure, temperature_bar
 from viscofric.report.inverse_figures import plot_shift_comparison
-from viscofric.report.results import group, is_synthetic, reference_temperature, values
+from viscofric.report.results import group, is_synthetic, reference_temperature, rubbers, values
 from viscofric.report.rubber_figures import plot_isotherms, plot_master_curve, plot_residuals
 from viscofric.report.shift_figures import plot_shift_factors, plot_vertical_shift
 from viscofric.report.spectrum_figures import plot_retardation_spectrum
@@ -97,39 +102,6 @@ def _spectrum(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def _friction_against_speed(tree: xr.DataTree) -> Figure | None:
-    prediction = group(tree, "prediction")
-    if prediction is None:
-        return None
-    figure = new_figure(7.4, 4.3)
-    plot_friction_curves(figure.subplots(), prediction, group(tree, "measurement"))
-    return figure
-
-
-def _friction_master_curve(tree: xr.DataTree) -> Figure | None:
-    prediction = group(tree, "prediction_master")
-    if prediction is None:
-        return None
-    figure = new_figure(7.4, 4.3)
-    measured = group(tree, "measurement_master")
-    plot_friction_master_curve(
-        figure.subplots(),
-        prediction,
-        group(tree, "measurement") if measured is None else measured,
-        reference_temperature=reference_temperature(tree),
-    )
-    return figure
-
-
-def _coulomb_friction(tree: xr.DataTree) -> Figure | None:
-    measurement = group(tree, "measurement")
-    if measurement is None or not np.isfinite(values(measurement, "coulomb")).any():
-        return None
-    figure = new_figure(7.4, 4.0)
-    plot_coulomb_friction(figure.subplots(), measurement)
-    return figure
-
-
 def _friction_shift_factors(tree: xr.DataTree) -> Figure | None:
     found = group(tree, "friction_shift_factors")
     if found is None:
@@ -142,18 +114,26 @@ def _friction_shift_factors(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-#: Name of the files -> what draws the figure, or gives None if the results lack it.
-FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
-    "isotherms": _isotherms,
-    "superposition": _superposition,
-    "shift_factors": _shift_factors,
-    "vertical_shift": _vertical_shift,
+#: Name of the files -> what draws the figure, or gives None if the results lack it: of friction …
+FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
+    "friction_against_speed": friction_against_speed,
+    "friction_sweep": friction_sweep,
+    "friction_map": friction_map,
+    "friction_master_curve": friction_master_curve,
+    "coulomb_friction": coulomb_friction,
+    "friction_shift_factors": _friction_shift_factors,
+    "contacts": contacts,
+    "recovery_trail": recovery_trail,
+    "convergence": convergence,
+}
+#: … and of the rubber, or of each of several.
+RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "master_curve": _master_curve,
     "spectrum": _spectrum,
-    "friction_against_speed": _friction_against_speed,
-    "friction_master_curve": _friction_master_curve,
-    "coulomb_friction": _coulomb_friction,
-    "friction_shift_factors": _friction_shift_factors,
+    "shift_factors": _shift_factors,
+    "vertical_shift": _vertical_shift,
+    "superposition": _superposition,
+    "isotherms": _isotherms,
 }
 
 
@@ -169,10 +149,20 @@ def figure_images(tree: xr.DataTree, formats: tuple[str, ...] = ("png", "svg")) 
     Returns
     -------
     dict
-        Name of the figure -> format -> bytes; the same bytes for the same results.
+        Name of the figure -> format -> bytes; the same bytes for the same results.  Figures of the second of several
+        rubbers end in ``_2``, and so on.
     """
+    images = _drawn(FRICTION_FIGURES, tree, formats) | _drawn(RUBBER_FIGURES, tree, formats)
+    for place, (_, branch) in enumerate(rubbers(tree), 1):
+        images |= {f"{name}_{place}": image for name, image in _drawn(RUBBER_FIGURES, branch, formats).items()}
+    return images
+
+
+def _drawn(
+    figures: dict[str, Callable[[xr.DataTree], Figure | None]], tree: xr.DataTree, formats: tuple[str, ...]
+) -> dict[str, dict[str, bytes]]:
     images: dict[str, dict[str, bytes]] = {}
-    for name, draw in FIGURES.items():
+    for name, draw in figures.items():
         with matplotlib.rc_context({**STYLE, "svg.hashsalt": f"viscofric {name}"}):
             figure = draw(tree)
             if figure is None:
@@ -203,7 +193,7 @@ def draw_figures(tree: xr.DataTree, folder: str | Path) -> list[Path]:
     Returns
     -------
     list of Path
-        One for each name in `FIGURES`, with ``.png`` and ``.svg``; without those that the results lack.
+        One for each figure, with ``.png`` and ``.svg``; without those that the results lack.
 
     Raises
     ------

@@ -9,10 +9,11 @@ import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.report.check import Check
-from viscofric.report.doubts import is_extrapolated, knows_range, reach
+from viscofric.report.doubts import interpolated, is_extrapolated, knows_range, reach
 from viscofric.report.friction_summary import CONSISTENT_WITHIN, consistency_words
 from viscofric.report.numbers import percent, several, significant
 from viscofric.report.results import group, is_from_friction, number, numbers, sentences, values
+from viscofric.report.sweeps import solved_cases
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -41,7 +42,7 @@ def friction_checks(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def _contact(tree: xr.DataTree) -> Iterator[Check]:
-    parts = [part for name in ("prediction", "prediction_master") if (part := group(tree, name)) is not None]
+    parts = [part for name in ("prediction", "prediction_master") if (part := solved_cases(tree, name)) is not None]
     if not parts:
         return
 
@@ -73,7 +74,7 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
-    parts = [part for name in ("prediction", "prediction_master") if (part := group(tree, name)) is not None]
+    parts = [part for name in ("prediction", "prediction_master") if (part := solved_cases(tree, name)) is not None]
     if not parts:
         return
     reaches = np.concatenate([reach(tree, part) for part in parts])
@@ -112,7 +113,7 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
         ("measurement", "measured points"),
         ("prediction_master", "cases along the friction master curve"),
     ):
-        part = group(tree, name)
+        part = group(tree, name) if name == "measurement" else solved_cases(tree, name)
         if part is None or not knows_range(part):
             continue
         beyond, of = int(is_extrapolated(part).sum()), next(iter(part.sizes.values()))
@@ -164,7 +165,8 @@ def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def _cases(tree: xr.DataTree) -> Iterator[Check]:
-    if group(tree, "prediction") is None:
+    found = group(tree, "prediction")
+    if found is None:
         return
     failures = sentences(tree.attrs, "failures")
     if failures:
@@ -176,3 +178,16 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
             "passed",
             "Every case was solved to the accuracy asked for.",
         )
+    cases = solved_cases(tree)
+    if cases is None or not (between := interpolated(cases)).any():
+        return
+    friction, error = (np.abs(values(cases, name))[between] for name in ("friction_coefficient", "friction_error"))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        largest, accuracy = float(np.nanmax(error / friction)), number(tree.attrs, "accuracy")
+    yield Check.of(
+        "Interpolated values",
+        not largest > accuracy * (1.0 + 1e-9),
+        f"{int(between.sum())} of {between.size} friction coefficients lie on a curve through solved contacts, "
+        "since cases of one rubber under one load share it; the tables mark them. Their error, with that of the "
+        f"interpolation, is estimated at {percent(largest)} at most; {percent(accuracy)} was asked for.",
+    )

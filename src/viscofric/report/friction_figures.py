@@ -21,6 +21,8 @@ from viscofric.report.house_style import GREY, INK, at_temperature, degrees, loo
 from viscofric.report.results import nearest, nominal_temperatures
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -121,6 +123,30 @@ def plot_friction_master_curve(
     axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(at))
     title = "" if measurement is None else "points: measured ± scatter"
     _finish(axes, handles, title, r"viscoelastic friction coefficient $\mu$")
+
+
+def plot_friction_master_curves(
+    axes: Axes, predictions: Mapping[str, Friction], *, reference_temperature: float | None = None
+) -> None:
+    """Draw predicted friction of several rubbers against the reduced speed αv.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    predictions : mapping of str to FrictionCurves or xarray.Dataset
+        Name of the rubber -> its friction at the reference temperature; see `plot_friction_master_curve`.
+    reference_temperature : float, optional
+        K, for the label.
+    """
+    handles: list[Any] = []
+    for look, (name, prediction) in zip(looks(len(predictions)), predictions.items(), strict=True):
+        lines = predicted(prediction)
+        lines = lines.rows(np.ones(lines.speed.size, dtype=bool))
+        _plot_band(axes, lines, look.colour, 1.0)
+        _plot_predicted(axes, lines, color=look.colour, linestyle=look.dashes)
+        handles.append(Line2D([], [], color=look.colour, linestyle=look.dashes, label=name))
+    axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(reference_temperature))
+    _finish(axes, handles, "predicted", r"viscoelastic friction coefficient $\mu$")
 
 
 def plot_coulomb_friction(axes: Axes, measurement: Friction) -> None:

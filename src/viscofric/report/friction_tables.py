@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,14 +11,18 @@ import numpy as np
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.report.doubts import EXTRAPOLATED, WIDE, remarks
 from viscofric.report.house_style import degrees
-from viscofric.report.numbers import ABSENT, percent, signed_percent, significant, with_error
+from viscofric.report.numbers import ABSENT, percent, several, signed_percent, significant, with_error
 from viscofric.report.results import group, nearest, nominal_temperatures, number, values
+from viscofric.report.sweeps import VARIED, cases_of, solved_cases, thinned, value_label
 from viscofric.report.table import Column, Table, made_table, times, whole
 
 if TYPE_CHECKING:
     import xarray as xr
+    from numpy.typing import NDArray
 
-_MOST_ROWS_AT_A_GLANCE = 12
+    Array = NDArray[np.float64]
+
+_MOST_ROWS_AT_A_GLANCE, _MOST_COLUMNS_AT_A_GLANCE = 12, 8
 _DOUBTFUL = (
     f"{WIDE}: reaching beyond {SMALL_STRAIN:g} ball radii from the axis; "
     f"{EXTRAPOLATED}: at frequencies that were not measured"
@@ -41,38 +46,40 @@ def _with_remarks(table: Table, doubts: list[str]) -> Table:
 
 
 def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
-    """Predicted friction as a grid: a row for each speed, a column for each temperature (and load)."""
-    prediction = group(tree, "prediction")
+    """Predicted friction as a grid: a row for each speed, a column for each temperature and all else that varies."""
+    prediction = solved_cases(tree)
     if prediction is None:
         return None
-    speed, load = values(prediction, "speed"), values(prediction, "load")
-    friction, doubts = values(prediction, "friction_coefficient"), remarks(tree, prediction)
+    speed, friction = values(prediction, "speed"), values(prediction, "friction_coefficient")
     nominal = nominal_temperatures(values(prediction, "temperature"))
     which = nearest(nominal, values(prediction, "temperature"))
-    loads = np.unique(load)
-    columns = [
-        (index, force) for index in range(nominal.size) for force in loads if np.any((which == index) & (load == force))
-    ]
+    others = [name for name in VARIED if name in prediction and len(np.unique(prediction[name].values)) > 1]
+
+    def column_of(row: int, index: int) -> tuple[str, ...]:
+        told = [value_label(prediction, name, prediction[name].values[row]) for name in others]
+        return *told, degrees(float(nominal[index]))
+
+    columns = list(dict.fromkeys(column_of(row, int(index)) for row, index in enumerate(which)))
+    shown = [columns[place] for place in thinned(len(columns), _MOST_COLUMNS_AT_A_GLANCE)]
     speeds = np.unique(speed)
     every = int(np.ceil(speeds.size / _MOST_ROWS_AT_A_GLANCE))
-    chosen = speeds[::every]
-    rows = []
-    for row_speed in chosen:
-        cells = [significant(1e3 * float(row_speed), 4)]
-        for index, force in columns:
-            match = np.flatnonzero((which == index) & (load == force) & (speed == row_speed))
-            mark = " *" if match.size and doubts[match[0]] else ""
-            cells.append(significant(float(friction[match[0]]), 3) + mark if match.size else ABSENT)
-        rows.append(cells)
-    headings = [
-        degrees(float(nominal[index])) + (f", {significant(float(force))} N" if loads.size > 1 else "")
-        for index, force in columns
+    cells: dict[tuple[float, tuple[str, ...]], str] = {}
+    doubts = remarks(tree, prediction)
+    for row, index in enumerate(which):
+        column = column_of(row, index)
+        mark = " *" if doubts[row] else ""
+        cells.setdefault((float(speed[row]), column), significant(float(friction[row]), 3) + mark)
+    rows = [
+        [significant(1e3 * float(at), 4), *(cells.get((float(at), column), ABSENT) for column in shown)]
+        for at in speeds[::every]
     ]
-    some = f" One speed in {every}; all of them are in the tables below." if every > 1 else ""
+    some = [f"one speed in {every}"] if every > 1 else []
+    some += [f"{len(shown)} of {len(columns)} columns"] if len(shown) < len(columns) else []
     return Table(
         "at-a-glance",
-        f"Predicted viscoelastic friction coefficient.{some}",
-        ["speed (mm/s)", *headings],
+        "Predicted viscoelastic friction coefficient."
+        + (f" Shown: {several(some)}; all of them are in the tables below." if some else ""),
+        ["speed (mm/s)", *(", ".join(column) for column in shown)],
         rows,
         note=f"* {_or(doubts)}." if any(cell.endswith("*") for row in rows for cell in row) else "",
     )
@@ -120,23 +127,27 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
     prediction = group(tree, name)
     if prediction is None:
         return None
+    prediction = cases_of(prediction)
     friction = prediction["friction_coefficient"]
     full = prediction.assign(relative_error=prediction["friction_error"] / abs(friction).where(friction != 0.0))
+    load, area = (str(full[part].attrs.get("units", "")) for part in ("load", "contact_area"))
+    is_line = area == "m"
     table = made_table(
         key,
         caption,
         full,
         [
+            *_varied_columns(full),
             Column("temperature", "temperature", degrees),
             Column("speed (mm/s)" if name == "prediction" else "reduced speed (mm/s)", "speed", times(1e3)),
-            Column("load (N)", "load", significant),
+            Column(f"load ({load or 'N'})", "load", significant),
             Column("friction coefficient", "friction_coefficient", times(1.0)),
             Column("95 % from", "friction_lower", times(1.0)),
             Column("to", "friction_upper", times(1.0)),
             Column("numerical error", "relative_error", percent),
             Column("energy balance", "energy_balance", percent),
             Column("indentation (mm)", "indentation", times(1e3)),
-            Column("area (mm²)", "contact_area", times(1e6, 3)),
+            Column("width (mm)" if is_line else "area (mm²)", "contact_area", times(1e3 if is_line else 1e6, 3)),
             Column("front (mm)", "front", times(1e3)),
             Column("rear (mm)", "rear", times(1e3)),
             Column("half-width (mm)", "half_width", times(1e3)),
@@ -148,7 +159,28 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
         is_open,
         _MEANINGS,
     )
-    return _with_remarks(table, remarks(tree, prediction))
+    return _with_remarks(table, [_state(*told) for told in zip(*_states(full), remarks(tree, full), strict=True)])
+
+
+def _varied_columns(cases: xr.Dataset) -> list[Column]:
+    """Return columns of what else varies; names of rubbers stand before them."""
+    found = []
+    for name in VARIED:
+        if name == "load" or name not in cases or len(np.unique(cases[name].values)) < 2:
+            continue
+        found.append(Column(name.replace("_", " "), name, partial(value_label, cases, name)))
+    return found
+
+
+def _states(cases: xr.Dataset) -> tuple[Array, Array]:
+    """Return which cases failed, and which were interpolated."""
+    return values(cases, "failed") == 1.0, values(cases, "interpolated") == 1.0
+
+
+def _state(failed: bool, between: bool, doubt: str) -> str:
+    return "; ".join(
+        word for word in ("not solved" if failed else "", "interpolated" if between else "", doubt) if word
+    )
 
 
 def measurement_table(tree: xr.DataTree) -> Table | None:

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 # Okabe and Ito's colours, which colour-blind readers tell apart
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
 INK, GREY = "#222222", "#8a8a8a"
+#: White of marks inside a map, which stays white where a page turns dark.
+WHITE = "#fefefe"
 
 _COLOURS = (BLUE, GREEN, VERMILION, PURPLE, ORANGE, SKY)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
@@ -89,6 +91,16 @@ def looks(count: int) -> list[Look]:
     else:
         scale = matplotlib.colormaps["viridis"]
         colours = [scale(0.9 * index / (count - 1)) for index in range(count)]
+    return [
+        Look(colour, _MARKERS[index % len(_MARKERS)], _DASHES[index % len(_DASHES)])
+        for index, colour in enumerate(colours)
+    ]
+
+
+def sequential_looks(count: int) -> list[Look]:
+    """Return a look for each of so many values of an ordered quantity, from dark (low) to light."""
+    scale = matplotlib.colormaps["viridis"]
+    colours = [scale(0.88 * index / max(count - 1, 1)) for index in range(count)]
     return [
         Look(colour, _MARKERS[index % len(_MARKERS)], _DASHES[index % len(_DASHES)])
         for index, colour in enumerate(colours)
@@ -230,8 +242,13 @@ _BAR_WIDTH = 0.13  # inches
 
 def temperature_bar(figure: Figure, scale: ScalarMappable, panels: Sequence[Axes]) -> Colorbar:
     """Add the colour bar of a temperature scale to the right of panels."""
+    return slender_bar(figure, scale, panels, "temperature (°C)")
+
+
+def slender_bar(figure: Figure, scale: ScalarMappable, panels: Sequence[Axes], label: str, **style: Any) -> Colorbar:
+    """Add a slender colour bar to the right of panels."""
     slender = max(figure.get_figheight() / _BAR_WIDTH, 15.0)
-    bar = figure.colorbar(scale, ax=list(panels), label="temperature (°C)", pad=0.015, aspect=slender)
+    bar = figure.colorbar(scale, ax=list(panels), label=label, pad=0.015, aspect=slender, **style)
     bar.ax.tick_params(top=False, bottom=False, left=False)
     return bar
 

@@ -10,19 +10,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from viscofric.files import write_atomically
-from viscofric.report.checks import all_checks
-from viscofric.report.drawing import figure_images, save_images
+from viscofric.report.captions import captions
+from viscofric.report.checks import all_checks, counted
+from viscofric.report.dark import adaptive
+from viscofric.report.drawing import RUBBER_FIGURES, figure_images, save_images
 from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
 from viscofric.report.messages import grouped_failures, readable
-from viscofric.report.results import group, is_synthetic, sentences, table
+from viscofric.report.question import inputs, what_was_asked
+from viscofric.report.results import group, is_synthetic, rubbers, sentences, table
 from viscofric.report.tables import detail_tables
-from viscofric.report.words import captions, key_numbers, what_was_asked
+from viscofric.report.words import key_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _HERE = Path(__file__).parent
 _MOST_KINDS_OF_FAILURE = 20
+_PIXELS_PER_POINT = 1.45
 
 
 def write_figures_and_report(tree: xr.DataTree, folder: str | Path) -> tuple[list[Path], Path]:
@@ -90,14 +94,15 @@ def write_report(tree: xr.DataTree, folder: str | Path, *, images: dict[str, dic
 def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, Any]:
     """Gather what the page shows, as texts."""
     attrs = {name: str(value) for name, value in tree.attrs.items()}
-    said = captions(tree)
     spectrum, agreement = group(tree, "spectrum"), group(tree, "agreement")
+    checks = all_checks(tree)
     return {
         "title": attrs.get("title") or "Viscoelastic friction",
         "synthetic": is_synthetic(tree),
         "created": _moment(attrs.get("created", "")),
         "version": attrs.get("viscofric_version", ""),
         "asked": what_was_asked(tree),
+        "inputs": inputs(tree),
         "key_numbers": key_numbers(tree),
         "glance": friction_at_a_glance(tree),
         "agreement": agreement_table(tree),
@@ -105,11 +110,11 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
         "statements": []
         if spectrum is None
         else [readable(statement) for statement in sentences(spectrum.attrs, "statements")],
-        "checks": all_checks(tree),
-        "figures": [
-            {"name": name, "caption": caption, "source": _as_data(images[name]["svg"])}
-            for name, caption in said.items()
-            if name in images
+        "checks": checks,
+        "verdicts": counted(checks),
+        "answer_figures": _figures(tree, images, _ANSWER),
+        "figure_groups": [
+            (heading, found) for heading, names in _groups(tree) if (found := _figures(tree, images, names))
         ],
         "tables": detail_tables(tree),
         "failures": grouped_failures(sentences(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
@@ -121,6 +126,45 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
         "hashes": table(tree.attrs, "input_hashes"),
         "style": (_HERE / "report.css").read_text(encoding="utf-8"),
     }
+
+
+#: Figures that stand beside the answer.
+_ANSWER = ("friction_against_speed", "friction_sweep", "friction_map")
+
+
+def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
+    """Return all other figures in groups, as they follow each other."""
+    found = [
+        ("Friction", ("friction_master_curve", "coulomb_friction", "friction_shift_factors")),
+        ("Contact", ("contacts", "recovery_trail")),
+        ("Rubber", tuple(RUBBER_FIGURES)),
+    ]
+    for place, (rubber, _) in enumerate(rubbers(tree), 1):
+        found.append((f"Rubber: {rubber}", tuple(f"{name}_{place}" for name in RUBBER_FIGURES)))
+    return [*found, ("Calculation", ("convergence",))]
+
+
+def _figures(tree: xr.DataTree, images: dict[str, dict[str, bytes]], names: tuple[str, ...]) -> list[dict[str, Any]]:
+    """Return those of some figures that were drawn, with numbers in the order of the page."""
+    page = [name for name in (*_ANSWER, *(name for _, group in _groups(tree) for name in group)) if name in images]
+    said = captions(tree)
+    return [
+        {
+            "name": name,
+            "number": page.index(name) + 1,
+            "caption": said[name],
+            "source": _as_data(adaptive(images[name]["svg"])),
+            "width": _width(images[name]["svg"]),
+        }
+        for name in names
+        if name in images
+    ]
+
+
+def _width(svg: bytes) -> int:
+    """Return the width at which the letters of a figure are as large as those of its caption, CSS pixels."""
+    points = re.search(rb'<svg[^>]*\swidth="([\d.]+)pt"', svg)
+    return round(_PIXELS_PER_POINT * float(points[1])) if points else 0
 
 
 def _as_data(svg: bytes) -> str:

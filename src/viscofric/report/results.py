@@ -30,6 +30,31 @@ def group(tree: xr.DataTree, name: str) -> xr.Dataset | None:
     return None if empty else dataset
 
 
+def rubbers(tree: xr.DataTree) -> list[tuple[str, xr.DataTree]]:
+    """Return what the results know of each of several rubbers, with its name; empty where there is one only.
+
+    Each is a tree like the whole, of one rubber, which takes from the whole what it does not say itself.
+    """
+    parent = tree.children.get(_RUBBERS)
+    if parent is None:
+        return []
+    prediction = group(tree, "prediction")
+    named: Any = (
+        [] if prediction is None or "material" not in prediction.coords else np.ravel(prediction["material"].values)
+    )
+    found = []
+    for index, place in enumerate(sorted(parent.children, key=lambda name: (len(name), name))):
+        branch = parent.children[place].copy(deep=False)
+        branch.attrs = {name: tree.attrs[name] for name in _SHARED if name in tree.attrs} | branch.attrs
+        name = str(named[index]) if index < len(named) else str(branch.attrs.get("material", ""))
+        found.append((name or f"rubber {place}", branch))
+    return found
+
+
+_RUBBERS = "materials"
+_SHARED = ("data_origin", "accuracy", "load", "poisson_ratio", "indenter_radius")
+
+
 def number(attributes: Mapping[Any, Any], name: str) -> float:
     """Return an attribute as a float, nan if it is absent or not a number."""
     try:

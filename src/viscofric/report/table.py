@@ -58,7 +58,7 @@ def made_table(
 ) -> Table:
     """Write down those columns that the dataset has."""
     columns = [column for column in columns if column.variable in dataset.variables]
-    texts = [[column.text(float(value)) for value in values(dataset, column.variable)] for column in columns]
+    texts = [_cells(dataset, column) for column in columns]
     return Table(
         key,
         caption,
@@ -67,3 +67,9 @@ def made_table(
         is_open,
         note,
     )
+
+
+def _cells(dataset: xr.Dataset, column: Column) -> list[str]:
+    if dataset[column.variable].dtype.kind in "OU":
+        return [str(value) for value in dataset[column.variable].values]
+    return [column.text(float(value)) for value in values(dataset, column.variable)]

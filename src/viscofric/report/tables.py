@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from viscofric.report.friction_tables import friction_shift_table, measurement_table, prediction_table
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import significant
-from viscofric.report.results import group
+from viscofric.report.results import group, rubbers
 from viscofric.report.results import table as texts
 from viscofric.report.table import Column, Table, made_table, times
 
@@ -69,6 +70,19 @@ def detail_tables(tree: xr.DataTree) -> list[Table]:
     found = [
         prediction_table(tree, "prediction", "prediction", "Friction predicted for each case.", True),
         measurement_table(tree),
+        *_master_and_rubber(tree),
+    ]
+    for place, (rubber, branch) in enumerate(rubbers(tree), 1):
+        found += [
+            replace(table, key=f"{table.key}-{place}", caption=f"{rubber}. {table.caption}")
+            for table in _master_and_rubber(branch)
+            if table is not None
+        ]
+    return [table for table in found if table is not None]
+
+
+def _master_and_rubber(tree: xr.DataTree) -> list[Table | None]:
+    return [
         prediction_table(
             tree,
             "prediction_master",
@@ -81,4 +95,3 @@ def detail_tables(tree: xr.DataTree) -> list[Table]:
         _law_table(tree),
         _spectrum_table(tree),
     ]
-    return [table for table in found if table is not None]

@@ -1,0 +1,168 @@
+"""What each figure shows, in a sentence or two."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.report.contacts import shown_contacts
+from viscofric.report.doubts import interpolated, is_extrapolated
+from viscofric.report.house_style import degrees
+from viscofric.report.map_figures import MARKED_TEMPERATURES
+from viscofric.report.messages import readable
+from viscofric.report.panels import panel_count
+from viscofric.report.results import group, is_synthetic, reference_temperature, rubbers, sentences
+from viscofric.report.sweeps import MOST_LINES, MOST_PANELS, labelled, layout_of, solved_cases, sweep_axes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def captions(tree: xr.DataTree) -> dict[str, str]:
+    """Say what each figure shows."""
+    said = _captions(tree)
+    for place, (rubber, branch) in enumerate(rubbers(tree), 1):
+        said |= {f"{name}_{place}": f"{rubber}. {caption}" for name, caption in _captions(branch).items()}
+    return said
+
+
+def _captions(tree: xr.DataTree) -> dict[str, str]:
+    reference = reference_temperature(tree)
+    at = "the reference temperature" if reference is None else degrees(reference)
+    points = group(tree, "measurement") is not None
+    made = is_synthetic(tree)
+    measured = "synthetic measurement" if made else "measured"
+    bars = f" Points: {measured}, with bars of one standard deviation over the repetitions." if points else ""
+    # Only what was tested: a sentence of the study tells how the curves coincide, or that they do not overlap.
+    told = (note for note in sentences(tree.attrs, "notes") if "overlap in reduced speed" in note)
+    together = f" {readable(next(told, ''))}".rstrip() if points else ""
+    return {
+        "friction_against_speed": "Viscoelastic friction against speed. "
+        f"Lines: predicted{_thin(tree, 'prediction')}{_shaded(tree, 'prediction')}.{bars}",
+        "friction_master_curve": f"Viscoelastic friction against speed times shift factor, at {at}. Line: predicted "
+        f"over the whole range{_thin(tree, 'prediction_master')}{_shaded(tree, 'prediction_master')}.{bars}{together}",
+        "friction_sweep": _of_sweep(tree),
+        "friction_map": _of_map(tree),
+        "coulomb_friction": f"Coulomb friction against speed.{bars} It is measured, not predicted.",
+        "friction_shift_factors": "Shift factors found from friction alone, by laying its curves over one another, "
+        "beside those of the modulus; both with their standard errors.",
+        "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: "
+        f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them"
+        f"{_banded(tree)}; below, what the spectrum leaves over.",
+        "spectrum": "Retardation spectrum: the compliance of each mode over its retardation time.",
+        "shift_factors": f"Shift factors {_origin(tree)}, and a law fitted to them.",
+        "vertical_shift": "Vertical shift b of the modulus.",
+        "superposition": "Loss angle against the size of the modulus (van Gurp–Palmen), and loss against storage "
+        "modulus (Cole–Cole), which no shift along the frequency changes: where superposition holds, all temperatures "
+        "lie on one line.",
+        "isotherms": f"Storage and loss modulus {'of the synthetic sweeps' if made else 'as measured'}, one curve "
+        "for each temperature.",
+        "contacts": _of_contacts(tree),
+        "recovery_trail": "The surface of the rubber on the centre line, seen from the side; the indenter moves to the "
+        "right. Behind the contact the rubber has not yet recovered: the surface there lies below its mirror image "
+        "ahead, by the more the longer the rubber remembers.",
+        "convergence": _of_convergence(tree),
+    }
+
+
+def _of_sweep(tree: xr.DataTree) -> str:
+    """Say what runs along the axis, what the lines and the panels are, and what was left out."""
+    friction = labelled(tree)
+    layout = None if friction is None else layout_of(friction)
+    if friction is None or layout is None:
+        return ""
+    said = f"Predicted viscoelastic friction against {layout.along.title}"
+    if layout.lines is not None:
+        said += f", one line for each {layout.lines.title}"
+        if len(layout.lines) > MOST_LINES:
+            said += f" ({MOST_LINES} of {len(layout.lines)} are drawn)"
+    if layout.panels:
+        shown, count = panel_count(layout.panels, MOST_PANELS)
+        said += f", one panel for each {' and each '.join(axis.title for axis in layout.panels)}"
+        said += f" ({shown} of {count} are drawn)" if shown < count else ""
+    if "sample" in friction["friction_coefficient"].dims:
+        said += "; the bands hold 95 % of the rubbers that were drawn from the uncertainty of the material"
+    elif "friction_lower" in friction:
+        said += "; bands: 95 %, as the uncertainty of the rubber leaves it"
+    missing = "" if np.isfinite(friction["friction_coefficient"].values).all() else " Crosses: not solved."
+    return f"{said}.{missing}"
+
+
+def _of_map(tree: xr.DataTree) -> str:
+    friction = labelled(tree)
+    others = [] if friction is None else [axis for axis in sweep_axes(friction) if axis.name not in _MAPPED]
+    said = "Predicted viscoelastic friction over speed and temperature"
+    said += f", one panel for each {' and each '.join(axis.title for axis in others)}" if others else ""
+    said += ". Diamonds: the speed of the highest friction at each temperature, where it lies inside the range. "
+    said += "Between the speeds and temperatures that were asked for, the colours are interpolated."
+    if friction is not None and friction.sizes.get("temperature", 0) <= MARKED_TEMPERATURES:
+        said += " Dotted: those temperatures."
+    if group(tree, "measurement") is not None:
+        said += " Circles: where friction was measured."
+    if friction is not None and not np.isfinite(friction["friction_coefficient"].values).all():
+        said += " Crosses: not solved."
+    return said
+
+
+_MAPPED = ("speed", "temperature")
+
+
+def _of_contacts(tree: xr.DataTree) -> str:
+    shown = shown_contacts(tree)
+    if not shown:
+        return ""
+    above = "" if shown[0].contact.is_line else "Contact pressure seen from above, and on the centre line below. "
+    if shown[0].contact.is_line:
+        above = "Contact pressure along the motion. "
+    elif len(shown) == 1:
+        above = "Contact pressure seen from above, and on the centre line. "
+    marks = "" if shown[0].contact.is_line else " (cross: the axis; dot: the centre of pressure)"
+    return (
+        f"{above}The indenter moves to the right{marks}. The pressure leans to the leading edge: its centre lies "
+        "ahead of the indenter's axis, and that is the friction. Dotted: the profile's mirror image."
+    )
+
+
+def _of_convergence(tree: xr.DataTree) -> str:
+    cases = solved_cases(tree)
+    between = 0 if cases is None else int(interpolated(cases).sum())
+    said = (
+        "How well the cases were solved: the estimated numerical error of friction, and how far friction from the "
+        "pressure and friction from the dissipated energy differ, both over the friction coefficient"
+    )
+    if cases is None or not between:
+        return f"{said}; below, the cells along the longer edge of the finest grid."
+    return (
+        f"{said}. {between} of {cases.sizes['case']} values (open marks) are interpolated between solved contacts, "
+        "with the error of doing so counted; below, the cells along the longer edge of the finest grid of the others."
+    )
+
+
+def _origin(tree: xr.DataTree) -> str:
+    """Say where the shift factors come from."""
+    factors = group(tree, "shift_factors")
+    origin = "found" if factors is None else str(factors.attrs.get("shift_origin", "found"))
+    if origin == "given":
+        return "that were given, not found on the sweeps"
+    found = "found by laying the isotherms over one another, with their standard errors"
+    return f"{found}; single ones were held at given values, without an error" if origin == "held" else found
+
+
+def _banded(tree: xr.DataTree) -> str:
+    spectrum = group(tree, "spectrum_curve")
+    banded = spectrum is not None and "storage_modulus_lower" in spectrum
+    return ", with the 95 % band of its modulus" if banded else ""
+
+
+def _shaded(tree: xr.DataTree, name: str) -> str:
+    """Say what the bands are, where there are any."""
+    cases = group(tree, name)
+    if cases is None or "friction_lower" not in cases.variables:
+        return ""
+    return ", with the 95 % band that the uncertainty of the rubber (sweeps, shift factors, spectrum) leaves"
+
+
+def _thin(tree: xr.DataTree, name: str) -> str:
+    cases = group(tree, name)
+    return ", thin beyond the measured frequencies" if cases is not None and is_extrapolated(cases).any() else ""

@@ -1,0 +1,171 @@
+"""Friction as a map over speed and temperature, with the ridge of its maximum."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import matplotlib
+import matplotlib.patheffects
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from viscofric.report.house_style import INK, VERMILION, WHITE, slender_bar, speed_ticks
+from viscofric.report.panels import panel_points, panel_title, small_multiples
+from viscofric.report.sweep_figures import FRICTION
+from viscofric.report.sweeps import best_estimate, sweep_axes
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.contour import QuadContourSet
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_COEFFICIENT = "friction_coefficient"
+_LEVELS = 10
+#: A map asks for so many speeds and temperatures.
+LEAST_SPEEDS, LEAST_TEMPERATURES = 4, 3
+_MOST_MAPS = 6
+#: Up to so many temperatures are marked in a map.
+MARKED_TEMPERATURES = 10
+
+
+def plot_friction_map(
+    axes: Axes, speed: Array, temperature: Array, friction: Array, *, levels: Array | int = _LEVELS
+) -> QuadContourSet:
+    """Draw friction over the logarithm of the speed and the temperature, with the ridge of its maximum.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    speed : (n,) array
+        m/s, above zero, ascending.
+    temperature : (m,) array
+        K, ascending.
+    friction : (m, n) array
+        NaN where a case was not solved.
+    levels : (k,) array or int
+        Of the filled contours, or how many of them.
+
+    Returns
+    -------
+    matplotlib.contour.QuadContourSet
+        For a colour bar.
+    """
+    x, y = 1e3 * np.asarray(speed), np.asarray(temperature) - 273.15
+    known = np.ma.masked_invalid(friction)
+    filled: QuadContourSet = axes.contourf(x, y, known, levels=levels, cmap=matplotlib.colormaps["viridis"])
+    axes.contour(x, y, known, levels=filled.levels, colors=WHITE, linewidths=0.4, alpha=0.6)
+    ridge = maximum_ridge(speed, temperature, friction)
+    if ridge.size:
+        around = [matplotlib.patheffects.withStroke(linewidth=3.0, foreground=WHITE)]
+        axes.plot(
+            1e3 * ridge[:, 0],
+            ridge[:, 1] - 273.15,
+            color=VERMILION,
+            marker="D",
+            markersize=3.5,
+            path_effects=around,
+            label="maximum",
+        )
+    if y.size <= MARKED_TEMPERATURES:
+        axes.hlines(y, x.min(), x.max(), colors=WHITE, linewidths=0.6, linestyles=":", alpha=0.7)
+    axes.set_xscale("log")
+    axes.set_xlim(x.min(), x.max())
+    axes.set_ylim(y.min(), y.max())
+    axes.grid(visible=False)
+    speed_ticks(axes.xaxis)
+    return filled
+
+
+def maximum_ridge(speed: Array, temperature: Array, friction: Array) -> Array:
+    """Return speed and temperature at which friction is highest along the speed, where that lies inside the range.
+
+    Parameters
+    ----------
+    speed : (n,) array
+        m/s, ascending.
+    temperature : (m,) array
+        K.
+    friction : (m, n) array
+
+    Returns
+    -------
+    (k, 2) array
+        m/s, refined by a parabola through three points over the logarithm of the speed, and K; one row for each
+        temperature whose maximum has solved neighbours on both sides.
+    """
+    found = []
+    log = np.log(np.asarray(speed, dtype=float))
+    for kelvin, row in zip(np.asarray(temperature).tolist(), np.asarray(friction, dtype=float), strict=True):
+        if not np.isfinite(row).any():
+            continue
+        top = int(np.nanargmax(row))
+        if not 0 < top < len(row) - 1 or not np.isfinite(row[top - 1 : top + 2]).all():
+            continue
+        curvature, slope, _ = np.polyfit(log[top - 1 : top + 2] - log[top], row[top - 1 : top + 2], 2)
+        step = -0.5 * slope / curvature if curvature < 0.0 else 0.0
+        found.append((math.exp(log[top] + step), kelvin))
+    return np.array(found).reshape(-1, 2)
+
+
+def map_figure(friction: xr.Dataset, measurement: tuple[Array, Array] | None = None) -> Figure | None:
+    """Return friction as a map over speed and temperature, one for each point of the other axes, on one scale.
+
+    Parameters
+    ----------
+    friction : xarray.Dataset
+        Labelled results.
+    measurement : ((n,) array, (n,) array), optional
+        Speeds (m/s) and temperatures (K) of measured points, to mark.
+
+    Returns
+    -------
+    Figure or None
+        None where there are too few speeds or temperatures for a map, or too little was solved.
+    """
+    sizes = friction.sizes
+    if sizes.get("speed", 0) < LEAST_SPEEDS or sizes.get("temperature", 0) < LEAST_TEMPERATURES:
+        return None
+    mu = best_estimate(friction)[_COEFFICIENT].sortby(["temperature", "speed"])
+    if np.isfinite(mu.values).sum() < LEAST_SPEEDS * LEAST_TEMPERATURES:
+        return None
+    panels = [axis for axis in sweep_axes(friction) if axis.name not in ("speed", "temperature")]
+    chosen = panel_points(panels, _MOST_MAPS)
+    figure, grid = small_multiples(len(chosen))
+    lowest, highest = np.nanquantile(mu.values, [0.0, 1.0])
+    levels = np.asarray(MaxNLocator(_LEVELS).tick_values(lowest, highest))
+    speed, temperature = mu["speed"].values, mu["temperature"].values
+    for axes, place in zip(grid, chosen, strict=True):
+        part = mu.isel(place).transpose("temperature", "speed").values
+        filled = plot_friction_map(axes, speed, temperature, part, levels=levels)
+        axes.set_title(panel_title(panels, place), fontsize=9.5)
+        _mark_points(axes, speed, temperature, part, measurement)
+    slender_bar(figure, filled, grid, FRICTION)
+    figure.supxlabel("speed $v$ (mm/s)", fontsize=10.5)
+    figure.supylabel("temperature (°C)", fontsize=10.5)
+    return figure
+
+
+def _mark_points(
+    axes: Axes, speed: Array, temperature: Array, friction: Array, measurement: tuple[Array, Array] | None
+) -> None:
+    """Mark where friction was measured, and where it could not be calculated."""
+    rows, columns = np.nonzero(~np.isfinite(friction))
+    if rows.size:  # nothing at all, unclipped, would upset the layout
+        axes.plot(1e3 * speed[columns], temperature[rows] - 273.15, "x", color=INK, markersize=4, clip_on=False)
+    if measurement is not None:
+        at, kelvin = measurement
+        axes.plot(
+            1e3 * at,
+            kelvin - 273.15,
+            "o",
+            color="none",
+            markeredgecolor=WHITE,
+            markersize=4,
+            clip_on=False,
+            markeredgewidth=1.0,
+        )

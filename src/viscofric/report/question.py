@@ -1,0 +1,157 @@
+"""What was asked, in sentences, and the inputs that it was asked with."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.report.house_style import degrees
+from viscofric.report.numbers import ABSENT, several, short, speed
+from viscofric.report.results import (
+    group,
+    is_from_friction,
+    is_synthetic,
+    nominal_temperatures,
+    number,
+    reference_temperature,
+    values,
+)
+from viscofric.report.sweeps import cases_of, labelled, sweep_axes, value_label
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from viscofric.report.sweeps import SweepAxis
+
+    Array = NDArray[np.float64]
+
+_FEW = 6  # points that are told one by one
+
+# Space between a number and its unit, where a line should not break
+_BEFORE_UNIT = re.compile(r"(?<=\d) (?=°C|N\b|mm|m/s|rad/s|%)")
+
+
+class Input(NamedTuple):
+    """One thing that was given: what it is, and its value in words."""
+
+    name: str
+    value: str
+
+
+def what_was_asked(tree: xr.DataTree) -> list[str]:
+    """Say the inputs of the study in sentences."""
+    attrs = tree.attrs
+    said = []
+    found, sweeps = group(tree, "prediction"), group(tree, "isotherms")
+    if found is not None:
+        prediction = cases_of(found)
+        steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(prediction, "temperature"))]
+        at = several(steps) if len(steps) <= 6 else f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}"
+        accuracy = number(attrs, "accuracy")
+        said.append(
+            f"The viscoelastic friction of a rubber against a {attrs.get('indenter', 'rigid indenter')}"
+            f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} "
+            f"and {at}" + (f", to an accuracy of {short(100 * accuracy)} %." if math.isfinite(accuracy) else ".")
+        )
+        also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load")]
+        if also:
+            said.append(f"Varied as well: {'; '.join(f'{axis.title} ({_points(axis)})' for axis in also)}.")
+    if sweeps is not None:
+        steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(sweeps, "temperature"))]
+        at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
+        file = f" ({attrs['dma_format']})" if attrs.get("dma_format") else ""
+        said.append(
+            f"The rubber is known from dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
+            f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s"
+            f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
+        )
+    elif attrs.get("material"):
+        source = f" ({attrs['citation']})" if attrs.get("citation") else ""
+        said.append(
+            f"The rubber is {attrs['material']}{source}. Poisson's ratio is {short(number(attrs, 'poisson_ratio'))}."
+        )
+    measurement = group(tree, "measurement")
+    if measurement is not None:
+        kind = "synthetic (made, not measured)" if is_synthetic(tree) else "measured"
+        coulomb = np.isfinite(values(measurement, "coulomb")).any()
+        separated = ", at which the viscoelastic and the Coulomb friction were separated" if coulomb else ""
+        enters = (
+            "The rubber was itself identified from friction; if that is this friction, the comparison tells how well "
+            "it was fitted, and tests no prediction."
+            if is_from_friction(tree)
+            else "Nothing of this friction enters the prediction."
+        )
+        points = f"{measurement.sizes['point']} {kind} points of friction"
+        said.append(f"The prediction is compared with {points}{separated}. {enters}")
+    return [_BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", sentence) for sentence in said]
+
+
+def inputs(tree: xr.DataTree) -> list[Input]:
+    """Return what the study was given: rubber, indenter, conditions, accuracy."""
+    attrs, listed = tree.attrs, []
+    rubber = str(attrs.get("material") or attrs.get("material_name") or "")
+    if not rubber and group(tree, "isotherms") is not None:
+        rubber = "of the sweeps"
+    listed.append(Input("rubber", rubber))
+    listed.append(Input("Poisson's ratio", short(number(attrs, "poisson_ratio"))))
+    reference = reference_temperature(tree)
+    listed.append(Input("reference temperature", "" if reference is None else degrees(reference)))
+    listed.append(Input("indenter", str(attrs.get("indenter", ""))))
+    friction = labelled(tree)
+    if friction is not None:
+        along = {axis.name: axis for axis in _axes(tree)}
+        told = {column for axis in along.values() for column in axis.columns}
+        listed += [Input(axis.title, f"{_points(axis)} ({len(axis)} in all)") for axis in along.values()]
+        for name in ("load", "temperature", "speed", "thickness"):
+            if name in friction.coords and name not in told and friction[name].ndim == 0:
+                listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
+        listed.append(Input("cases", str(math.prod(friction.sizes.values()))))
+    accuracy = number(attrs, "accuracy")
+    listed.append(Input("accuracy asked for", f"{short(100 * accuracy)} %" if math.isfinite(accuracy) else ""))
+    return [item for item in listed if item.value not in ("", ABSENT)]
+
+
+def _axes(tree: xr.DataTree) -> list[SweepAxis]:
+    friction = labelled(tree)
+    return [] if friction is None else sweep_axes(friction)
+
+
+def _points(axis: SweepAxis) -> str:
+    """Say the points of an axis: all of a few, the ends of many."""
+    if len(axis) <= _FEW:
+        return several(list(axis.labels)) if not any("," in label for label in axis.labels) else "; ".join(axis.labels)
+    return f"{axis.labels[0]} to {axis.labels[-1]}"
+
+
+def _under(prediction: xr.Dataset, load: float) -> str:
+    """Say the load, or the range of loads."""
+    loads = values(prediction, "load")
+    loads = loads[np.isfinite(loads)] if np.isfinite(loads).any() else np.array([load])
+    unit = str(prediction["load"].attrs.get("units", "N")) if "load" in prediction else "N"
+    return f" under {_range(loads, 4)} {unit}" if np.isfinite(loads).all() else ""
+
+
+def _isotherms_used(tree: xr.DataTree) -> str:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return ""
+    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
+    return f"; {used:.0f} of {given:.0f} isotherms used" if math.isfinite(given) and math.isfinite(used) else ""
+
+
+def _range(numbers: Array, digits: int = 3) -> str:
+    low, high = short(float(np.nanmin(numbers)), digits), short(float(np.nanmax(numbers)), digits)
+    return low if low == high else f"{low} to {high}"
+
+
+def _speeds(metres_per_second: Array) -> str:
+    """Say a range of speeds: 20 to 200 mm/s, 0.1 mm/s to 10 m/s."""
+    low, high = speed(float(np.nanmin(metres_per_second))), speed(float(np.nanmax(metres_per_second)))
+    if low == high:
+        return low
+    same_unit = low.split()[1] == high.split()[1]
+    return f"{low.split()[0] if same_unit else low} to {high}"

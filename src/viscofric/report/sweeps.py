@@ -1,0 +1,255 @@
+"""The axes of a study's results: which vary, what their points are called, and all cases one below the other."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.report.house_style import degrees
+from viscofric.report.numbers import length, megapascals, short, speed
+from viscofric.report.results import group
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+#: Dimension of results that are told case by case.
+CASE = "case"
+#: Dimension of the members of a material's posterior.
+SAMPLE = "sample"
+#: Most lines in one panel, and most panels in one figure: more are not read.
+MOST_LINES, MOST_PANELS = 8, 9
+
+#: What else than speed and temperature may vary, in the order in which it is told.
+VARIED = ("material", "sample", "radius", "radius_x", "radius_y", "angle", "thickness", "indenter_modulus", "load")
+_SPEED, _TEMPERATURE = "speed", "temperature"
+# coordinate -> its unit on a figure's axis, and what an SI number is divided by (temperatures: less 273.15)
+_UNITS = {
+    "speed": ("mm/s", 1e-3),
+    "temperature": ("°C", 1.0),
+    "radius": ("mm", 1e-3),
+    "thickness": ("mm", 1e-3),
+    "radius_x": ("mm", 1e-3),
+    "radius_y": ("mm", 1e-3),
+    "angle": ("°", math.pi / 180.0),
+    "indenter_modulus": ("MPa", 1e6),
+}
+_SYMBOLS = {"speed": "$v$", "load": "$F$", "radius": "$R$", "thickness": "$h$"}
+
+
+@dataclass(frozen=True, eq=False)
+class SweepAxis:
+    """One dimension of the results that has more than one point.
+
+    Parameters
+    ----------
+    name : str
+        Of the dimension.
+    columns : tuple of str
+        Coordinates along it; several where they are varied together.
+    title : str
+        What it is called: "temperature", "load and radius".
+    labels : tuple of str
+        What each point is called: "30 °C", "25 N, 10 mm".
+    position : (n,) array
+        Places of the points on a figure's axis, in the unit of `axis_label`.
+    axis_label : str
+        Label of a figure's axis along it.
+    is_ordered : bool
+        Whether its points are numbers.
+    """
+
+    name: str
+    columns: tuple[str, ...]
+    title: str
+    labels: tuple[str, ...]
+    position: Array
+    axis_label: str
+    is_ordered: bool
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+    @property
+    def is_logarithmic(self) -> bool:
+        """Whether a figure's axis along it should be logarithmic: it spans more than a factor of five."""
+        if self.name == _TEMPERATURE or not self.is_ordered:
+            return False
+        return self.name == _SPEED or bool(
+            self.position.min() > 0.0 and self.position.max() > 5.0 * self.position.min()
+        )
+
+
+def sweep_axes(dataset: xr.Dataset) -> list[SweepAxis]:
+    """Return the dimensions of labelled results that have more than one point, samples of the rubber left out."""
+    return [axis_of(dataset, str(name)) for name, size in dataset.sizes.items() if size > 1 and name != SAMPLE]
+
+
+def axis_of(dataset: xr.Dataset, dimension: str) -> SweepAxis:
+    """Return one dimension of labelled results."""
+    along = [str(name) for name, part in dataset.coords.items() if part.dims == (dimension,)]
+    columns = [name for name in along if not _is_index(dataset, name, dimension, along)] or along
+    if not columns:
+        count = dataset.sizes[dimension]
+        labels = tuple(f"{dimension} {number + 1}" for number in range(count))
+        return SweepAxis(dimension, (), dimension, labels, np.arange(count, dtype=float), dimension, False)
+    told = [[value_label(dataset, name, value) for value in dataset[name].values] for name in columns]
+    numeric = [name for name in columns if np.issubdtype(dataset[name].dtype, np.number)]
+    first = numeric[0] if numeric else columns[0]
+    position = on_axis(first, dataset[first].values) if numeric else np.arange(dataset.sizes[dimension], dtype=float)
+    others = " and ".join(_spoken(name) for name in columns if name != first)
+    return SweepAxis(
+        dimension,
+        tuple(columns),
+        " and ".join(_spoken(name) for name in columns),
+        tuple(", ".join(row) for row in zip(*told, strict=True)),
+        position,
+        axis_label(dataset, first) + (f", with {others}" if others else ""),
+        bool(numeric),
+    )
+
+
+def _is_index(dataset: xr.Dataset, name: str, dimension: str, along: list[str]) -> bool:
+    """Whether a coordinate merely counts the points of a dimension that has others to be named by."""
+    return name == dimension and len(along) > 1 and name not in _UNITS and name != "load"
+
+
+def _spoken(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def on_axis(name: str, numbers: object) -> Array:
+    """Return SI numbers of a coordinate in the unit of a figure's axis."""
+    numbers = np.asarray(numbers, dtype=float)
+    return numbers - 273.15 if name == _TEMPERATURE else numbers / _UNITS.get(name, ("", 1.0))[1]
+
+
+def axis_label(dataset: xr.Dataset, name: str) -> str:
+    """Return the label of a figure's axis along a coordinate."""
+    unit = _UNITS[name][0] if name in _UNITS else str(dataset[name].attrs.get("units", ""))
+    named = f"{_spoken(name)} {_SYMBOLS[name]}" if name in _SYMBOLS else _spoken(name)
+    return f"{named} ({unit})" if unit and unit != "1" else named
+
+
+def value_label(dataset: xr.Dataset, name: str, value: object) -> str:
+    """Return one value of a coordinate in words: 30 °C, 20 mm/s, 25 N, NBR 70."""
+    if isinstance(value, str):
+        return value
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return str(value)
+    if not np.isfinite(number):
+        return f"no {_spoken(name)}"
+    unit = str(dataset[name].attrs.get("units", ""))
+    if name == _TEMPERATURE:
+        return degrees(number)
+    if name == _SPEED:
+        return speed(number)
+    if unit == "Pa":
+        return megapascals(number)
+    if unit == "rad":
+        return f"{short(math.degrees(number))}°"
+    if unit == "m":
+        return length(number)
+    if unit in ("", "1"):
+        return f"{_spoken(name)} {short(number)}"
+    return f"{short(number)} {unit}"
+
+
+def cases_of(dataset: xr.Dataset) -> xr.Dataset:
+    """Return labelled results case by case: every variable along `case`, the last dimension running fastest.
+
+    Samples of the rubber stand one below the other too.
+    """
+    if CASE in dataset.dims:
+        return dataset
+    if not dataset.dims:
+        return dataset.reset_coords().expand_dims(CASE)
+    whole = dataset.reset_coords().broadcast_like(dataset)
+    return whole.stack({CASE: list(dataset.dims)}, create_index=False).reset_coords().drop_vars(CASE, errors="ignore")
+
+
+def best_estimate(dataset: xr.Dataset) -> xr.Dataset:
+    """Return results of the best estimate of the rubber alone, without those of its samples."""
+    if SAMPLE not in dataset.dims:
+        return dataset
+    return dataset.isel({SAMPLE: int(np.argmin(dataset[SAMPLE].values)) if SAMPLE in dataset.coords else 0})
+
+
+def solved_cases(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:
+    """Return those cases of a group that were solved, one below the other, with the best estimate of the rubber.
+
+    None if there are none.
+    """
+    found = group(tree, name)
+    if found is None or "friction_coefficient" not in found:
+        return None
+    cases = cases_of(best_estimate(found))
+    solved = np.isfinite(np.asarray(cases["friction_coefficient"].values, dtype=float))
+    return cases.isel({CASE: np.flatnonzero(solved)}) if solved.any() else None
+
+
+def labelled(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:
+    """Return predicted friction over its axes; None where it is told case by case, and these do not fill a grid."""
+    found = group(tree, name)
+    if found is None or CASE not in found.dims:
+        return found
+    found = found.reset_coords()
+    varied = [
+        column
+        for column in ("load", _TEMPERATURE, _SPEED)
+        if column in found and np.unique(found[column].values).size > 1
+    ]
+    fixed = [column for column in ("load", _TEMPERATURE, _SPEED) if column in found and column not in varied]
+    single = found.isel({CASE: 0})
+    if not varied:
+        return single.set_coords(fixed)
+    keys = np.stack([found[column].values for column in varied], axis=-1)
+    if len(np.unique(keys, axis=0)) != len(keys):
+        return None
+    grid = found.drop_vars(fixed).set_index(case=varied)
+    grid = grid.unstack(CASE) if len(varied) > 1 else grid.rename({CASE: varied[0]}).sortby(varied[0])
+    for column in varied:
+        grid[column].attrs.update(found[column].attrs)
+    return grid.assign_coords({column: single[column] for column in fixed})
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """How a sweep is drawn: what runs along the axis, what becomes lines, what becomes panels."""
+
+    along: SweepAxis
+    lines: SweepAxis | None
+    panels: tuple[SweepAxis, ...]
+
+
+def layout_of(dataset: xr.Dataset) -> Layout | None:
+    """Return how a sweep is drawn, or None where nothing varies.
+
+    Speed runs along the axis, temperature becomes lines, all else panels; without a speed or a temperature that varies
+    others take their places, the one with the most points first.
+    """
+    left = {axis.name: axis for axis in sweep_axes(dataset)}
+    if not left:
+        return None
+    ordered = sorted((axis for axis in left.values() if axis.is_ordered), key=len, reverse=True)
+    along = left.get(_SPEED) or (ordered[0] if ordered else next(iter(left.values())))
+    del left[along.name]
+    rest = sorted(left.values(), key=len, reverse=True)
+    lines = left.get(_TEMPERATURE) or (rest[0] if rest else None)
+    if lines is not None:
+        del left[lines.name]
+    return Layout(along, lines, tuple(left.values()))
+
+
+def thinned(count: int, most: int) -> list[int]:
+    """Return at most so many of a row's places, both ends among them, evenly spread."""
+    if count <= most:
+        return list(range(count))
+    return sorted({round(place) for place in np.linspace(0, count - 1, most).tolist()})

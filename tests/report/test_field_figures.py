@@ -1,0 +1,162 @@
+"""Figures of contacts: the pressure leans ahead, the surface behind has not recovered."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscofric as vf
+from viscofric.report.contacts import shown_contacts, trails
+from viscofric.report.convergence_figures import convergence_figure
+from viscofric.report.field_figures import contacts_figure, trail_figure
+from viscofric.report.sweeps import cases_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+RUBBER = vf.Material.standard_linear_solid("3 MPa", "30 MPa", "1 ms")
+SPEEDS = (1e-3, 1.0, 1e3)  # m/s: slow, about the maximum, fast
+
+
+def fields_of(solution: Any, **told: Any) -> xr.Dataset:
+    fields = solution.to_dataset()
+    fields.attrs = {}
+    units = {"speed": "m/s", "temperature": "K", "load": "N"}
+    told = {"speed": solution.speed, "temperature": 303.15, "load": solution.load, **told}
+    return fields.assign_coords({name: ((), value, {"units": units.get(name, "1")}) for name, value in told.items()})
+
+
+@pytest.fixture(scope="module")
+def solutions() -> list[Any]:
+    solve = {"load": "25 N", "accuracy": 0.03}
+    return [vf.solve_steady(RUBBER, vf.Ball("9.525 mm"), speed=speed, **solve) for speed in SPEEDS]
+
+
+@pytest.fixture
+def tree(solutions: list[Any]) -> xr.DataTree:
+    friction = [solution.friction_coefficient for solution in solutions]
+    prediction = xr.Dataset(
+        {"friction_coefficient": ("speed", friction), "friction_error": ("speed", [1e-4 * mu for mu in friction])},
+        {"speed": ("speed", list(SPEEDS)), "temperature": 303.15, "load": 25.0},
+    )
+    spectrum = RUBBER.spectrum
+    modes = xr.Dataset(
+        {"retardation_time": ("mode", spectrum.tau), "creep_coefficient": ("mode", spectrum.C)},
+        attrs={"E_inf": spectrum.E_inf, "E0": spectrum.E0},
+    )
+    temperatures = np.array([293.15, 303.15, 313.15])
+    factors = xr.Dataset(
+        {"log10_shift_factor": ("temperature", [1.0, 0.0, -1.0]), "standard_error": ("temperature", np.zeros(3))},
+        {"temperature": temperatures},
+        {"reference_temperature": 303.15, "shift_used": "measured"},
+    )
+    fields = {f"/fields/{number}": fields_of(solution) for number, solution in enumerate(solutions, 1)}
+    groups = {"/prediction": prediction, "/spectrum": modes, "/shift_factors": factors}
+    found = xr.DataTree.from_dict({**groups, **fields})
+    found.attrs = {"poisson_ratio": 0.5, "accuracy": 1e-3, "data_origin": "measured"}
+    return found
+
+
+def test_slowest_fastest_and_most_friction_are_shown(tree: xr.DataTree, solutions: list[Any]) -> None:
+    shown = shown_contacts(tree)
+    assert [contact.title for contact, _ in shown] == ["slowest", "most friction", "fastest"]
+    assert [contact.conditions for contact, _ in shown] == ["30 °C, 1 mm/s", "30 °C, 1 m/s", "30 °C, 1000 m/s"]
+    for (contact, _), solution in zip(shown, solutions, strict=True):
+        assert contact.friction == solution.friction_coefficient
+        assert contact.centre_of_pressure == pytest.approx(solution.centre_of_pressure)
+
+
+def test_contacts_that_coincide_are_shown_once(tree: xr.DataTree) -> None:
+    del tree["fields"]["3"]
+    assert [contact.title for contact, _ in shown_contacts(tree)] == ["slowest", "most friction, fastest"]
+    del tree["fields"]["1"]
+    assert [contact.title for contact, _ in shown_contacts(tree)] == [""]
+
+
+@pytest.mark.parametrize("missing", ["prediction", "spectrum", "shift_factors", "fields"])
+def test_no_group_is_needed(tree: xr.DataTree, missing: str) -> None:
+    del tree[missing]
+    shown = shown_contacts(tree)
+    assert len(shown) == (0 if missing == "fields" else 3 if missing != "prediction" else 2)
+    assert len(trails(tree, shown)) == len(shown)
+
+
+def test_friction_is_the_lean_of_the_pressure(tree: xr.DataTree) -> None:
+    contact, _ = shown_contacts(tree)[1]
+    figure = contacts_figure([contact])
+    profile = figure.axes[1]
+    centre = next(line for line in profile.lines if line.get_label() == "centre of pressure")
+    # μ = x_c / R of a ball (the paraboloid), to what the cells at the edge leave out.
+    assert float(centre.get_xdata()[0]) == pytest.approx(9.525 * contact.friction, rel=0.05)
+
+
+def test_pressures_that_differ_much_are_shown_over_their_means(tree: xr.DataTree) -> None:
+    contacts = [contact for contact, _ in shown_contacts(tree)]
+    apart = contacts_figure(contacts)
+    assert apart.axes[3].get_ylabel().startswith("pressure over its mean")
+    assert "mean pressure" in apart.axes[0].get_title()
+    alike = contacts_figure(contacts[:2])
+    assert alike.axes[2].get_ylabel() == "pressure $p$ (MPa)"
+
+
+def test_trail_joins_the_solved_surface_and_reaches_farther(tree: xr.DataTree) -> None:
+    shown = shown_contacts(tree)
+    for (contact, _), (x, depth) in zip(shown, trails(tree, shown), strict=True):
+        assert x[0] < 2.0 * contact.x[0]
+        solved = contact.centre_line(contact.displacement)
+        within = np.abs(contact.x) < 0.9 * contact.reach
+        # Cells are merged, up to two of them: the depth of a parabola differs by a few thousandths there.
+        np.testing.assert_allclose(np.interp(contact.x[within], x, depth), solved[within], rtol=0.01)
+
+
+def test_surface_behind_lies_below_its_mirror_image(tree: xr.DataTree) -> None:
+    shown = shown_contacts(tree)
+    x, depth = trails(tree, shown)[1]
+    contact = shown[1].contact
+    behind = np.linspace(1.05, 1.8, 20) * contact.edges[0]
+    assert np.all(np.interp(behind, x, depth) > np.interp(-behind, x, depth))
+
+
+def test_no_trail_is_calculated_for_a_layer(tree: xr.DataTree) -> None:
+    for place in list(tree["fields"].children):
+        tree[f"fields/{place}"].dataset = tree[f"fields/{place}"].to_dataset().assign_coords(thickness=1e-3)
+    shown = shown_contacts(tree)
+    for (contact, _), (x, _) in zip(shown, trails(tree, shown), strict=True):
+        np.testing.assert_array_equal(x, contact.x)
+
+
+def test_trails_are_drawn_one_below_the_other(tree: xr.DataTree) -> None:
+    shown = shown_contacts(tree)
+    figure = trail_figure([contact for contact, _ in shown], trails(tree, shown))
+    assert len(figure.axes) == 3
+    x, height = figure.axes[0].lines[1].get_data()
+    assert min(height) == pytest.approx(-1e6 * trails(tree, shown)[0][1].max())
+    assert x[0] < 0.0 < x[-1]
+
+
+def test_line_contacts_have_profiles_only() -> None:
+    solution = vf.solve_steady(RUBBER, vf.Cylinder("10 mm"), speed="1 m/s", load="1 kN/m", accuracy=0.03)
+    fields = fields_of(solution)
+    for kept in (fields, fields.isel(y=0, drop=True)):
+        tree = xr.DataTree.from_dict({"/fields/1": kept})
+        (shown,) = shown_contacts(tree)
+        assert shown.contact.is_line
+        assert len(contacts_figure([shown.contact]).axes) == 1
+        assert math.isnan(shown.contact.friction)
+
+
+def test_errors_are_drawn_below_the_accuracy_that_was_asked_for(make_sweep: Callable[..., xr.Dataset]) -> None:
+    cases = cases_of(make_sweep({"temperature": [303.15, 333.15], "speed": np.geomspace(1e-3, 1.0, 9)}))
+    figure = convergence_figure(cases, accuracy=1e-3)
+    assert figure is not None
+    errors, cells = figure.axes
+    shown = {str(line.get_label()): line for line in errors.lines}
+    assert set(shown) == {"error estimate", "error estimate, interpolated", "accuracy asked for"}
+    # The maker of sweeps takes 4e-4 of the friction for its error.
+    np.testing.assert_allclose(shown["error estimate"].get_ydata(), 4e-4)
+    np.testing.assert_allclose(cells.lines[0].get_ydata(), 256.0)
+    assert convergence_figure(cases.isel(case=[0])) is None

@@ -1,0 +1,130 @@
+"""Figures of sweeps show their own numbers, few enough to be read, and say what is missing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from viscofric.report.map_figures import map_figure, maximum_ridge, plot_friction_map
+from viscofric.report.sweep_figures import plot_sweep, sweep_figure
+from viscofric.report.sweeps import layout_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+    Make = Callable[..., xr.Dataset]
+
+SPEEDS, TEMPERATURES = np.geomspace(1e-3, 1.0, 7), np.linspace(303.15, 363.15, 4)
+CURVES = {"temperature": TEMPERATURES, "speed": SPEEDS}
+
+
+@pytest.fixture
+def axes() -> Axes:
+    return Figure().subplots()
+
+
+def legend_texts(figure: Figure) -> list[str]:
+    legends = [legend for axes in figure.axes if (legend := axes.get_legend()) is not None]
+    assert len(legends) == 1
+    return [text.get_text() for text in legends[0].get_texts()]
+
+
+def test_lines_are_the_numbers_of_the_results(axes: Axes, make_sweep: Make) -> None:
+    friction = make_sweep(CURVES)
+    layout = layout_of(friction)
+    assert layout is not None
+    plot_sweep(axes, friction, layout, (0, 3))
+    curves = [line for line in axes.lines if np.size(line.get_xdata()) == 7]
+    for line, kelvin in zip(curves, (303.15, 363.15), strict=True):
+        np.testing.assert_allclose(line.get_xdata(), 1e3 * SPEEDS)
+        np.testing.assert_allclose(line.get_ydata(), friction["friction_coefficient"].sel(temperature=kelvin))
+
+
+def test_samples_are_a_band_about_the_best_estimate(axes: Axes, make_sweep: Make) -> None:
+    friction = make_sweep({"sample": list(range(21)), "speed": SPEEDS})
+    layout = layout_of(friction)
+    assert layout is not None
+    assert layout.lines is None
+    plot_sweep(axes, friction, layout)
+    best = friction["friction_coefficient"].sel(sample=0).values
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), best)
+    corners = axes.collections[0].get_paths()[0].vertices
+    # The formula adds 1 % a sample: the 2.5th and the 97.5th percentile of 0 … 20 are 0.5 and 19.5.
+    at_first = np.unique(corners[np.isclose(corners[:, 0], 1.0), 1])
+    np.testing.assert_allclose([at_first[0], at_first[-1]], best[0] * np.array([1.005, 1.195]), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("points", "panels", "lines"),
+    [
+        ({"load": [5.0, 25.0], **CURVES}, 2, 4),
+        ({"load": [1.0, 2.0, 3.0, 4.0, 5.0], "radius": [0.01, 0.02, 0.05], **CURVES}, 9, 4),
+        ({"temperature": np.linspace(273.15, 373.15, 30), "speed": SPEEDS}, 1, 8),
+        ({"load": [5.0, 25.0]}, 1, 0),
+        ({"material": ["NBR 70", "FKM 75"], "speed": SPEEDS}, 1, 2),
+    ],
+)
+def test_no_panel_has_more_lines_than_are_read(
+    make_sweep: Make, points: dict[str, Any], panels: int, lines: int
+) -> None:
+    figure = sweep_figure(make_sweep(points))
+    assert figure is not None
+    assert len(figure.axes) == panels
+    if lines:
+        assert len(legend_texts(figure)) == lines
+    titles = [axes.get_title() for axes in figure.axes]
+    assert len(set(titles)) == panels
+    assert all(axes.get_ylim() == figure.axes[0].get_ylim() for axes in figure.axes)
+
+
+def test_cases_that_were_not_solved_are_crossed_not_made_up(make_sweep: Make) -> None:
+    figure = sweep_figure(make_sweep(CURVES, failed=(2,)))
+    assert figure is not None
+    assert legend_texts(figure)[-1] == "not solved"
+    crosses = [line for line in figure.axes[0].lines if line.get_marker() == "x" and np.size(line.get_xdata())]
+    np.testing.assert_allclose(crosses[0].get_xdata(), 1e3 * SPEEDS[2])
+
+
+def test_nothing_to_draw_is_no_figure(make_sweep: Make) -> None:
+    assert sweep_figure(make_sweep(CURVES).isel(speed=0, temperature=0)) is None
+    assert sweep_figure(make_sweep(CURVES, failed=tuple(range(28)))) is None
+    assert map_figure(make_sweep({"temperature": TEMPERATURES, "speed": SPEEDS[:3]})) is None
+    assert map_figure(make_sweep({"speed": SPEEDS})) is None
+
+
+def test_ridge_lies_at_the_maximum_of_each_temperature() -> None:
+    speed, kelvin = np.geomspace(1e-4, 1e2, 25), np.array([300.0, 310.0, 320.0])
+    highest = np.array([2e-3, 0.1, 5.0])
+    parabolas = 0.03 - 0.001 * np.log(speed / highest[:, None]) ** 2
+    ridge = maximum_ridge(speed, kelvin, parabolas)
+    np.testing.assert_allclose(ridge[:, 1], kelvin)
+    # A parabola over the logarithm of the speed is met exactly.
+    np.testing.assert_allclose(ridge[:, 0], highest, rtol=1e-9)
+    parabolas[0] = np.linspace(0.1, 0.2, 25)  # highest at the end of the range
+    parabolas[1] = np.nan
+    np.testing.assert_allclose(maximum_ridge(speed, kelvin, parabolas)[:, 1], [320.0])
+
+
+def test_map_spans_what_was_asked(axes: Axes, make_sweep: Make) -> None:
+    friction = make_sweep(CURVES)["friction_coefficient"].values
+    filled = plot_friction_map(axes, SPEEDS, TEMPERATURES, friction)
+    assert axes.get_xscale() == "log"
+    np.testing.assert_allclose(axes.get_xlim(), (1.0, 1e3))
+    np.testing.assert_allclose(axes.get_ylim(), (30.0, 90.0))
+    assert filled.levels[0] <= friction.min()
+    assert filled.levels[-1] >= friction.max()
+
+
+def test_maps_of_several_loads_share_their_colours(make_sweep: Make) -> None:
+    figure = map_figure(make_sweep({"load": [5.0, 25.0], **CURVES}), (np.array([0.1]), np.array([333.15])))
+    assert figure is not None
+    assert [axes.get_title() for axes in figure.axes[:2]] == ["5 N", "25 N"]
+    first, second = (next(area for area in axes.collections if hasattr(area, "levels")) for axes in figure.axes[:2])
+    np.testing.assert_allclose(first.levels, second.levels)
+    assert len(figure.axes) == 3  # with one colour bar
