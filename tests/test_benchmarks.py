@@ -241,3 +241,23 @@ def test_curve_benchmark_measures_its_true_error(tmp_path: Path, capsys: pytest.
     assert 0.0 < row["worst_error"] == points[0]["true_error"] < 0.001
     assert row["worst_estimate"] <= 0.001
     assert row["wall_seconds"] > 0.0 < row["seconds"]
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("contact_path")
+def test_benchmark_of_sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS / "study"))
+    import costs
+    import sweeps
+
+    target = tmp_path / "sweeps.json"
+    few = ["--speeds", "3", "--temperatures", "1", "--accuracy", "2e-2", "--check", "1", "--distinct", "10"]
+    sweeps.main([*few, "--workers", "1", "--json", str(target)])
+    curve, gained, each = json.loads(target.read_text(encoding="utf-8"))["rows"]
+    assert (curve["cases"], gained["cases"], each["cases"]) == (3, 24, 10)
+    assert (curve["solved"], each["solved"]) == (3, 10)
+    assert not any(row["failures"] for row in (curve, gained, each))
+    assert curve["worst_error"] < 2e-2  # the accuracy
+    costs.main(["--speeds", "1", "--accuracies", "2e-2", "--json", str(target)])
+    rows = json.loads(target.read_text(encoding="utf-8"))["rows"]
+    assert [row["failures"] for row in rows] == [0] * 5
