@@ -55,6 +55,18 @@ def test_cases_on_one_curve_are_interpolated_within_the_accuracy(accuracy: float
                 assert abs(getattr(record, name) - getattr(true, name)) <= getattr(record, error), name
 
 
+def test_progress_goes_from_none_to_all_and_never_back() -> None:
+    plan, seen = plan_cases(CASES, [SLS]), [0]
+    assert (plan.done, plan.total) == (0, len(CASES))
+    while tasks := plan.wanted():
+        for task in tasks:
+            plan.receive(task.key, made_up(task))
+            seen.append(plan.done)
+    assert seen == sorted(seen)
+    assert len(set(seen)) > 2
+    assert plan.done == plan.total
+
+
 def test_more_accuracy_takes_more_contacts() -> None:
     counts = []
     for accuracy in (1e-2, 1e-3, 1e-4):

@@ -88,8 +88,9 @@ def test_a_task_that_travelled_gives_the_same_bits() -> None:
 
 def test_members_of_the_posterior_are_solved_with_their_own_modes() -> None:
     softer = replace(SLS, spectrum=SLS.at().shifted(1.0, 0.5))  # type: ignore[union-attr]
-    plan = plan_cases([case_of(0.1), case_of(0.1, sample=1)], [SLS], members={0: [softer]})
+    plan = plan_cases([case_of(0.1), case_of(0.1, sample=1)], [SLS], members={0: [softer]}, sensitive=True)
     best, drawn = plan.wanted()
+    assert (best.sensitive, drawn.sensitive) == (True, False)  # bands are those of the best estimate
     assert (best.modes.E0, drawn.modes.E0) == (1e6, 0.5e6)
 
 

@@ -98,7 +98,7 @@ def task_of(case: Case, rubbers: Rubbers, settings: Settings, fields: bool) -> T
             layer=case.layer,
             indenter_modulus=case.indenter_modulus,
             indenter_poisson_ratio=case.indenter_poisson_ratio,
-            sensitive=settings.sensitive,
+            sensitive=settings.sensitive and case.sample is None,
             fields=fields,
             label=label,
         )

@@ -22,9 +22,15 @@ if TYPE_CHECKING:
     from viscofric.study.planning.families import Family
     from viscofric.study.sweep import Case
 
-# Processor time of a contact on one core of 2020, s: at low accuracy, and what 1e-3 adds, which grows as 1/accuracy.
-# Means over six speeds at two temperatures of the synthetic fluoroelastomer (benchmarks/study/costs.py).
-_SECONDS = {"paraboloid": (0.08, 0.05), "line": (0.08, 0.02), "other": (0.09, 0.10), "layer": (0.13, 0.05)}
+# Processor time of a contact on one core of 2020, s: at low accuracy, what 1e-3 adds, and the power of 1/accuracy with
+# which that grows.  Means over six speeds at two temperatures of the synthetic fluoroelastomer
+# (benchmarks/study/costs.py).
+_SECONDS = {
+    "paraboloid": (0.08, 0.05, 1.6),
+    "line": (0.08, 0.02, 1.0),
+    "other": (0.09, 0.10, 1.6),
+    "layer": (0.13, 0.05, 1.6),
+}
 #: Finding how friction answers to the rubber takes about as long as finding friction.
 _SENSITIVE = 2.0
 # Bytes: of a process that solves; of each cell of the finest window while it does; of a record and its sensitivity.
@@ -83,32 +89,41 @@ def estimate(
     kept = range(len(cases)) if fields is True else () if fields is False else frozenset(fields)
     drawn = max((case.sample or 0 for case in cases), default=0)
     rubbers = Rubbers(materials, {number: [material] * drawn for number, material in enumerate(materials)})
-    solves: dict[str, float] = defaultdict(float)
+    solves: dict[tuple[str, bool], float] = defaultdict(float)
     if each:
         for case in set(cases):
             solves[_kind(case)] += 1
     else:
         for kind, curve in _curves(cases, rubbers, kept, accuracy, solves):
             solves[kind] += curve.expected
-    seconds = sum(number * _seconds(kind, accuracy) for kind, number in solves.items())
+    seconds = sum(
+        number * _seconds(kind, accuracy) * (_SENSITIVE if sensitive and best else 1.0)
+        for (kind, best), number in solves.items()
+    )
     cells = min(_MOST_CELLS, _CELLS * np.sqrt(1e-3 / accuracy)) ** 2
     record = _RECORD + _SENSITIVITY * sensitive
     return Expectation(
         cases=len(cases),
         solves=round(sum(solves.values())),
-        seconds=float(seconds * (_SENSITIVE if sensitive else 1.0)),
+        seconds=float(seconds),
         memory=_PROCESS + record * len(cases) + _FIELD * _FIELD_CELLS**2 * len(kept),
-        memory_per_process=float(_PROCESS + _PER_CELL * (_LINE_CELLS if set(solves) == {"line"} else cells)),
+        memory_per_process=float(
+            _PROCESS + _PER_CELL * (_LINE_CELLS if {kind for kind, _ in solves} == {"line"} else cells)
+        ),
     )
 
 
 def _curves(
-    cases: Sequence[Case], rubbers: Rubbers, kept: Collection[int], accuracy: float, solves: dict[str, float]
-) -> list[tuple[str, Curve]]:
+    cases: Sequence[Case],
+    rubbers: Rubbers,
+    kept: Collection[int],
+    accuracy: float,
+    solves: dict[tuple[str, bool], float],
+) -> list[tuple[tuple[str, bool], Curve]]:
     """Return the curves of all families, with their kinds; cases that are solved by themselves are counted."""
     placing = Placing(rubbers)
     places: dict[Family, list[float]] = defaultdict(list)
-    kinds: dict[Family, str] = {}
+    kinds: dict[Family, tuple[str, bool]] = {}
     for number, case in enumerate(cases):
         if number in kept:
             solves[_kind(case)] += 1
@@ -122,17 +137,19 @@ def _curves(
     return [(kinds[family], Curve(np.array(values), accuracy)) for family, values in places.items()]
 
 
-def _kind(case: Case) -> str:
+def _kind(case: Case) -> tuple[str, bool]:
+    """Tell what contact it is, and whether with the best estimate of the rubber."""
+    best = case.sample is None
     if case.layer is not None:
-        return "layer"
+        return "layer", best
     match case.indenter:
         case Cylinder():
-            return "line"
+            return "line", best
         case Ball() | Ellipsoid():
-            return "paraboloid"
-    return "other"
+            return "paraboloid", best
+    return "other", best
 
 
 def _seconds(kind: str, accuracy: float) -> float:
-    least, more = _SECONDS[kind]
-    return least + more * 1e-3 / accuracy
+    least, more, power = _SECONDS[kind]
+    return float(least + more * (1e-3 / accuracy) ** power)

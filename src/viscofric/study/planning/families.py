@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 # Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
 _LOW_SLOPE = 0.01
+_BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
 _NONE = 0.0  # temperature that is written down for rubbers without a shift, K
 
 
@@ -181,7 +182,7 @@ class Representative:
             layer=self.family.layer,
             indenter_modulus=self.family.indenter_modulus,
             indenter_poisson_ratio=self.family.indenter_poisson_ratio,
-            sensitive=self.settings.sensitive,
+            sensitive=self.settings.sensitive and self.family.rubber[1] is None,
         )
 
     def task(self, node: int) -> Task:
@@ -196,13 +197,13 @@ def representative(indenter: Indenter) -> Indenter | None:
     """Return one that stands for all of its kind on a half-space, whatever their size; None where sizes differ."""
     match indenter:
         case Ball():
-            return Ball(1.0)
+            return _BALL
         case Cylinder():
-            return Cylinder(1.0)
+            return _CYLINDER
         case Ellipsoid(radius_x=along, radius_y=across):
             return Ellipsoid(1.0, float(across) / float(along))
         case Cone():
-            return Cone(_LOW_SLOPE)
+            return _CONE
     return None
 
 

@@ -36,7 +36,7 @@ class Plan:
     total : int
         Cases asked for.
     done : int
-        Those of them whose outcome is known.
+        Those of them whose outcome is known, or that lie where no more need be solved for them.
     """
 
     def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
@@ -96,8 +96,12 @@ class Plan:
 
     def settle(self, number: int, outcome: Outcome) -> None:
         """Note what became of a case."""
-        self.done += self._outcomes[number] is None
+        self.done += 1
         self._outcomes[number] = outcome
+
+    def count(self, cases: int) -> None:
+        """Count cases as done before they are settled, or no more."""
+        self.done += cases
 
     def solve_alone(self, number: int) -> None:
         """Have a case solved by itself."""
@@ -148,6 +152,7 @@ class _FamilyPlan:
         self._solved = plan.representative(family)
         self._curve = Curve(np.array([place.s for place in self._places]), self._solved.settings.accuracy)
         self._wave: dict[int, Node | None] = {}
+        self._counted = 0
 
     def go_on(self) -> None:
         """Ask for the next wave, or settle all cases where there is none."""
@@ -162,9 +167,15 @@ class _FamilyPlan:
         self._wave[place] = Node.of(outcome, self._solved.scale) if isinstance(outcome, CaseRecord) else None
         if len(self._wave) == len(self._curve.wanted):
             self._curve.advance(self._wave)
+            self._count(sum(len(one.cases) for one in self._curve.closed))
             self.go_on()
 
+    def _count(self, cases: int) -> None:
+        self._plan.count(cases - self._counted)
+        self._counted = cases
+
     def _settle(self) -> None:
+        self._count(0)  # each is counted when it is settled
         cases = [self._plan.case(number) for number in self._numbers]
         for one in self._curve.closed:
             for row, outcome in records_between(self._curve, one, cases, self._places, self._solved):
@@ -195,7 +206,8 @@ def plan_cases(
     accuracy : float
         Of the friction coefficients, relative.
     sensitive : bool
-        Whether to find how friction answers to the rubber's compliance, for bands.
+        Whether to find how friction answers to the rubber's compliance, for bands; not of members of a posterior, which
+        need none.
     fields : bool or collection of int
         Whether to keep pressure and displacement, or the numbers of the cases of which; these are solved by themselves.
     each : bool
