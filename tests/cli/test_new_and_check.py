@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from viscofric.cli import main
+from viscofric.cli.check import duration
 from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
 
 if TYPE_CHECKING:
@@ -44,6 +45,10 @@ def test_check_says_how_much_is_asked_for(tmp_path: Path) -> None:
     assert "load 2.5 N to 40 N, radius 3 mm to 12 mm (3)" in result.stdout
     assert "tables (csv), tables (excel)" in result.stdout
     assert "SYNTHETIC" in result.stdout
+    # Three balls under one nominal pressure are three of one family: a curve for each rubber, far fewer than its cases.
+    (line,) = [line for line in result.stdout.splitlines() if line.startswith("to solve")]
+    assert 10 < int(line.split()[3]) < 200
+    assert "seconds on one core" in line
     assert "Note: The isotherm at" in result.stderr
     assert not (tmp_path / "study.results").exists()
 
@@ -95,6 +100,29 @@ def test_schema_is_printed_or_written_beside_the_run_file(tmp_path: Path) -> Non
     text = (tmp_path / "study.toml").read_text(encoding="utf-8")
     assert text.startswith(f"#:schema ./{SCHEMA}\n")
     assert text.endswith(template_text("example"))
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (0.2, "about 1 seconds"),
+        (97.0, "about 97 seconds"),
+        (130.0, "about 2 minutes"),
+        (7100.0, "about 120 minutes"),
+        (1e4, "about 3 hours"),
+        (1e7, "about 120 days"),
+    ],
+)
+def test_times_are_told_roughly(seconds: float, words: str) -> None:
+    assert duration(seconds) == words
+
+
+def test_each_case_solved_is_each_case_expected(tmp_path: Path) -> None:
+    call("new", tmp_path, "--template", "ball")
+    text = (tmp_path / "study.toml").read_text(encoding="utf-8").replace("[solver]", '[solver]\ncases = "each"')
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    found = json.loads(call("check", tmp_path / "study.toml", "--json").stdout)
+    assert (found["cases"], found["expected"]["solves"]) == (93, 93)
 
 
 def test_new_needs_a_folder() -> None:

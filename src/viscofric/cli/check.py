@@ -61,8 +61,14 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
         "indenter": study.indenter.shape,
         "axes": {axis.name: {name: list(values) for name, values in axis.columns.items()} for axis in sweep.axes},
         "cases": len(sweep.cases),
-        "master_curve_points": study.solver.master_curve_points,
+        "master_curve_points": study.solver.master_curve_points if _is_one_curve(found) else 0,
         "measured_points": None if found.measured is None else len(found.measured.speed),
+        "expected": {
+            "solves": found.expected.solves,
+            "seconds": found.expected.seconds,
+            "memory": found.expected.memory,
+            "memory_per_process": found.expected.memory_per_process,
+        },
         "outputs": ["netcdf", "figures", "report", *extra],
         "notes": list(found.notes),
     }
@@ -70,6 +76,11 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
 
 def _pairs(found: CheckedStudy) -> list[tuple[Rubber, Any]]:
     return list(zip(found.rubbers, found.study.materials, strict=True))
+
+
+def _is_one_curve(found: CheckedStudy) -> bool:
+    """Whether all cases lie on one friction master curve: there is one of everything but temperature and speed."""
+    return all(len(axis) == 1 or set(axis.columns) <= {"temperature", "speed", "sample"} for axis in found.sweep.axes)
 
 
 def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
@@ -102,14 +113,37 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     points = [f"{len(axis)} {axis.name}" for axis in found.sweep.axes if len(axis) > 1]
     product = f" = {' × '.join(points)}" if len(points) > 1 else ""
     lines.append(("cases", f"{record['cases']:,}{product}"))
-    more = [f"{record['master_curve_points']} along the friction master curve"]
+    more = [f"{record['master_curve_points']} along the friction master curve"] if record["master_curve_points"] else []
     if record["measured_points"] is not None:
         more.append(f"{record['measured_points']} at the measured points")
-    lines.append(("besides", ", ".join(more)))
+    if more:
+        lines.append(("besides", ", ".join(more)))
+    expected = record["expected"]
+    effort = f"{duration(expected['seconds'])} on one core, {_bytes(expected['memory_per_process'])} for each process"
+    lines.append(("to solve", f"about {_rounded(expected['solves'])} contacts: {effort}"))
     files = ["results.nc", "figures", "report.html"]
     files += [f"tables ({form})" if form != "zarr" else "results.zarr" for form in record["outputs"][3:]]
     lines.append(("writes", f"{path.with_suffix('.results')}: {', '.join(files)}"))
     return lines
+
+
+def _rounded(number: float, digits: int = 2) -> str:
+    """Return a rough number, with no more digits than it deserves."""
+    if number < 10**digits:
+        return f"{number:.0f}"
+    return f"{round(number, digits - 1 - math.floor(math.log10(number))):,.0f}"
+
+
+def duration(seconds: float) -> str:
+    """Return a rough time."""
+    for unit, size, least in (("days", 86400.0, 2.0), ("hours", 3600.0, 2.0), ("minutes", 60.0, 2.0)):
+        if seconds >= least * size:
+            return f"about {_rounded(seconds / size)} {unit}"
+    return f"about {_rounded(max(seconds, 1.0))} seconds"
+
+
+def _bytes(number: float) -> str:
+    return f"{number / 1e9:.1f} GB" if number >= 1e9 else f"{_rounded(number / 1e6)} MB"
 
 
 def _material_line(made: dict[str, Any]) -> str:

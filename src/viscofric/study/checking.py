@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from viscofric.errors import InputError, StudyError
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.measurement import read_measurement
+from viscofric.study.planning.estimates import estimate
 from viscofric.study.rubber import make_rubber
 
 if TYPE_CHECKING:
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.study.planning.estimates import Expectation
     from viscofric.study.rubber import Rubber
     from viscofric.study.run_file import Study
     from viscofric.study.sweep import Sweep
@@ -43,6 +46,22 @@ class CheckedStudy:
     sweep: Sweep
     rubbers: tuple[Rubber, ...]
     measured: FrictionCurves | None = None
+
+    @cached_property
+    def expected(self) -> Expectation:
+        """What solving will take, roughly: the cases asked for and the measured points."""
+        study, cases = self.study, [*self.sweep.cases]
+        if self.measured is not None:
+            points = zip(self.measured.temperature, self.measured.speed, self.measured.load, strict=True)
+            cases += [replace(cases[0], temperature=T, speed=v, load=F) for T, v, F in points]
+        return estimate(
+            cases,
+            [rubber.material for rubber in self.rubbers],
+            accuracy=study.solver.accuracy,
+            sensitive=study.uncertainty.draws > 0 and any(rubber.fit is not None for rubber in self.rubbers),
+            fields=study.outputs.fields == "all",
+            each=study.solver.cases == "each",
+        )
 
     @property
     def notes(self) -> tuple[str, ...]:
