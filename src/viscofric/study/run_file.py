@@ -44,7 +44,25 @@ def _several(value: object) -> object:
 
 
 class Study(Table):
-    """A whole run file; quantities in SI, paths resolved against the run file's folder."""
+    """A whole run file; quantities in SI, paths resolved against the run file's folder.
+
+    Attributes
+    ----------
+    title : str
+    data_origin : {"measured", "synthetic"}
+    materials : tuple of MaterialTable
+        [material], or each of several [[material]].
+    indenter : BallTable, CylinderTable, EllipsoidTable or ConeTable
+    layer : LayerTable or None
+    conditions : ConditionsTable
+    sweep_table : SweepTable
+        [sweep].
+    measurement : MeasurementTable or None
+    solver : SolverTable
+    uncertainty : UncertaintyTable
+    outputs : OutputsTable
+    cluster : ClusterTable or None
+    """
 
     title: str = Field("Viscoelastic friction", max_length=300, description="Title of the report.")
     data_origin: Literal["measured", "synthetic"] = Field(
@@ -79,7 +97,12 @@ class Study(Table):
         return (*dict.fromkeys(files), *(self.measurement.inputs if self.measurement else ()))
 
     def sweep(self) -> Sweep:
-        """Return all cases that the study asks for, with their axes."""
+        """Return all cases that the study asks for, with their axes.
+
+        Returns
+        -------
+        Sweep
+        """
         return sweep_of(self)
 
 
