@@ -33,6 +33,8 @@ _OF_CURVES = {
 }
 _COORDINATES = ("speed", "temperature", "load")
 _UNITS = {"speed": "m/s", "load": "N", "radius": "m", "thickness": "m", "angle": "rad"}
+# Coordinates whose value says what they are.
+_SPEAKING = ("material", "load", "temperature", "speed")
 _TABLES = (".csv", ".txt", ".tsv")
 
 
@@ -178,8 +180,8 @@ def _keys(column: Array) -> list[Any]:
 
 
 def shown_place(place: dict[str, float | str]) -> str:
-    """Return the coordinates of a case in words: "temperature 30 °C, speed 0.1 m/s"."""
-    return ", ".join(f"{name} {_shown(name, value)}" for name, value in place.items())
+    """Return the coordinates of a case in words: "NBR, radius 0.01 m, 25 N, 30 °C, 0.1 m/s"."""
+    return ", ".join(f"{'' if name in _SPEAKING else f'{name} '}{_shown(name, value)}" for name, value in place.items())
 
 
 def _shown(name: str, value: Any) -> str:
