@@ -26,9 +26,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
+    from viscofric.contact.extension import Extension
 
 # How far a linear residual is reduced while more than the given part of the contact's cells is wrongly classified.
 _REDUCTIONS = ((0.02, 0.3), (0.0003, 0.1), (1e-5, 1e-2), (0.0, 1e-4))
@@ -53,13 +52,6 @@ class ContactOperator(Protocol):
 
     def precondition(self, residual: AnyArray) -> AnyArray:
         """Approximate inverse of the operator."""
-
-
-class CoarseCorrection(Protocol):
-    """What the solver asks of a correction on something coarser than cells."""
-
-    def on(self, contact: AnyArray, *, fixed_load: bool) -> Callable[[AnyArray], AnyArray]:
-        """Return what answers a residual on a contact set with a pressure."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +105,7 @@ def solve_complementarity(
     patience: int | None = None,
     tighten: Literal["without headway", "near the end"] = "without headway",
     directions: int = _DIRECTIONS,
-    coarse: Sequence[CoarseCorrection] = (),
+    extension: Extension | None = None,
     doubt: float = 0.0,
 ) -> ComplementaritySolution:
     """Solve the contact problem for a given load, or for a given indentation.
@@ -145,9 +137,8 @@ def solve_complementarity(
         When linear problems are solved more tightly; see above.
     directions : int
         Search directions that are kept while a linear problem is solved: two numbers each for every cell in contact.
-    coarse : sequence of CoarseCorrection, optional
-        Give search directions, each in turn and then the operator's preconditioner.  Loosely solved problems get the
-        first one only.
+    extension : Extension, optional
+        Of residuals beyond the contact before they are preconditioned; zeros by default.
     doubt : float
         Overlap below so many root mean square gaps under pressure does not make contact yet: where linear problems are
         not solved better than that, it says nothing about the set.
@@ -196,7 +187,7 @@ def solve_complementarity(
         gap = contact.gathered(gap)  # the rest of it is not needed, and large
         correction, steps, linear = solve_on_contact(
             inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=directions,
-            fixed_load=load is not None, coarse=coarse if reduction < _REDUCTIONS[0][1] else coarse[:1],
+            fixed_load=load is not None, extension=extension,
         )  # fmt: skip
         linear_iterations += steps
         pressure = contact.added(pressure, correction)
@@ -262,8 +253,7 @@ def solve_on_contact(
     floor: float,
     directions: int,
     fixed_load: bool,
-    coarse: Sequence[CoarseCorrection] = (),
-    most_steps: int = _LINEAR_ITERATIONS,
+    extension: Extension | None = None,
 ) -> tuple[AnyArray, int, float]:
     """Correct the pressures on a fixed contact set until its gap is closed, or level for a fixed load.
 
@@ -279,8 +269,8 @@ def solve_on_contact(
         Search directions that are kept.
     fixed_load : bool
         Whether the corrections must sum to zero, and the gap need be level only.
-    coarse : sequence of CoarseCorrection, optional
-    most_steps : int
+    extension : Extension, optional
+        See `solve_complementarity`.
 
     Returns
     -------
@@ -311,11 +301,10 @@ def solve_on_contact(
     # Directions z and their images A z, orthonormal among themselves, in a ring that forgets the oldest.
     kept: list[AnyArray] = []
     images: list[AnyArray] = []
-    # Coarse corrections come first, since they leave steps at the edges of blocks, which the last one smooths.
-    turns = [*(each.on(contact.chosen, fixed_load=fixed_load) for each in coarse), operator.precondition]
+    extended = contact.scattered if extension is None else extension.on(contact)
     steps = 0
-    while steps == 0 or steps % len(turns) or (steps < most_steps and left > target and largest > floor):
-        direction = projected(turns[steps % len(turns)](contact.scattered(residual)))
+    while steps == 0 or (steps < _LINEAR_ITERATIONS and left > target and largest > floor):
+        direction = projected(operator.precondition(extended(residual)))
         image = projected(operator(contact.scattered(direction)))
         overlaps = [other @ image for other in images]
         for overlap, other, its_direction in zip(overlaps, images, kept, strict=True):

@@ -223,6 +223,11 @@ class Cells:
         xp.reshape(found, (-1,))[self.indices] += values
         return found
 
+    def inserted(self, field: AnyArray, values: AnyArray) -> AnyArray:
+        """Return a field with values put in at the cells; the field may be overwritten."""
+        self.backend.xp.reshape(field, (-1,))[self.indices] = values
+        return field
+
     def scattered(self, values: AnyArray) -> AnyArray:
         """Field of the values at the cells and of zeros elsewhere; the next call overwrites it."""
         xp = self.backend.xp
@@ -243,6 +248,10 @@ class MaskedCells(Cells):
     def added(self, field: AnyArray, values: AnyArray) -> AnyArray:
         """Return a field with values added at the cells."""
         return field + self.scattered(values)
+
+    def inserted(self, field: AnyArray, values: AnyArray) -> AnyArray:
+        """Return a field with values put in at the cells."""
+        return self.backend.xp.where(self.chosen, self.scattered(values), field)
 
     def scattered(self, values: AnyArray) -> AnyArray:
         """Field of the values at the cells and of zeros elsewhere."""

@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.periodic.blocks import Blocks, block_sizes
+from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.continuation import continued
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 _PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
-_FEW_DIRECTIONS = (4, 6)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
+_FEW_DIRECTIONS = (6, 12)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
 _FEW_PRODUCTS = 300  # enough for most contacts, where what follows is not needed
 _FIRST_STEPS = (5, 7)  # of the splitting on each grid, likewise
@@ -77,6 +76,7 @@ class OneGrid:
         self.cells = math.prod(self.shape)
         self.exact = PeriodicOperator(stage.transfer, self.shape, backend=backend)
         self.single = self.exact.for_corrections()
+        self.extension = Extension(backend, self.shape, self.single.dtype)
         self.relaxed = stage.relaxed
         self.elastic = not np.iscomplexobj(stage.transfer)
         self.load = None if mean_pressure is None else mean_pressure * self.cells
@@ -116,11 +116,6 @@ class OneGrid:
             steps = int(_GROWTH * steps)
         return result
 
-    @cached_property
-    def blocks(self) -> tuple[Blocks, ...]:
-        """Coarse corrections of the linear problems, the coarsest first."""
-        return tuple(Blocks(self.single, size) for size in block_sizes(self.shape))
-
     @property
     def quick_rho(self) -> float:
         """ρ of the splitting that settles short waves in a few steps."""
@@ -149,7 +144,7 @@ class OneGrid:
             patience=patience,
             tighten="near the end",
             directions=directions,
-            coarse=self.blocks,
+            extension=self.extension,
             doubt=_DOUBT[0 if self.elastic else 1],
         )
         return self._counted(result)
