@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 logger = logging.getLogger(__name__)
 
 COARSEST = 32  # points along the longer edge of the coarsest grid, about
-COARSE_TOLERANCE = 1e-3  # a coarser surface is another one: more would be wasted on it
+COARSE_TOLERANCE = 2e-4  # a coarser surface is another one: more would be wasted on it
 
 _MOST_COARSE_PRODUCTS = 2000  # on a grid that only gives the next one its start
 
