@@ -125,6 +125,15 @@ def test_each_case_solved_is_each_case_expected(tmp_path: Path) -> None:
     assert (found["cases"], found["expected"]["solves"]) == (93, 93)
 
 
+def test_jobs_that_are_too_small_are_told() -> None:
+    text = template_text("layer") + '[cluster]\njobs = 2\ncores = 64\nmemory = "1 GB"\nwalltime = "10 ms"\n'
+    assert "cluster.walltime" in call("check", "-", given=text).stderr
+    result = call("check", "-", given=text.replace("10 ms", "1 s").replace("1e-2", "1e-4"))
+    assert result.exit_code == 0, result.output
+    assert "cluster    2 jobs of 64 cores and 1.0 GB" in result.stdout
+    assert "Note: A job has 1 GB, but its 64 processes may take" in result.stderr
+
+
 def test_new_needs_a_folder() -> None:
     result = call("new")
     assert result.exit_code == 2

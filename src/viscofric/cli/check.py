@@ -121,6 +121,8 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     expected = record["expected"]
     effort = f"{duration(expected['seconds'])} on one core, {_bytes(expected['memory_per_process'])} for each process"
     lines.append(("to solve", f"about {_rounded(expected['solves'])} contacts: {effort}"))
+    if (cluster := found.study.cluster) is not None:
+        lines.append(("cluster", f"{cluster.jobs} jobs of {cluster.cores} cores and {_bytes(cluster.memory)}"))
     files = ["results.nc", "figures", "report.html"]
     files += [f"tables ({form})" if form != "zarr" else "results.zarr" for form in record["outputs"][3:]]
     lines.append(("writes", f"{path.with_suffix('.results')}: {', '.join(files)}"))

@@ -15,6 +15,7 @@ from viscofric.study.planning.estimates import estimate
 from viscofric.study.rubber import make_rubber
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -65,9 +66,27 @@ class CheckedStudy:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was doubtful, changed or left out in reading the data: one sentence each."""
+        """What was doubtful, changed or left out in reading the data, and what jobs may lack: one sentence each."""
         said = [note for rubber in self.rubbers for note in rubber.notes]
-        return tuple(dict.fromkeys([*said, *(self.measured.notes if self.measured is not None else ())]))
+        said += self.measured.notes if self.measured is not None else ()
+        return tuple(dict.fromkeys([*said, *self._of_jobs()]))
+
+    def _of_jobs(self) -> Iterator[str]:
+        cluster = self.study.cluster
+        if cluster is None:
+            return
+        needed = cluster.cores * self.expected.memory_per_process
+        if needed > cluster.memory:
+            yield (
+                f"A job has {cluster.memory / 1e9:.3g} GB, but its {cluster.cores} processes may take "
+                f"{needed / 1e9:.2g} GB together; give it more memory or fewer cores."
+            )
+        together = self.expected.seconds / (cluster.jobs * cluster.cores)
+        if together > cluster.walltime:
+            yield (
+                f"All jobs together may take {together / 3600.0:.2g} hours, longer than the walltime; what a job did "
+                "not finish is taken up by the next one that starts."
+            )
 
 
 def check_study(study: Study, path: Path) -> CheckedStudy:

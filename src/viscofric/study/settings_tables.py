@@ -92,7 +92,10 @@ def _bytes(value: object) -> int:
 
 
 def _seconds(value: object) -> int:
-    return round(positive(with_unit(value), "s", VALUE))
+    found = round(positive(with_unit(value), "s", VALUE))
+    if found < 1:
+        raise ValueError(f"{value!r} is less than a second; write the time that a job may take, such as '2 h'")
+    return found
 
 
 def _quantity(example: str) -> WithJsonSchema:
