@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import subprocess
 import sys
@@ -9,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 import viscofric as vf
 
@@ -201,3 +204,41 @@ def test_files_of_instruments_are_read_by_the_package(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.stdout.endswith("read\n"), done.stderr
     assert not done.stderr
+
+
+CELLS = st.one_of(
+    st.floats(-10.0, 10.0).map(lambda x: f"{x:.3f}"), st.sampled_from(["", "nan", "-", "1e3", "x", "#", "1,5"])
+)
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.lists(st.lists(CELLS, min_size=1, max_size=4), min_size=1, max_size=6),
+    st.sampled_from([",", ";", "\t", " "]),
+    st.sampled_from(["", "x (um),y (um),z (um)\n", "x (kg),z (um)\n", "x,z\n", "# Width: 3 um\n", "# Width: 3 bad\n"]),
+    st.sampled_from([{}, {"spacing": "1 um"}, {"unit": "nm"}]),
+)
+def test_any_table_is_read_or_refused_with_its_name(tmp_path, monkeypatch, rows, between, above, arguments):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)  # what is no table is refused at once
+    path = write(tmp_path, above + "\n".join(between.join(row) for row in rows), "any.csv")
+    refusal = ""
+    try:
+        found = vf.read_topography(path, **arguments)
+    except vf.DataFileError as error:
+        refusal = str(error)
+    if refusal:
+        assert "any.csv" in refusal
+        assert "\n" not in refusal
+    else:
+        assert found.missing < found.heights.size
+        assert np.all(np.isfinite(found.spacing))
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.binary(max_size=120), st.sampled_from([b"", b"\x93NUMPY\x01\x00", b"\xff\xfe"]))
+def test_any_bytes_are_refused_in_one_sentence(tmp_path, monkeypatch, data, start):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    path = tmp_path / "any.bin"
+    path.write_bytes(start + data)
+    with contextlib.suppress(vf.DataFileError):
+        vf.read_topography(path, spacing="1 um")

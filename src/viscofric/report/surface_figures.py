@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import matplotlib
 import numpy as np
 
-from viscofric.report.house_style import GREY, INK, decade_ticks, looks, new_figure, speed_ticks
+from viscofric.report.house_style import INK, decade_ticks, looks, new_figure, speed_ticks
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ def plot_line_scan(axes: Axes, topography: Topography) -> None:
 
 
 def plot_contact_map(axes: Axes, solution: PeriodicSolution) -> tuple[QuadMesh, str]:
-    """Draw where a rough surface touches, and with which pressure.
+    """Draw where a rough surface touches, and with which pressure; an arrow shows where it goes.
 
     Parameters
     ----------
@@ -137,11 +137,16 @@ def plot_contact_map(axes: Axes, solution: PeriodicSolution) -> tuple[QuadMesh, 
     )
     _axes_of_map(axes, unit)
     if solution.speed != 0.0:
-        sense = math.copysign(0.12, solution.speed)
-        tip = (0.5 + 0.5 * sense * solution.direction[0], 1.06 + 0.5 * sense * solution.direction[1])
-        tail = (0.5 - 0.5 * sense * solution.direction[0], 1.06 - 0.5 * sense * solution.direction[1])
-        axes.annotate("", tip, tail, "axes fraction", "axes fraction", arrowprops={"arrowstyle": "->", "color": INK})
-        axes.text(0.6, 1.06, "motion", transform=axes.transAxes, fontsize=8, va="center", color=INK)
+        sense = math.copysign(0.06, solution.speed)
+        reach = sense * solution.direction[0], sense * solution.direction[1]
+        axes.annotate(
+            "",
+            (0.1 + reach[0], 0.92 + reach[1]),
+            (0.1 - reach[0], 0.92 - reach[1]),
+            "axes fraction",
+            "axes fraction",
+            arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4},
+        )
     return mesh, f"pressure ({size.name})"
 
 
@@ -197,7 +202,7 @@ def plot_friction_by_wavelength(axes: Axes, parts: Mapping[str, FrictionByWavele
     axes.set_xscale("log")
     axes.set_ylim(bottom=0.0)
     axes.set_xlabel("wavelength (m)")
-    axes.set_ylabel("friction coefficient per decade of wavelength")
+    axes.set_ylabel("friction per decade of wavelength")
     decade_ticks(axes.xaxis)
     if len(parts) > 1:
         axes.legend()
@@ -215,7 +220,7 @@ def plot_rough_friction(
     theories : mapping of str to PerssonTheory, optional
         By what the legend calls them; for the same temperatures.
     area : bool
-        Whether to draw the contact area fraction instead, without an interval.
+        Whether to draw the corrected contact area fraction instead, without an interval.
     """
     several = len(found.surfaces) > 1 and not area
     for row, look in enumerate(looks(len(found.temperature))):
@@ -281,7 +286,7 @@ def rough_contact_figure(topography: Topography, solution: PeriodicSolution) -> 
     for axes, (mesh, label) in ((left, plot_topography(left, topography)), (right, plot_contact_map(right, solution))):
         figure.colorbar(mesh, ax=axes, label=label)
     touching = f"{100.0 * solution.contact_area_fraction:.3g} % in contact, μ = {solution.friction_coefficient:.3g}"
-    right.set_title(touching, fontsize=9, loc="left", color=GREY, pad=18)
+    right.set_title(touching, fontsize=9, loc="left", color=INK)
     return figure
 
 

@@ -65,6 +65,8 @@ class RoughFriction:
         Estimated error that the grid makes in each; see `PeriodicDiagnostics.friction_error`.
     contact_area_fraction : (m, n, k) array
         Points under pressure over all.
+    corrected_area_fraction : (m, n, k) array
+        Less what counting points takes too much; see `ContactStatistics`.
     stretch : (m, n, k) array
         How many times longer the contact patches are along the motion than across; see `ContactStatistics`.
     """
@@ -76,6 +78,7 @@ class RoughFriction:
     friction_coefficient: Array
     friction_error: Array
     contact_area_fraction: Array
+    corrected_area_fraction: Array
     stretch: Array
 
     @property
@@ -85,8 +88,8 @@ class RoughFriction:
 
     @property
     def mean_area(self) -> Array:
-        """Mean contact area fraction over the surfaces, (m, n) array."""
-        return np.asarray(self.contact_area_fraction.mean(axis=-1))
+        """Mean corrected contact area fraction over the surfaces, (m, n) array."""
+        return np.asarray(self.corrected_area_fraction.mean(axis=-1))
 
     def interval(self, probability: float = 0.95) -> tuple[Array, Array]:
         """Return the limits between which the mean friction of all such surfaces lies.
@@ -123,7 +126,8 @@ class RoughFriction:
         told = {
             "friction_coefficient": "friction coefficient",
             "friction_error": "estimated error of the friction coefficient",
-            "contact_area_fraction": "real over nominal contact area",
+            "contact_area_fraction": "points under pressure over all",
+            "corrected_area_fraction": "real over nominal contact area",
             "stretch": "length of contact patches along over across the motion",
         }
         axes = ("temperature", "speed", "surface")
@@ -246,6 +250,7 @@ class _Numbers(NamedTuple):
     friction_coefficient: float
     friction_error: float
     contact_area_fraction: float
+    corrected_area_fraction: float
     stretch: float
 
 
@@ -255,11 +260,13 @@ def solve_one(name: str, **call: Any) -> _Numbers:
         solution = solve_periodic(**call)
     except ConvergenceError as error:
         raise ConvergenceError(f"surface {name!r} at {call['speed']:g} m/s: {error}") from None
+    described = contact_statistics(solution)
     return _Numbers(
         solution.friction_coefficient,
         solution.diagnostics.friction_error,
-        solution.contact_area_fraction,
-        contact_statistics(solution).stretch,
+        described.area_fraction,
+        described.corrected_area_fraction,
+        described.stretch,
     )
 
 

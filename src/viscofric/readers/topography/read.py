@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from viscofric.errors import InputError, brief, check_choice
+from viscofric.errors import DataFileError, InputError, brief, check_choice
 from viscofric.files import file_path, read_bytes
 from viscofric.readers.source import Source
 from viscofric.readers.topography.package import read_with_package
@@ -41,8 +41,13 @@ def read_scan(path: object, asked: Asked) -> Scan:
         raise InputError(f"channel = {brief(asked.channel)}: must be the name of a channel or its number.")
     file = str(file_path(path))
     source = Source(file, read_bytes(file))
-    if source.data.startswith(NUMPY):
-        return read_array(source, asked)
-    if is_table(source.text):
-        return read_text_table(source, asked)
-    return read_with_package(source, asked)
+    try:
+        if source.data.startswith(NUMPY):
+            return read_array(source, asked)
+        if is_table(source.text):
+            return read_text_table(source, asked)
+        return read_with_package(source, asked)
+    except DataFileError:
+        raise
+    except InputError as error:  # a unit that the file names, and that is none
+        raise DataFileError(file, str(error)) from None
