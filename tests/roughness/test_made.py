@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -94,6 +96,28 @@ def test_lines_of_an_isotropic_surface_have_half_its_mean_square_slope():
     found = [vf.line_spectrum(surface, axis=axis).rms_slope() for axis in ("x", "y")]
     assert np.hypot(*found) == pytest.approx(1.0, rel=0.03)
     assert found[0] == pytest.approx(found[1], rel=0.1)
+
+
+def test_lines_tell_the_spectrum_of_an_isotropic_surface():
+    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=128.0, shortest=6.0, rms_slope=1.0)
+    surface = vf.surface_from_spectrum(spectrum, shape=(512, 512), spacing=1.0, seed=5)
+    found = vf.line_spectrum(surface).isotropic()
+    within = (found.wave_number > 2.0 * np.pi / 128.0) & (found.wave_number < 2.0 * np.pi / 8.0)
+    ratio = found.density[within] / spectrum(found.wave_number[within])
+    # Lines of one surface, whose classes of wavelength hold few waves where they are long.
+    np.testing.assert_allclose(ratio, 1.0, atol=0.35)
+    assert np.mean(ratio) == pytest.approx(1.0, abs=0.06)
+    assert found.rms_slope() == pytest.approx(1.0, rel=0.05)
+
+
+def test_lines_of_a_power_law_are_one_with_a_known_factor():
+    """C = k^(−s) has the lines √π Γ((s−1)/2)/Γ(s/2) q^(1−s)."""
+    s = 3.6
+    q = np.geomspace(1.0, 1e4, 60)
+    lines = vf.LineSpectrum(q, math.sqrt(math.pi) * math.gamma(0.5 * s - 0.5) / math.gamma(0.5 * s) * q ** (1.0 - s))
+    found = lines.isotropic()
+    # Far from the end, beyond which the lines of a power law that goes on have waves and these have none.
+    np.testing.assert_allclose(found.density[:40] * q[:40] ** s, 1.0, rtol=0.01)
 
 
 def test_profiles_follow_their_own_power_law():

@@ -222,3 +222,17 @@ def test_a_line_scan_is_roughness_on_a_cylinder_and_a_map_on_a_ball():
 def test_what_is_no_topography_is_refused(arguments, words):
     with pytest.raises(vf.InputError, match=words):
         vf.Topography(**arguments)
+
+
+def test_roughness_of_no_height_on_a_ball_rubs_as_the_ball_and_waves_rub_more():
+    rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+    waves = vf.self_affine(0.8, shape=(96, 96), spacing=2e-3 / 96, shortest=2.5e-4, rms_height="4 um", seed=1)
+    flat = vf.Topography(np.zeros((96, 96)), 2e-3 / 96)
+    asked = {"speed": 0.1, "load": 0.05, "accuracy": 1e-2}
+    smooth = vf.solve_steady(rubber, vf.Ball("5 mm"), **asked)
+    same = vf.solve_steady(rubber, flat.to_indenter(vf.Ball("5 mm")), **asked)
+    # The spline goes through the paraboloid.
+    assert same.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=1e-9)
+    rough = vf.solve_steady(rubber, waves.to_indenter(vf.Ball("5 mm")), **asked)
+    assert rough.friction_coefficient > 1.1 * smooth.friction_coefficient
+    assert rough.contact_area < smooth.contact_area

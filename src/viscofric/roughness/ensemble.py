@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypedDict, Unpack
 
 import numpy as np
@@ -232,7 +234,10 @@ def predict_rough_friction(
             progress(done, len(calls))
 
     tell(0)
-    found: list[_Numbers] = call_all(solve_one, calls, workers=workers, progress=tell)
+    with tempfile.TemporaryDirectory(prefix="viscofric-") as folder:
+        if (workers.number if isinstance(workers, Workers) else workers) != 1:
+            _put_on_disk(calls, Path(folder))
+        found: list[_Numbers] = call_all(solve_one, calls, workers=workers, progress=tell)
     shape = len(kelvins), len(velocities), len(named)
     numbers = {name: np.array([getattr(one, name) for one in found]).reshape(shape) for name in _Numbers._fields}
     return RoughFriction(
@@ -254,10 +259,33 @@ class _Numbers(NamedTuple):
     stretch: float
 
 
-def solve_one(name: str, **call: Any) -> _Numbers:
+class _OnDisk(NamedTuple):
+    """A surface in a file, which every process reads for itself: each contact handed over would hold a copy."""
+
+    path: Path
+    spacing: tuple[float, float]
+
+    def read(self) -> PeriodicSurface:
+        return PeriodicSurface(np.load(self.path), self.spacing)
+
+
+def _put_on_disk(calls: list[dict[str, Any]], folder: Path) -> None:
+    """Put a file in the place of each surface."""
+    stored: dict[int, _OnDisk] = {}
+    for call in calls:
+        surface = call["surface"]
+        if id(surface) not in stored:
+            path = folder / f"{len(stored)}.npy"
+            np.save(path, surface.z)
+            stored[id(surface)] = _OnDisk(path, surface.spacing)
+    for call in calls:
+        call["surface"] = stored[id(call["surface"])]
+
+
+def solve_one(name: str, surface: PeriodicSurface | _OnDisk, **call: Any) -> _Numbers:
     """Solve one contact of an ensemble, in whatever process; keep its numbers."""
     try:
-        solution = solve_periodic(**call)
+        solution = solve_periodic(surface=surface.read() if isinstance(surface, _OnDisk) else surface, **call)
     except ConvergenceError as error:
         raise ConvergenceError(f"surface {name!r} at {call['speed']:g} m/s: {error}") from None
     described = contact_statistics(solution)

@@ -218,3 +218,20 @@ class LineSpectrum:
     def rms_slope(self) -> float:
         """Return the rms slope along the line."""
         return math.sqrt(self.moment(2.0))
+
+    def isotropic(self) -> PowerSpectrum:
+        """Return the power spectrum of the surface, if it is isotropic, that such lines run across.
+
+        Returns
+        -------
+        PowerSpectrum
+            C of C₁(q) = ∫ dp C(√(q² + p²)), by non-negative least squares (`viscofric.roughness.isotropy`).
+
+        Notes
+        -----
+        A line crosses waves obliquely, so that long wavelengths of a line are in part short waves of the surface.  What
+        waves there are beyond the shortest of the lines is not known and taken to be none.
+        """
+        from viscofric.roughness.isotropy import isotropic_density
+
+        return PowerSpectrum(self.wave_number, isotropic_density(self.wave_number, self))
