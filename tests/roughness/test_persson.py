@@ -84,6 +84,9 @@ def test_what_each_scale_adds_sums_to_the_whole_and_area_falls_from_scale_to_sca
     assert np.all(np.diff(found.area_by_scale) <= 0.0)
     assert np.all(np.diff(found.friction_by_scale) >= 0.0)
     np.testing.assert_array_equal(found.friction_by_scale[..., -1], found.friction_coefficient)
+    labelled = found.to_dataset()
+    assert labelled["friction_coefficient"].dims == ("temperature", "speed")
+    assert labelled["area_by_scale"].sizes == {"temperature": 1, "speed": 3, "wave_number": len(found.wave_number)}
     shorter = vf.persson_theory(RUBBER, ROAD.limited(shortest="50 um"), speeds=0.01, pressure=1e5)
     place = np.log(found.wave_number)
     at = np.interp(math.log(2.0 * math.pi / 50e-6), place, found.friction_by_scale[0, 1])

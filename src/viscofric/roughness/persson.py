@@ -37,6 +37,7 @@ from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantities, Quantity, positive, share, to_si, to_si_array
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import NDArray
 
     Array: TypeAlias = NDArray[np.float64]
@@ -91,6 +92,33 @@ class PerssonTheory:
     friction_by_scale: Array
     temperature_rise_by_scale: Array
     error: float
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return everything as labelled data with units in its attributes."""
+        import xarray
+
+        told = {
+            "friction_coefficient": ("1", "friction coefficient"),
+            "contact_area_fraction": ("1", "real over nominal contact area"),
+            "flash_temperature": ("K", "largest rise of temperature"),
+            "area_by_scale": ("1", "contact area over nominal as seen without shorter waves"),
+            "friction_by_scale": ("1", "friction coefficient of all longer waves"),
+            "temperature_rise_by_scale": ("K", "rise of temperature that waves of this length meet"),
+        }
+        axes = ("temperature", "speed", "wave_number")
+        fields = {name: (getattr(self, name), unit, text) for name, (unit, text) in told.items()}
+        return xarray.Dataset(
+            {
+                name: (axes[: values.ndim], values, {"units": unit, "long_name": text})
+                for name, (values, unit, text) in fields.items()
+            },
+            coords={
+                "temperature": ("temperature", self.temperature, {"units": "K"}),
+                "speed": ("speed", self.speed, {"units": "m/s"}),
+                "wave_number": ("wave_number", self.wave_number, {"units": "rad/m"}),
+            },
+            attrs={"pressure": self.pressure, "error": self.error},
+        )
 
 
 class _Case(NamedTuple):
