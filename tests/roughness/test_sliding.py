@@ -201,6 +201,22 @@ def test_energy_balance_of_partial_contact_converges_with_the_grid():
     assert solved[2].friction_coefficient == pytest.approx(solved[1].friction_coefficient, rel=0.02)
 
 
+def test_a_larger_piece_of_the_same_roughness_rubs_alike():
+    """Twice the period, with the same roll-off, cut-off and rms slope: within the scatter, which falls."""
+    found = []
+    for pieces, seeds in ((1, 8), (2, 4)):
+        period, points = pieces * 0.5e-3, pieces * 64
+        made = {"shape": (points, points), "spacing": period / points, "shortest": 0.5e-3 / 8, "rolloff": 0.125e-3}
+        roads = [vf.self_affine(0.8, **made, rms_slope=0.2, seed=seed) for seed in range(seeds)]
+        friction = vf.predict_rough_friction(RUBBER, roads, speeds=0.02, pressure="50 kPa").friction_coefficient[0, 0]
+        found.append((friction.mean(), friction.std(ddof=1), friction.std(ddof=1) / math.sqrt(seeds)))
+    (one, scatter, error), (four, less, small) = found
+    # Three standard errors of the difference; the smaller piece has few long waves.
+    assert abs(one - four) < 3.0 * math.hypot(error, small)
+    assert abs(one - four) < 0.06 * four
+    assert less < scatter
+
+
 def test_persson_theory_is_near_without_a_fitted_number():
     """Its area is a little too small at a quarter of full contact; the friction of 2001 fits there (γ = 1)."""
     spectrum = vf.PowerSpectrum.self_affine(0.8, longest=1e-3, rolloff=0.25e-3, shortest=1e-3 / 16, rms_slope=0.2)

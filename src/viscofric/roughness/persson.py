@@ -16,8 +16,7 @@ S = γ + (1−γ) P², γ ≈ 1/2 [2]_.  In full contact (P = S = 1) the integra
 References
 ----------
 .. [1] B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626
-.. [2] B. Lorenz, B. N. J. Persson, S. Dieluweit, T. Tada, Eur. Phys. J. E 34 (2011) 129,
-   doi:10.1140/epje/i2011-11129-1
+.. [2] B. Lorenz, Y. R. Oh, S. K. Nam, S. H. Jeon, B. N. J. Persson, J. Chem. Phys. 142 (2015) 194701
 """
 
 from __future__ import annotations
