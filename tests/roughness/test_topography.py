@@ -31,6 +31,13 @@ def test_tilt_and_curvature_are_removed_to_rounding_and_nothing_else_of_a_plane_
     assert vf.Topography(bowl, 1.0).remove("mean").heights.mean() == pytest.approx(0.0, abs=1e-13)
 
 
+def test_a_surface_without_its_tilt_does_not_repeat_itself_any_more():
+    surface = periodic(waves((1, 1), (2, 0)))
+    assert surface.remove("mean").periodic
+    with pytest.raises(vf.InputError, match="is not periodic"):
+        surface.remove("tilt").to_surface()
+
+
 def test_a_trend_is_found_round_missing_heights():
     plane = 1.0 + 2.0 * X - Y
     plane[5:20, 3:9] = np.nan

@@ -182,7 +182,7 @@ class Topography:
         Parameters
         ----------
         what : {"mean", "tilt", "curvature"}
-            Missing heights stay missing and do not count.
+            Missing heights stay missing and do not count.  But for the mean, what is left does not repeat itself.
 
         Raises
         ------
@@ -190,7 +190,7 @@ class Topography:
             If there is no such trend, or more terms than heights.
         """
         heights, told = preparation.without_trend(self.heights, what)
-        return self._with(heights, told)
+        return self._with(heights, told, periodic=self.periodic and what == "mean")
 
     def window(self, edge: float = 0.1) -> Topography:
         """Let the heights fall to their mean along all edges, so that the surface repeats itself without steps.
