@@ -157,12 +157,12 @@ def _banded(tree: xr.DataTree) -> str:
 
 def _shaded(tree: xr.DataTree, name: str) -> str:
     """Say what the bands are, where there are any."""
-    cases = group(tree, name)
+    cases = solved_cases(tree, name)
     if cases is None or "friction_lower" not in cases.variables:
         return ""
     return ", with the 95 % band that the uncertainty of the rubber (sweeps, shift factors, spectrum) leaves"
 
 
 def _thin(tree: xr.DataTree, name: str) -> str:
-    cases = group(tree, name)
+    cases = solved_cases(tree, name)
     return ", thin beyond the measured frequencies" if cases is not None and is_extrapolated(cases).any() else ""

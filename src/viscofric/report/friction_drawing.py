@@ -27,7 +27,7 @@ from viscofric.report.results import (
     values,
 )
 from viscofric.report.sweep_figures import sweep_figure
-from viscofric.report.sweeps import MOST_LINES, labelled, solved_cases, sweep_axes, thinned
+from viscofric.report.sweeps import MOST_LINES, SAMPLE, labelled, solved_cases, sweep_axes, thinned
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,8 +37,7 @@ if TYPE_CHECKING:
 def friction_against_speed(tree: xr.DataTree) -> Figure | None:
     """Friction at a few temperatures, beside what was measured; where nothing else varies, or friction was measured."""
     prediction, measurement = solved_cases(tree), group(tree, "measurement")
-    names = varied(tree)
-    if measurement is None and (prediction is None or "speed" not in names or not names <= _CURVES):
+    if measurement is None and (prediction is None or not _is_plain(tree)):
         return None
     figure = new_figure(7.4, 4.3)
     few = None if prediction is None else _few_curves(prediction, measurement)
@@ -48,9 +47,15 @@ def friction_against_speed(tree: xr.DataTree) -> Figure | None:
 
 def friction_sweep(tree: xr.DataTree) -> Figure | None:
     """Friction over the axes of a study: where more than speed and temperature varies, or the speed does not."""
-    friction, names = labelled(tree), varied(tree)
-    curves = "speed" in names or (group(tree, "measurement") is not None and names <= _CURVES)
-    return None if friction is None or (curves and names <= _CURVES) else sweep_figure(friction)
+    friction = labelled(tree)
+    told = group(tree, "measurement") is not None and varied(tree) <= _CURVES
+    return None if friction is None or told or _is_plain(tree) else sweep_figure(friction)
+
+
+def _is_plain(tree: xr.DataTree) -> bool:
+    """Whether curves over the speed, one for each temperature, are all there is."""
+    names, friction = varied(tree), labelled(tree)
+    return "speed" in names and names <= _CURVES and friction is not None and SAMPLE not in friction.dims
 
 
 def varied(tree: xr.DataTree) -> set[str]:

@@ -17,12 +17,15 @@ from viscofric.report.sweeps import VARIED, cases_of, solved_cases, thinned, val
 from viscofric.report.table import Column, Table, made_table, times, whole
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-_MOST_ROWS_AT_A_GLANCE, _MOST_COLUMNS_AT_A_GLANCE = 12, 8
+_GLANCE = "at-a-glance"
+_MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
 _DOUBTFUL = (
     f"{WIDE}: reaching beyond {SMALL_STRAIN:g} ball radii from the axis; "
     f"{EXTRAPOLATED}: at frequencies that were not measured"
@@ -46,27 +49,32 @@ def _with_remarks(table: Table, doubts: list[str]) -> Table:
 
 
 def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
-    """Predicted friction as a grid: a row for each speed, a column for each temperature and all else that varies."""
+    """Predicted friction in one look: over speed and temperature, or its highest value for all else that varies."""
     prediction = solved_cases(tree)
     if prediction is None:
         return None
+    others = [name for name in VARIED if name in prediction and len(np.unique(prediction[name].values)) > 1]
+    told = [[value_label(prediction, name, value) for value in prediction[name].values] for name in others]
+    kind = list(zip(*told, strict=True)) if others else [()] * prediction.sizes["case"]
+    temperatures = nominal_temperatures(values(prediction, "temperature")).size
+    if others and len(set(kind)) * temperatures > _MOST_COLUMNS:
+        return _highest_friction(tree, prediction, others, kind)
+    return _friction_grid(tree, prediction, kind)
+
+
+def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tuple[str, ...]]) -> Table:
+    """Return a row for each speed, and a column for each temperature and all else that varies."""
     speed, friction = values(prediction, "speed"), values(prediction, "friction_coefficient")
     nominal = nominal_temperatures(values(prediction, "temperature"))
-    which = nearest(nominal, values(prediction, "temperature"))
-    others = [name for name in VARIED if name in prediction and len(np.unique(prediction[name].values)) > 1]
-
-    def column_of(row: int, index: int) -> tuple[str, ...]:
-        told = [value_label(prediction, name, prediction[name].values[row]) for name in others]
-        return *told, degrees(float(nominal[index]))
-
-    columns = list(dict.fromkeys(column_of(row, int(index)) for row, index in enumerate(which)))
-    shown = [columns[place] for place in thinned(len(columns), _MOST_COLUMNS_AT_A_GLANCE)]
+    kelvin = nominal[nearest(nominal, values(prediction, "temperature"))]
+    of_case = [", ".join((*other, degrees(float(at)))) for other, at in zip(kind, kelvin, strict=True)]
+    columns = list(dict.fromkeys(of_case))
+    shown = [columns[place] for place in thinned(len(columns), _MOST_COLUMNS)]
     speeds = np.unique(speed)
-    every = int(np.ceil(speeds.size / _MOST_ROWS_AT_A_GLANCE))
-    cells: dict[tuple[float, tuple[str, ...]], str] = {}
+    every = int(np.ceil(speeds.size / _MOST_ROWS))
     doubts = remarks(tree, prediction)
-    for row, index in enumerate(which):
-        column = column_of(row, index)
+    cells: dict[tuple[float, str], str] = {}
+    for row, column in enumerate(of_case):
         mark = " *" if doubts[row] else ""
         cells.setdefault((float(speed[row]), column), significant(float(friction[row]), 3) + mark)
     rows = [
@@ -74,15 +82,44 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
         for at in speeds[::every]
     ]
     some = [f"one speed in {every}"] if every > 1 else []
-    some += [f"{len(shown)} of {len(columns)} columns"] if len(shown) < len(columns) else []
+    some += [f"{len(shown)} of {len(columns)} temperatures"] if len(shown) < len(columns) else []
     return Table(
-        "at-a-glance",
+        _GLANCE,
         "Predicted viscoelastic friction coefficient."
         + (f" Shown: {several(some)}; all of them are in the tables below." if some else ""),
-        ["speed (mm/s)", *(", ".join(column) for column in shown)],
+        ["speed (mm/s)", *(_together(column) for column in shown)],
         rows,
         note=f"* {_or(doubts)}." if any(cell.endswith("*") for row in rows for cell in row) else "",
     )
+
+
+def _highest_friction(
+    tree: xr.DataTree, prediction: xr.Dataset, others: Sequence[str], kind: Sequence[tuple[str, ...]]
+) -> Table:
+    """Return a row for each combination of all else that varies: its highest friction, and where that lies."""
+    friction, doubts = values(prediction, "friction_coefficient"), remarks(tree, prediction)
+    rows = []
+    for combination in dict.fromkeys(kind):
+        cases = [row for row, other in enumerate(kind) if other == combination]
+        top = max(cases, key=lambda row: friction[row])
+        mark = " *" if doubts[top] else ""
+        where = [value_label(prediction, name, prediction[name].values[top]) for name in ("temperature", "speed")]
+        lowest = significant(float(friction[cases].min()), 3)
+        rows.append([*map(_together, combination), significant(float(friction[top]), 3) + mark, *where, lowest])
+    shown = [rows[place] for place in thinned(len(rows), 2 * _MOST_ROWS)]
+    some = f" Shown: {len(shown)} of {len(rows)} combinations." if len(shown) < len(rows) else ""
+    return Table(
+        _GLANCE,
+        f"Highest predicted viscoelastic friction coefficient.{some}",
+        [*(name.replace("_", " ") for name in others), "highest friction", "at", "and", "lowest friction"],
+        shown,
+        note=f"* {_or(doubts)}." if any("*" in cell for row in shown for cell in row) else "",
+    )
+
+
+def _together(label: str) -> str:
+    """Keep numbers and their units on one line."""
+    return ", ".join(part.replace(" ", "\N{NO-BREAK SPACE}") for part in label.split(", "))
 
 
 def _or(doubts: list[str]) -> str:
@@ -128,9 +165,9 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
     if prediction is None:
         return None
     prediction = cases_of(prediction)
-    friction = prediction["friction_coefficient"]
-    full = prediction.assign(relative_error=prediction["friction_error"] / abs(friction).where(friction != 0.0))
-    load, area = (str(full[part].attrs.get("units", "")) for part in ("load", "contact_area"))
+    friction, error = (values(prediction, part) for part in ("friction_coefficient", "friction_error"))
+    full = prediction.assign(relative_error=("case", error / np.where(friction == 0.0, np.nan, np.abs(friction))))
+    load, area = (_unit(full, part) for part in ("load", "contact_area"))
     is_line = area == "m"
     table = made_table(
         key,
@@ -160,6 +197,10 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
         _MEANINGS,
     )
     return _with_remarks(table, [_state(*told) for told in zip(*_states(full), remarks(tree, full), strict=True)])
+
+
+def _unit(cases: xr.Dataset, name: str) -> str:
+    return str(cases[name].attrs.get("units", "")) if name in cases else ""
 
 
 def _varied_columns(cases: xr.Dataset) -> list[Column]:

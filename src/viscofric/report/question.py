@@ -105,7 +105,7 @@ def inputs(tree: xr.DataTree) -> list[Input]:
     if friction is not None:
         along = {axis.name: axis for axis in _axes(tree)}
         told = {column for axis in along.values() for column in axis.columns}
-        listed += [Input(axis.title, f"{_points(axis)} ({len(axis)} in all)") for axis in along.values()]
+        listed += [Input(axis.title, _points(axis)) for axis in along.values()]
         for name in ("load", "temperature", "speed", "thickness"):
             if name in friction.coords and name not in told and friction[name].ndim == 0:
                 listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
@@ -124,7 +124,7 @@ def _points(axis: SweepAxis) -> str:
     """Say the points of an axis: all of a few, the ends of many."""
     if len(axis) <= _FEW:
         return several(list(axis.labels)) if not any("," in label for label in axis.labels) else "; ".join(axis.labels)
-    return f"{axis.labels[0]} to {axis.labels[-1]}"
+    return f"{axis.labels[0]} to {axis.labels[-1]} ({len(axis)} in all)"
 
 
 def _under(prediction: xr.Dataset, load: float) -> str:
