@@ -299,18 +299,44 @@ def test_output_to_a_full_disk_is_one_sentence() -> None:
 
 def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(tmp_path, study=STUDY.replace('"100 mm/s"', '["100 mm/s", "200 mm/s"]'))
-    from viscofric.study import cases
+    from viscofric.study.running import executors
 
-    solve, calls = cases.solve, []
+    attempt, calls = executors.attempt, []
 
     def interrupted(*arguments: object, **options: object) -> object:
         calls.append(arguments)
         if len(calls) == 2:
             raise KeyboardInterrupt
-        return solve(*arguments, **options)  # type: ignore[arg-type]
+        return attempt(*arguments, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(cases, "solve", interrupted)
+    monkeypatch.setattr(executors, "attempt", interrupted)
     result = call("run", path)
     assert result.exit_code == 130
-    assert "Finished cases are kept" in result.output
+    assert "the same command with --resume continues" in result.output
     assert len(list((tmp_path / "study.results" / "cases").iterdir())) == 1
+    monkeypatch.setattr(executors, "attempt", attempt)
+    assert "holds an unfinished study already (1 solved contacts); resume it (--resume)" in told(call("run", path))
+    assert call("run", path, "--resume").exit_code == 0
+    assert "holds the results of a study already" in told(call("run", path))
+
+
+def test_programs_are_told_of_a_run_line_by_line(once: Path, tmp_path: Path) -> None:
+    """Nothing else on standard output, and on standard error nothing but warnings."""
+    study = write(tmp_path)
+    shutil.copytree(once, tmp_path / "study.results")
+    result = call("run", study, "--resume", "--json")
+    assert result.exit_code == 0
+    events = [json.loads(line) for line in result.stdout.splitlines()]
+    assert [event["event"] for event in events[:2]] == ["started", "stage"]
+    (finished,) = [event for event in events if event["event"] == "finished"]
+    assert events[-1] == finished
+    assert finished["failures"] == []
+    assert all(Path(finished[name]).is_file() for name in ("data", "report"))
+    stored = [event for event in events if event["event"] == "stored"]
+    assert {event["stage"] for event in stored} == {"contacts"}
+    assert len({event["key"] for event in stored}) == len(stored) == len(list(once.glob("cases/*.json")))
+    quiet = call("run", study, "--resume", "--quiet")
+    assert (quiet.exit_code, quiet.stdout) == (0, "")
+    assert quiet.stderr == result.stderr
+    failed = call("run", study, "--json")
+    assert json.loads(failed.stdout.splitlines()[-1]) == {"event": "error", "message": told(failed)[7:]}

@@ -74,7 +74,7 @@ def test_stored_cases_give_the_same_bands_again(results: StudyResults, monkeypat
         raise AssertionError("a stored case was solved again")
 
     monkeypatch.setattr("viscofric.study.solving.solve_with_sensitivity", refuse)
-    again = run_study(results.folder.parent / "study.toml")
+    again = run_study(results.folder.parent / "study.toml", resume=True)
     for name in ("friction_lower", "friction_upper"):
         for part in ("prediction", "prediction_master"):
             np.testing.assert_array_equal(again.tree[part][name].values, results.tree[part][name].values)

@@ -26,4 +26,4 @@ def command(output: Path) -> None:
 
     click.echo("Built-in example: a SYNTHETIC fluoroelastomer; nothing in it was measured.", err=True)
     with as_file(files("viscofric") / "example") as folder:
-        run_and_report(folder / "study.toml", output)
+        run_and_report(folder / "study.toml", output, resume=True)

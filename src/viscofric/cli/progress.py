@@ -1,37 +1,66 @@
-"""Progress on the terminal: a bar for people, plain lines when the output goes to a file."""
+"""Progress of a study: a bar for people, plain lines when the output goes to a file, JSON for programs."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Self
+import contextlib
+import json
+import time
+from typing import IO, TYPE_CHECKING, Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
 
 if TYPE_CHECKING:
     from types import TracebackType
+    from typing import Self
+
+    from viscofric.study.running import Event
 
 _WORDS = {
     "material": "Material: shift factors, master curve, spectrum",
     "measurement": "Measurement: Coulomb and viscoelastic friction",
     "shift": "Measurement: one friction curve of all temperatures",
-    "friction": "Contacts at the speeds and temperatures asked for",
-    "measured points": "Contacts at the measured points",
-    "master curve": "Contacts along the friction master curve",
+    "contacts": "Contacts: asked for, measured, along the master curve",
     "report": "Figures and report",
 }
+#: What is not watched gets a line so often.
+_BETWEEN_LINES = 60.0  # s
 
 
-class TerminalProgress:
-    """Shows the stages of a study on standard error; a context manager and a `Progress` callback."""
+class Silent(contextlib.AbstractContextManager["Silent"]):
+    """Says nothing; what the others have in common."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        pass
+
+    def __call__(self, event: Event) -> None:
+        """Hear of an event."""
+
+    def tell(self, event: str, **values: Any) -> None:
+        """Hear of something that only programs are told of."""
+
+
+class TerminalProgress(Silent):
+    """Shows a study on standard error: a bar for each stage on a terminal, plain lines elsewhere."""
 
     def __init__(self) -> None:
         self._console = Console(stderr=True)
         self._tasks: dict[str, TaskID] = {}
+        self._at_work: dict[str, str] = {}
+        self._failed = 0
+        self._began = self._last_line = time.monotonic()
         self._bars = Progress(
             TextColumn("{task.description}"),
             BarColumn(bar_width=24),
             MofNCompleteColumn(),
             TimeRemainingColumn(elapsed_when_finished=True),
+            TextColumn("{task.fields[doing]}"),
             console=self._console,
         )
 
@@ -46,13 +75,68 @@ class TerminalProgress:
         if self._console.is_terminal:  # stopping bars that never started prints an empty line
             self._bars.stop()
 
-    def __call__(self, stage: str, done: int, total: int) -> None:
-        """Show that `done` of `total` steps of a stage are finished."""
+    def __call__(self, event: Event) -> None:
+        """Show an event."""
+        stage = event.stage or event.event
         words = _WORDS.get(stage, stage)
-        if not self._console.is_terminal:
-            if done == 0:
-                self._console.print(f"{words} ({total}) ..." if total > 1 else f"{words} ...", highlight=False)
-            return
+        if self._console.is_terminal:
+            self._draw(event, stage, words)
+        else:
+            self._write(event, words)
+
+    def _draw(self, event: Event, stage: str, words: str) -> None:
         if stage not in self._tasks:
-            self._tasks[stage] = self._bars.add_task(words, total=total)
-        self._bars.update(self._tasks[stage], completed=done)
+            self._tasks[stage] = self._bars.add_task(words, total=event.total, doing="")
+        if event.event == "stage":
+            self._began = time.monotonic()
+        self._bars.update(self._tasks[stage], completed=event.done, total=event.total, doing=escape(self._doing(event)))
+
+    def _doing(self, event: Event) -> str:
+        """Say how fast contacts are solved, and which."""
+        if event.key is not None and event.event == "solving":
+            self._at_work[event.key] = event.label or ""
+        elif event.key is not None:
+            self._at_work.pop(event.key, None)
+        self._failed += event.event == "failed"
+        if not event.solves:
+            return ""
+        rate = event.solves / max(time.monotonic() - self._began, 1e-3)
+        speed = f"{rate:.2g}/s" if rate >= 1.0 else f"{1.0 / rate:.2g} s each"
+        failed = [f"{self._failed} failed"] if self._failed else []
+        return ", ".join([f"{event.solves} solved", speed, *failed, *list(self._at_work.values())[:1]])
+
+    def _write(self, event: Event, words: str) -> None:
+        now = time.monotonic()
+        if event.event == "stage" and event.done != event.total:
+            many = f" ({event.total})" if event.total and event.total > 1 else ""
+            self._console.print(f"{words}{many} ...", highlight=False)
+            self._last_line = now
+        elif now > self._last_line + _BETWEEN_LINES:
+            self._last_line = now
+            self._console.print(
+                f"  {event.done} of {event.total} cases known, {event.solves} contacts solved", highlight=False
+            )
+
+
+class JsonProgress(Silent):
+    """Writes one JSON object a line for each event.
+
+    Parameters
+    ----------
+    output : text file
+    """
+
+    def __init__(self, output: IO[str]) -> None:
+        self._output = output
+
+    def __call__(self, event: Event) -> None:
+        """Write an event."""
+        self._line(event.as_dict())
+
+    def tell(self, event: str, **values: Any) -> None:
+        """Write something else."""
+        self._line({"event": event, **values})
+
+    def _line(self, values: dict[str, Any]) -> None:
+        self._output.write(json.dumps(values, ensure_ascii=False) + "\n")
+        self._output.flush()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -29,50 +29,96 @@ _TOLD_OTHERWISE = ("Small strain", "Linear rubber", "Measured frequency range", 
     type=click.Path(path_type=Path, file_okay=False),
     help="Folder for the results [default: STUDY.results beside the run file].",
 )
-def command(study: Path, output: Path | None) -> None:
+@click.option(
+    "--resume",
+    is_flag=True,
+    help="Go on in a folder that holds results: what is solved there is not solved again, even if the run file has "
+    "changed since.",
+)
+@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Solve with N processes of this machine.")
+@click.option(
+    "--scheduler", metavar="ADDRESS", help="Solve with the workers of a Dask scheduler, such as tcp://10.0.0.1:8786."
+)
+@click.option("--json", "as_json", is_flag=True, help="Tell programs what happens: one JSON object a line.")
+@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors, warnings and failed cases.")
+def command(
+    study: Path,
+    output: Path | None,
+    resume: bool,
+    workers: int | None,
+    scheduler: str | None,
+    as_json: bool,
+    quiet: bool,
+) -> None:
     """Run a study: DMA sweeps in, friction, figures and a report out.
 
-    STUDY is a run file (TOML).  Cases that the output folder already holds are not solved again, so an
-    interrupted study continues where it stopped.
+    STUDY is a run file (TOML).  Every contact is stored as soon as it is solved: --resume continues a study that was
+    interrupted, to the same digits.  The results do not depend on the number of workers.
     """
-    run_and_report(study, study.with_suffix(".results") if output is None else output)
+    folder = study.with_suffix(".results") if output is None else output
+    run_and_report(study, folder, resume=resume, workers=workers, scheduler=scheduler, as_json=as_json, quiet=quiet)
 
 
-def run_and_report(study: Path, output: Path) -> None:
-    """Run a study, write its report, and name what was written; leaves the program where that failed."""
+def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: bool = False, **how: Any) -> None:
+    """Run a study, write its report, and name what was written; leaves the program where that failed.
+
+    Parameters
+    ----------
+    study, output : Path
+        Run file, and folder for the results.
+    as_json, quiet : bool
+        How much is told.
+    **how
+        As for `run_study`.
+    """
     try:
-        from viscofric.cli.progress import TerminalProgress
+        from viscofric.cli.progress import JsonProgress, Silent, TerminalProgress
         from viscofric.errors import ViscofricError
         from viscofric.report import write_figures_and_report
         from viscofric.study import run_study
+        from viscofric.study.running import Event
 
+        hearer = JsonProgress(sys.stdout) if as_json else Silent() if quiet else TerminalProgress()
         try:
-            with TerminalProgress() as progress:
-                results = run_study(study, output=output, progress=progress)
-                progress("report", 0, 1)
+            with hearer as progress:
+                progress.tell("started", study=str(study), folder=str(output))
+                results = run_study(study, output=output, progress=progress, **how)
+                progress(Event("stage", stage="report", done=0, total=1))
                 figures, report = write_figures_and_report(results.tree, results.folder)
-                progress("report", 1, 1)
+                progress(Event("stage", stage="report", done=1, total=1))
         except ViscofricError as error:
+            hearer.tell("error", message=str(error))
             raise click.ClickException(str(error)) from error
+        except KeyboardInterrupt as stop:
+            hearer.tell("terminated" if isinstance(stop, Terminated) else "interrupted", folder=str(output))
+            raise
     except KeyboardInterrupt as stop:
         terminated = isinstance(stop, Terminated)
-        kept = f" Finished cases are kept in {output}; the same command continues." if output.is_dir() else ""
+        solved = output.is_dir() and any(output.glob("cases/*.json"))
+        kept = f" What is solved is kept in {output}; the same command with --resume continues." if solved else ""
         click.echo(("Terminated." if terminated else "Interrupted.") + kept, err=True)
         sys.exit(TERMINATED if terminated else INTERRUPTED)
-    tell(results)
-    for figure in figures:
-        click.echo(f"figure   {figure}")
-    click.echo(f"data     {results.folder / 'results.nc'}")
-    click.echo(f"report   {report}")
+    written = {
+        "figures": [str(figure) for figure in figures],
+        "data": str(results.folder / "results.nc"),
+        "report": str(report),
+    }
+    hearer.tell("finished", failures=list(results.failures), **written)
+    tell(results, quiet=quiet or as_json)
+    if not (quiet or as_json):
+        for figure in figures:
+            click.echo(f"figure   {figure}")
+        click.echo(f"data     {written['data']}")
+        click.echo(f"report   {report}")
     if results.failures:
         sys.exit(SOME_CASES_FAILED)
 
 
-def tell(results: StudyResults) -> None:
-    """Print notes, warnings and failures of a study: few of each, the report has them all."""
+def tell(results: StudyResults, quiet: bool = False) -> None:
+    """Print notes (unless it is to be quiet), warnings and failures: few of each, the report has them all."""
     from viscofric.report.messages import grouped_failures, readable
 
-    notes = results.notes
+    notes = () if quiet else results.notes
     if len(notes) > _MOST_LINES:
         click.echo(f"{len(notes)} notes on the data: see the report.", err=True)
     elif notes:

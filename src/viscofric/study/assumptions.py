@@ -11,56 +11,56 @@ from viscofric.study import labels
 from viscofric.study.bands import curves_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import xarray
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.cases import CaseSolver
-    from viscofric.study.measurement import Measurement
+    from viscofric.study.contacts import Contacts, Solved
     from viscofric.study.record import CaseRecord
-    from viscofric.study.run_file import Study
+    from viscofric.study.sweep import Case
+
+_OF_HALF_SPACES = "half-space"
 
 
-def assumptions(
-    study: Study,
-    solver: CaseSolver,
-    measured: Measurement | None,
-    records: list[CaseRecord],
-    at_points: list[CaseRecord | None],
-) -> dict[str, xarray.Dataset]:
+def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[str, xarray.Dataset]:
     """Check thickness, small strain and warming of all contacts; of each, what is told is the worst.
 
     Parameters
     ----------
-    study : Study
-    solver : CaseSolver
-        That solved them.
-    measured : Measurement, optional
-        Tells the Coulomb friction, which heats.
-    records : list of CaseRecord
-        Cases asked for.
-    at_points : list of CaseRecord or None
-        At the measured points; None where the solve failed.
+    contacts : Contacts
+        Of the study; measured friction tells the Coulomb friction, which heats.
+    asked, at_points : Solved
+        Cases asked for, and those at the measured points.
     """
-    found = list(_checked(study, solver, curves_of(records), records))
-    if measured is not None:
-        solved = np.array([record is not None for record in at_points], dtype=bool)
-        if solved.any():
-            here = [record for record in at_points if record is not None]
-            found = _worse(found, _checked(study, solver, measured.curves.select(solved), here))
-    return {"/assumptions": labels.assumption_data(found)} if found else {}
+    alike: dict[object, list[tuple[Case, CaseRecord]]] = {}
+    for case, record in zip(asked.of_records, asked.records, strict=True):
+        alike.setdefault((case.material, case.sample, case.indenter, case.load, case.layer), []).append((case, record))
+    found: dict[str, AssumptionCheck] = {}
+    for pairs in alike.values():
+        records = [record for _, record in pairs]
+        _keep_worst(found, _checked(contacts, pairs[0][0], curves_of(records), records))
+    if at_points.records and contacts.measured is not None:
+        solved = np.array([not hasattr(outcome, "reason") for outcome in at_points.outcomes], dtype=bool)
+        curves = contacts.measured.curves.select(solved)
+        _keep_worst(found, _checked(contacts, at_points.cases[0], curves, at_points.records))
+    return {"/assumptions": labels.assumption_data(list(found.values()))} if found else {}
 
 
 def _checked(
-    study: Study, solver: CaseSolver, curves: FrictionCurves, records: list[CaseRecord]
-) -> tuple[AssumptionCheck, ...]:
-    reach = np.array([max(record.half_width, 0.5 * (record.front + record.rear)) for record in records])
-    thickness = study.conditions.thickness
-    return check_assumptions(solver.material, solver.ball, curves, thickness=thickness, contact_radius=reach)
+    contacts: Contacts, case: Case, curves: FrictionCurves, records: list[CaseRecord]
+) -> Iterable[AssumptionCheck]:
+    """Check contacts of one rubber, shape and load."""
+    halves = ((0.5 * (record.front + record.rear), record.half_width) for record in records)
+    reach = np.array([max(along, across) if np.isfinite(across) else along for along, across in halves])
+    thickness, material = contacts.study.conditions.thickness, contacts.rubbers[case.material].material
+    checks = check_assumptions(material, case.indenter, curves, thickness=thickness, contact_radius=reach)
+    return (check for check in checks if case.layer is None or check.name != _OF_HALF_SPACES)
 
 
-def _worse(some: list[AssumptionCheck], others: tuple[AssumptionCheck, ...]) -> list[AssumptionCheck]:
-    """Return, of two checks of the same assumption, the one with more to tell."""
-    if not some:
-        return list(others)
-    beside = {other.name: other for other in others}
-    return [max((one, beside.get(one.name, one)), key=lambda check: check.value or 0.0) for one in some]
+def _keep_worst(found: dict[str, AssumptionCheck], checks: Iterable[AssumptionCheck]) -> None:
+    """Keep, of two checks of the same assumption, the one with more to tell."""
+    for check in checks:
+        known = found.setdefault(check.name, check)
+        if (check.value or 0.0) > (known.value or 0.0):
+            found[check.name] = check

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from viscofric.study.rubber import Rubber
 
 
-def draw_rubber(rubber: Rubber, samples: int) -> MaterialSamples | None:
+def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples | None:
     """Draw a rubber as other sweeps of it might have given it; None where there are no sweeps to tell, or no wish.
 
     Parameters
@@ -28,6 +28,8 @@ def draw_rubber(rubber: Rubber, samples: int) -> MaterialSamples | None:
     rubber : Rubber
     samples : int
         How many; 0 for none.
+    seed : int
+        Of the random numbers.
 
     Raises
     ------
@@ -39,7 +41,7 @@ def draw_rubber(rubber: Rubber, samples: int) -> MaterialSamples | None:
         return None
     law = None if rubber.shift_used == "measured" else rubber.shift_used
     ratio, name = rubber.material.poisson_ratio, rubber.material.name
-    return sample_materials(rubber.fit, spectrum, samples=samples, law=law, poisson_ratio=ratio, name=name)
+    return sample_materials(rubber.fit, spectrum, samples=samples, seed=seed, law=law, poisson_ratio=ratio, name=name)
 
 
 def curves_of(records: Sequence[CaseRecord]) -> FrictionCurves:
@@ -64,6 +66,8 @@ class FrictionBands:
     rubber : Rubber
     count : int
         Samples of the rubber; 0 for no bands.
+    seed : int
+        Of their random numbers.
 
     Attributes
     ----------
@@ -72,11 +76,11 @@ class FrictionBands:
         What is to be said of the bands so far: one sentence each.
     """
 
-    def __init__(self, rubber: Rubber, count: int) -> None:
+    def __init__(self, rubber: Rubber, count: int, seed: int = 0) -> None:
         self.notes: tuple[str, ...] = ()
         self.samples: MaterialSamples | None = None
         try:
-            self.samples = draw_rubber(rubber, count)
+            self.samples = draw_rubber(rubber, count, seed)
         except InputError as error:
             self._note(f"Friction has no 95 % bands: {error}")
         self._drawn = None if self.samples is None else DrawnMaterials(self.samples, rubber.material)

@@ -4,206 +4,174 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from viscofric.contact.indenters.indenter import Ball
 from viscofric.errors import StudyError
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study import labels
 from viscofric.study.assumptions import assumptions
-from viscofric.study.bands import FrictionBands
-from viscofric.study.cases import CaseSolver, Progress, kept
-from viscofric.study.checking import shift_of
+from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.measurement import Measurement, read_measurement
+from viscofric.study.record import Failure
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
-from viscofric.study.rubber import Rubber, make_rubber
 from viscofric.study.rubber_labels import rubber_data
-from viscofric.study.run_file import Study, parse_study, read_study_text
-from viscofric.study.store import CaseStore
-from viscofric.units import celsius
+from viscofric.study.run_file import parse_study, read_study_text
+from viscofric.study.running import Event, choose_executor, run_plan, silent, study_folder
+from viscofric.study.setting import setting
+from viscofric.study.study_rubber import StudyRubber, all_within, band_columns
+from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     import xarray
-    from numpy.typing import NDArray
 
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.study.record import CaseRecord
+    from viscofric.study.run_file import Study
+    from viscofric.study.running import Progress
 
-    Array: TypeAlias = NDArray[np.float64]
-
-CASES_FOLDER = "cases"
-_ROUNDING = 1e-6
+    Groups = dict[str, xarray.Dataset]
 
 
-def _silent(stage: str, done: int, total: int) -> None:
-    pass
-
-
-def run_study(path: str | Path, *, output: str | Path | None = None, progress: Progress = _silent) -> StudyResults:
-    """Run a study: material from DMA, friction at every speed and temperature, measurement beside it.
+def run_study(
+    path: str | Path,
+    *,
+    output: str | Path | None = None,
+    resume: bool = False,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress = silent,
+) -> StudyResults:
+    """Run a study: material from DMA, friction of every case, measurement beside it.
 
     Parameters
     ----------
     path : str or Path
         The run file (TOML).
     output : str or Path, optional
-        Folder for the results; ``<run file>.results`` beside the run file if not given.  Cases that are
-        already solved there are taken as they are.
+        Folder for the results; ``<run file>.results`` beside the run file if not given.
+    resume : bool
+        Whether the folder may hold what another run left, finished or not.  Contacts that are solved there are taken as
+        they are if they are the same to the last digit, whatever the run file was then, and the results are replaced.
+        Without it, such a folder is refused.
+    workers : int, optional
+        Processes of this machine that solve contacts; one, or the run file's [cluster], if not given.
+    scheduler : str, optional
+        Address of a Dask scheduler, such as ``"tcp://10.0.0.1:8786"``, whose workers solve contacts instead.
     progress : callable, optional
-        ``progress(stage, done, total)``.
+        Gets an `Event` of each stage that begins or takes a step, and of each contact.
 
     Returns
     -------
     StudyResults
-        Also stored in the folder, as ``results.nc``.  Cases that could not be solved are listed in
-        ``failures``.
+        Also stored in the folder, as ``results.nc``.  The same to the last digit however many workers there were and
+        however often the study was interrupted.  Cases that could not be solved are listed in ``failures``.
 
     Raises
     ------
     StudyError
-        If the run file is wrong, or no case at all could be solved.
+        If the run file is wrong, the folder is in use or not to be resumed, or no case at all could be solved.
     DataFileError, SuperpositionError, InputError
-        If a data file cannot be used.
+        If a data file cannot be used, or the folder cannot be written.
+    ViscofricError
+        If there are no workers of use.
     """
-    import xarray
-
     path = Path(path)
     text = read_study_text(path)
     study = parse_study(text, path)
-    _refuse_what_is_not_solved_yet(study, path)
-    (radius,), (load,) = study.indenter.axes["radius"], study.conditions.load
     folder = path.with_suffix(".results") if output is None else Path(output)
-
-    hashes = input_hashes(study.inputs)
-    curves = None
-    if study.measurement is not None:
-        progress("measurement", 0, 1)
-        curves = read_measurement(study.measurement)
-        progress("measurement", 1, 1)
-    progress("material", 0, 1)
-    rubber = make_rubber(study.material)
-    bands = FrictionBands(rubber, study.uncertainty.draws)
-    progress("material", 1, 1)
-    shift = shift_of(rubber)
-    # Temperatures without a shift factor are told now, not case by case.
-    shift(np.array(study.conditions.temperature))
-    ball = Ball(radius)
-    measured = None
-    if curves is not None:
-        progress("shift", 0, 1)
-        measured = Measurement(curves, rubber.material, ball, load)
-        progress("shift", 1, 1)
-
-    store = CaseStore(folder / CASES_FOLDER)
-    sensitive = bands.samples is not None
-    solver = CaseSolver(rubber.material, shift, ball, study.solver.accuracy, store, progress, sensitive=sensitive)
-    groups = _solved(study, shift, measured, solver, bands)
-    tree = xarray.DataTree.from_dict({**rubber_data(rubber, bands.samples), **groups})
-    tree.attrs = {
-        "title": study.title,
-        "data_origin": "synthetic" if rubber.synthetic else study.data_origin,
-        "study_file": path.name,
-        "study_text": text,
-        "notes": _listed([*rubber.notes, *bands.notes, *(measured.notes if measured else ())]),
-        "warnings": _listed([*_doubts(study, rubber, shift), *solver.warnings]),
-        "failures": _listed(solver.failures),
-        **rubber.attributes,
-        "indenter": f"ball of radius {1e3 * radius:.6g} mm",
-        "indenter_radius": radius,
-        **({} if solver.frequency_range is None else {"frequency_range": solver.frequency_range}),
-        "load": load,
-        "accuracy": study.solver.accuracy,
-        "input_hashes": hashes,
-        **provenance(),
-    }
-    save_results(tree, folder)
+    executor = choose_executor(workers, scheduler, study.cluster)
+    with study_folder(folder, resume) as store:
+        hashes = input_hashes(study.inputs)
+        rubbers, measured = _inputs(study, _staged(progress))
+        contacts = Contacts(study, rubbers, measured)
+        with executor:
+            run_plan(contacts.plan, store, executor, progress)
+        tree = _tree(contacts)
+        tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
+        save_results(tree, folder)
     return StudyResults(tree, folder)
 
 
-def _refuse_what_is_not_solved_yet(study: Study, path: Path) -> None:
-    """Raise `StudyError` where a run file asks for more than the cases of one ball at one load."""
-    asked = {
-        "several materials": len(study.materials) > 1,
-        f'shape = "{study.indenter.shape}"': study.indenter.shape != "ball",
-        "several radii": len(next(iter(study.indenter.axes.values()))) > 1,
-        "an elastic indenter": study.indenter.modulus is not None,
-        "[layer]": study.layer is not None,
-        "several loads": len(study.conditions.load) > 1,
-        "uncertainty.members": study.uncertainty.members > 0,
-        "uncertainty.seed": study.uncertainty.seed > 0,
-        "outputs.fields": "fields" in study.outputs.model_fields_set,
-        "outputs.formats": bool(study.outputs.formats),
-        "[cluster]": study.cluster is not None,
-        "solver.cases": "cases" in study.solver.model_fields_set,
+def _staged(progress: Progress) -> Callable[[str, Callable[[], Any]], Any]:
+    """Return what does a step that is a stage by itself, and tells of it."""
+
+    def stage(name: str, step: Callable[[], Any]) -> Any:
+        progress(Event("stage", stage=name, done=0, total=1))
+        result = step()
+        progress(Event("stage", stage=name, done=1, total=1))
+        return result
+
+    return stage
+
+
+def _inputs(
+    study: Study, stage: Callable[[str, Callable[[], Any]], Any]
+) -> tuple[list[StudyRubber], Measurement | None]:
+    """Read what a study starts from."""
+    conditions, table = study.conditions, study.measurement
+    curves = None if table is None else stage("measurement", lambda: read_measurement(table))
+    rubbers: list[StudyRubber] = stage(
+        "material",
+        lambda: [StudyRubber.of(one, study.uncertainty, conditions.temperature) for one in study.materials],
+    )
+    if curves is None:
+        return rubbers, None
+    ball: Any = study.sweep().cases[0].indenter
+    load = float(conditions.load[0])
+    return rubbers, stage("shift", lambda: Measurement(curves, rubbers[0].material, ball, load))
+
+
+def _tree(contacts: Contacts) -> xarray.DataTree:
+    """Lay out everything that a study found."""
+    import xarray
+
+    study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
+    asked, at_points, along = contacts.results()
+    failures = list(dict.fromkeys(str(one) for part in (asked, at_points, along) for one in part.failures))
+    if not asked.records:
+        raise StudyError(f"no case could be solved; the first one failed: {failures[0]}")
+    groups, about = material_groups(
+        [rubber_data(one.rubber, one.bands.samples) for one in rubbers], [one.rubber.attributes for one in rubbers]
+    )
+    known = all(rubber.frequency_range is not None for rubber in rubbers)
+
+    def within(part: Solved) -> list[bool] | None:
+        return all_within(rubbers, part.of_records, part.records) if known else None
+
+    groups["/prediction"] = prediction(
+        contacts.sweep,
+        asked.outcomes,
+        within=within(asked),
+        curves=band_columns(rubbers, asked.of_records, asked.records),
+    )
+    groups |= field_groups(contacts.sweep, asked.outcomes)
+    if along.records:
+        curves = rubbers[0].bands.curves(along.records)
+        groups["/prediction_master"] = labels.prediction_data(along.records, within(along), curves)
+        if measured is not None:
+            points = [None if isinstance(one, Failure) else one for one in at_points.outcomes]
+            inside = [one is not None and rubbers[0].is_within(one) for one in points]
+            groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
+    groups |= assumptions(contacts, asked, at_points)
+    tree = xarray.DataTree.from_dict(groups)
+    notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
+    said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
+    tree.attrs = {
+        "title": study.title,
+        "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
+        "notes": _listed([*notes, *(measured.notes if measured else ())]),
+        "warnings": _listed([*said, *doubts((asked, at_points, along), rubbers)]),
+        "failures": _listed(failures),
+        **about,
+        **setting(contacts),
     }
-    wanted = [name for name, is_asked in asked.items() if is_asked]
-    if wanted:
-        raise StudyError(f"{path}: {' and '.join(wanted)} can be checked, but not be run yet.")
+    return tree
+
+
+def _named(one: StudyRubber, sentences: Iterable[str], rubbers: Sequence[StudyRubber]) -> list[str]:
+    """Say of which rubber sentences are, where there are several."""
+    name = f"{one.material.name}: " if len(rubbers) > 1 else ""
+    return [f"{name}{sentence}" for sentence in sentences]
 
 
 def _listed(sentences: Iterable[str]) -> str:
     return json.dumps(list(sentences), ensure_ascii=False)
-
-
-def _doubts(study: Study, rubber: Rubber, shift: ShiftLaw) -> list[str]:
-    """Tell what of the prediction rests on more than was measured, or does not lie on one curve."""
-    asked = np.array(study.conditions.temperature)
-    beyond = asked[np.asarray(shift.extrapolates(asked))]
-    spectrum = rubber.material.spectrum
-    fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
-    # What is wrong with a ready rubber is told by nothing else.
-    said = list(fit.notes) if rubber.fit is None and fit is not None else []
-    if fit is None:
-        said.append(
-            "At which frequencies the rubber was measured is not known, so that nothing tells where it is extrapolated."
-        )
-    if beyond.size:
-        at = ", ".join(f"{celsius(float(kelvin)):z.4g}" for kelvin in np.unique(beyond))
-        behind = "of the friction that it was identified from" if rubber.from_friction else "of the sweeps"
-        said.append(f"At {at} °C the shift factor is extrapolated beyond the temperatures {behind}, by its law.")
-    if rubber.material.vertical_shift is not None:
-        said.append(
-            "The modulus has a vertical shift b(T), so that curves of other temperatures fall on the friction master "
-            "curve only at the load F/b; measured points are brought to it by the similarity of contacts."
-        )
-    return said
-
-
-def _solved(
-    study: Study, shift: ShiftLaw, measured: Measurement | None, solver: CaseSolver, bands: FrictionBands
-) -> dict[str, xarray.Dataset]:
-    """Solve all cases: those asked for, those measured, and those along the friction master curve."""
-    conditions, groups = study.conditions, {}
-    (load,) = conditions.load
-    temperature, speed = (grid.ravel() for grid in np.meshgrid(conditions.temperature, conditions.speed, indexing="ij"))
-    records = kept(solver.solve("friction", temperature, speed, np.full(len(speed), load)))
-    if not records:
-        raise StudyError(f"no case could be solved; the first one failed: {solver.failures[0]}")
-    groups["/prediction"] = _prediction(records, solver, bands)
-    reduced, at_points = speed * shift(temperature), []
-    if measured is not None:
-        curves = measured.curves
-        at_points = solver.solve("measured points", curves.temperature, curves.speed, curves.load)
-        reduced = np.concatenate([reduced, measured.reduced_speed])
-    # A little beyond, so that rounding leaves no point outside.
-    ends = reduced.min() * (1.0 - _ROUNDING), reduced.max() * (1.0 + _ROUNDING)
-    master_speeds = np.geomspace(*ends, study.solver.master_curve_points)
-    same = np.full(len(master_speeds), shift.reference), master_speeds, np.full(len(master_speeds), load)
-    at_reference = kept(solver.solve("master curve", *same))
-    groups["/prediction_master"] = _prediction(at_reference, solver, bands)
-    if measured is not None:
-        within = [record is not None and solver.within_measured_frequencies(record) for record in at_points]
-        known = None if solver.frequency_range is None else within
-        groups |= measured.groups(at_points, known, bands.curves(at_reference), bands)
-    return groups | assumptions(study, solver, measured, records, at_points)
-
-
-def _prediction(records: list[CaseRecord], solver: CaseSolver, bands: FrictionBands) -> xarray.Dataset:
-    within = None
-    if solver.frequency_range is not None:
-        within = [solver.within_measured_frequencies(record) for record in records]
-    return labels.prediction_data(records, within, bands.curves(records))

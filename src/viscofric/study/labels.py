@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
     from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.study.study_rubber import BandColumns
 
 #: Variable -> unit, long name.
 MEANING = {
@@ -159,7 +160,7 @@ def prediction_data(
     return dataset("case", columns)
 
 
-def band(curves: FrictionCurves, name: str) -> dict[str, Any]:
+def band(curves: FrictionCurves | BandColumns, name: str) -> dict[str, Any]:
     """Return the uncertainty that the rubber leaves on friction, where it is known."""
     found = {
         "material_error": curves.material_error,

@@ -14,7 +14,6 @@ from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.readers import read_mtm
 from viscofric.study import labels
-from viscofric.study.cases import kept
 
 if TYPE_CHECKING:
     import xarray
@@ -111,7 +110,7 @@ class Measurement:
             Predicted along the master curve.
         bands : FrictionBands
         """
-        predicted = bands.curves(kept(at_points))
+        predicted = bands.curves([record for record in at_points if record is not None])
         alpha = np.asarray(self._master.shift(self.curves.temperature))
         return {
             "/measurement": labels.measurement_data(

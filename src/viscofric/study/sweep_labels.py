@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.record import Failure
+    from viscofric.study.study_rubber import BandColumns
     from viscofric.study.sweep import Axis, Sweep
 
 #: What a case holds besides its numbers: flags with what stands for a case that failed.
@@ -62,7 +63,7 @@ def prediction(
     outcomes: Sequence[CaseRecord | Failure],
     *,
     within: Sequence[bool] | None = None,
-    curves: FrictionCurves | None = None,
+    curves: FrictionCurves | BandColumns | None = None,
 ) -> xarray.Dataset:
     """Label the cases of a sweep.
 
@@ -73,8 +74,8 @@ def prediction(
         One for each case, in their order.
     within : sequence of bool, optional
         Of those that were solved, in their order: whether the contact's frequency lies within those measured.
-    curves : FrictionCurves, optional
-        Their friction, with its bands.
+    curves : FrictionCurves or BandColumns, optional
+        Their friction with its bands, or these alone.
 
     Returns
     -------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import shutil
 import uuid
 from dataclasses import dataclass, field
 from importlib import import_module
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from viscofric.study.running.executors import Answers
     from viscofric.study.running.task import Outcome, Solve, Task
+    from viscofric.study.settings_tables import ClusterTable
 
 _PATIENCE = 30.0  # s
 
@@ -42,6 +44,21 @@ class BatchJobs:
     jobs: int
     settings: dict[str, Any] = field(default_factory=dict)
     kind: str = "SLURMCluster"
+
+    @classmethod
+    def of(cls, table: ClusterTable) -> Self:
+        """Return the jobs that [cluster] of a run file asks for."""
+        threads = [f"export {name}=1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")]
+        settings: dict[str, Any] = {
+            "cores": table.cores,
+            "processes": table.cores,  # each solves one case at a time
+            "memory": f"{table.memory} B",
+            "walltime": _clock(table.walltime),
+            "job_extra_directives": list(table.extra),
+            "job_script_prologue": [*threads, *table.prologue],
+        }
+        named = {"queue": table.queue, "account": table.account}
+        return cls(table.jobs, settings | {name: value for name, value in named.items() if value is not None})
 
 
 class Dask(Executor):
@@ -77,6 +94,7 @@ class Dask(Executor):
         """
         with contextlib.ExitStack() as opened:
             address: Any = self._where
+            self._insist_on_batch_system()
             if isinstance(self._where, BatchJobs):
                 address = opened.enter_context(getattr(self._jobqueue, self._where.kind)(**self._where.settings))
                 # At least and at most: jobs that end, with their time or their machine, are replaced.
@@ -88,6 +106,17 @@ class Dask(Executor):
             self._client = opened.enter_context(client)
             self._open = opened.pop_all()
         return self
+
+    def _insist_on_batch_system(self) -> None:
+        """Refuse to send jobs from where none can be sent: Dask would wait for them for ever."""
+        if isinstance(self._where, str):
+            return
+        command = getattr(self._jobqueue, self._where.kind).job_cls.submit_command
+        if command is not None and shutil.which(command) is None:
+            raise InputError(
+                f"cluster: there is no {command} here; run the study where jobs can be sent from, or leave [cluster] "
+                "out and give --workers."
+            )
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -124,6 +153,13 @@ class Dask(Executor):
                 "viscofric must be installed on all machines, in the same version."
             ) from error
         return outcome
+
+
+def _clock(seconds: int) -> str:
+    """Return a time as SLURM writes it: hours, minutes and seconds."""
+    minutes, seconds = divmod(seconds, 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours:02d}:{minutes:02d}:{seconds:02d}"
 
 
 def _imported(name: str) -> ModuleType:

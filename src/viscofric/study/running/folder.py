@@ -1,0 +1,151 @@
+"""The folder of a study's results: not two runs in it at a time, and nothing in it replaced unasked."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import platform
+import sys
+from datetime import UTC, datetime
+from typing import IO, TYPE_CHECKING
+
+from viscofric.errors import DataFileError, StudyError
+from viscofric.study.store import CaseStore
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+CASES_FOLDER = "cases"
+RESULTS_FILE = "results.nc"
+_LOCK = ".lock"
+
+
+@contextlib.contextmanager
+def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
+    """Have a folder for oneself, and its store of finished cases.
+
+    Parameters
+    ----------
+    folder : Path
+        Made if it does not exist.
+    resume : bool
+        Whether finished cases in it are taken over, and results in it replaced.
+
+    Raises
+    ------
+    StudyError
+        If another run is at work in it, or it holds what another left and is not to be resumed.
+    DataFileError
+        If it cannot be written.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise DataFileError(folder, "is a file; results need a folder.")
+    if not resume:
+        _insist_on_nothing_there(folder)
+    store = CaseStore(folder / CASES_FOLDER)
+    store.prepare()
+    with _locked(folder):
+        yield store
+
+
+def _insist_on_nothing_there(folder: Path) -> None:
+    cases = sum(1 for _ in CaseStore(folder / CASES_FOLDER).stored())
+    finished = (folder / RESULTS_FILE).exists()
+    if cases or finished:
+        what = "the results of a study" if finished else "an unfinished study"
+        raise StudyError(
+            f"{folder}: holds {what} already ({cases} solved contacts); resume it (--resume) to solve only what is "
+            "missing, even if the run file has changed, and to replace its results, or choose another folder."
+        )
+
+
+@contextlib.contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """Hold the lock of a folder, which the system gives back however this process ends."""
+    path = folder / _LOCK
+    file = _opened(path)
+    try:
+        if not _is_alone(file):
+            raise StudyError(
+                f"{folder}: another run is at work in this folder{_holder(path)}; wait for its end, or choose another "
+                "folder."
+            )
+        held = {"process": os.getpid(), "machine": platform.node(), "since": datetime.now(UTC).isoformat()}
+        file.truncate(0)
+        file.write(json.dumps(held).encode())
+        file.flush()
+        try:
+            yield
+        finally:
+            file.truncate(0)
+    finally:
+        file.close()
+
+
+def _opened(path: Path) -> IO[bytes]:
+    try:
+        file = path.open("a+b", buffering=0)
+    except OSError as error:
+        raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error
+    return file
+
+
+def _is_alone(file: IO[bytes]) -> bool:
+    """Lock a file unless another process has."""
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            file.seek(_FAR)
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        return False
+    except OSError:
+        # A file system without locks, as some clusters have: what the file says of its holder must do.
+        return not _holder_is_alive(file)
+    return True
+
+
+def _told(text: bytes) -> dict[str, object]:
+    with contextlib.suppress(ValueError):
+        held = json.loads(text)
+        if isinstance(held, dict):
+            return held
+    return {}
+
+
+def _holder(path: Path) -> str:
+    """Tell who holds a lock, as far as that is known."""
+    try:
+        held = _told(path.read_bytes())
+    except OSError:  # Windows lets nobody read it
+        held = {}
+    return f" (process {held['process']} on {held['machine']})" if {"process", "machine"} <= held.keys() else ""
+
+
+def _holder_is_alive(file: IO[bytes]) -> bool:
+    """Whether the process that a lock tells of may be at work still; of another machine nobody knows."""
+    file.seek(0)
+    held = _told(file.read())
+    process = held.get("process")
+    if not isinstance(process, int):
+        return False
+    if held.get("machine") != platform.node():
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+#: Byte that is locked under Windows, which lets nobody read what is locked.
+_FAR = 1 << 30

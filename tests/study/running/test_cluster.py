@@ -1,0 +1,103 @@
+"""Studies on a Dask cluster: the same bits as in one process, also where a worker is killed."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+
+from study.running.tasks import TwoWaves
+from viscofric.errors import InputError
+from viscofric.study.running import Event, Serial, choose_executor, run_plan
+from viscofric.study.running.cluster import BatchJobs, Dask
+from viscofric.study.settings_tables import ClusterTable
+from viscofric.study.store import CaseStore
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+TABLE = ClusterTable.model_validate(
+    {
+        "jobs": 3,
+        "cores": 4,
+        "memory": "8 GB",
+        "walltime": "90 min",
+        "queue": "short",
+        "account": "rubber",
+        "extra": ["--exclusive"],
+        "prologue": ["module load python"],
+    }
+)
+
+
+@pytest.mark.slow
+def test_worker_killed_amid_a_study_changes_no_bit(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    # Of a worker that is killed, Dask tells at length.
+    for name in ("distributed", "distributed.scheduler", "distributed.nanny", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    alone = TwoWaves()
+    run_plan(alone, CaseStore(tmp_path / "alone"), Serial())
+    shared, killed = TwoWaves(), []
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+    ) as cluster:
+
+        def kill(event: Event) -> None:
+            if event.event == "solved" and not killed:
+                killed.append(cluster.workers[0].process.process)
+                killed[0].kill()
+
+        store = CaseStore(tmp_path / "shared")
+        with choose_executor(None, cluster.scheduler_address, None) as executor:
+            assert isinstance(executor, Dask)
+            run_plan(shared, store, executor, kill)
+    assert killed
+    assert shared.bits() == alone.bits()
+    assert sorted(store.stored()) == sorted(shared.known)
+
+
+def test_jobs_are_those_of_the_run_file() -> None:
+    jobqueue = pytest.importorskip("dask_jobqueue")
+    jobs = BatchJobs.of(TABLE)
+    with jobqueue.SLURMCluster(**jobs.settings, scheduler_options={"dashboard_address": None}) as cluster:
+        script = cluster.job_script()
+    for line in (
+        "#SBATCH -p short",
+        "#SBATCH -A rubber",
+        "#SBATCH --cpus-per-task=4",
+        "#SBATCH --mem=8G",
+        "#SBATCH -t 01:30:00",
+        "#SBATCH --exclusive",
+        "export OPENBLAS_NUM_THREADS=1",
+        "module load python",
+    ):
+        assert line in script.splitlines()
+    # One case at a time and core.
+    assert "--nthreads 1 " in script
+    assert "--nworkers 4 " in script
+    assert jobs.jobs == 3
+
+
+def test_jobs_where_none_can_be_sent_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("dask_jobqueue")
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(InputError, match=r"no sbatch here; run the study where jobs can be sent from"):
+        Dask(BatchJobs.of(TABLE)).__enter__()
+
+
+def test_scheduler_that_does_not_answer_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("viscofric.study.running.cluster._PATIENCE", 0.3)
+    with pytest.raises(InputError, match=r"scheduler 'tcp://127.0.0.1:9' cannot be reached"):
+        Dask("tcp://127.0.0.1:9").__enter__()
+
+
+def test_what_is_missing_is_named_with_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(InputError, match=r"distributed is not installed.*pip install 'viscofric\[cluster\]'"):
+        choose_executor(None, "tcp://10.0.0.1:8786", None)
+    with pytest.raises(InputError, match="only one of them"):
+        choose_executor(2, "tcp://10.0.0.1:8786", None)
