@@ -10,6 +10,7 @@ from viscofric.errors import StudyError
 from viscofric.study import labels
 from viscofric.study.assumptions import assumptions
 from viscofric.study.contacts import Contacts, Solved, doubts
+from viscofric.study.export import export_results
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.record import Failure
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
@@ -88,7 +89,10 @@ def run_study(
         tree = _tree(contacts)
         tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)
-    return StudyResults(tree, folder)
+        results = StudyResults(tree, folder)
+        for form in study.outputs.formats:
+            export_results(results, form)
+    return results
 
 
 def _staged(progress: Progress) -> Callable[[str, Callable[[], Any]], Any]:
