@@ -26,13 +26,14 @@ if TYPE_CHECKING:
 #: Length in s of the smallest interval there can be; others are multiples by powers of two.
 STEP = 1.0 / 32.0
 # Intervals begin that long, in steps, at accuracies up to and above the limit.
-_FINE_START, _COARSE_START, _COARSE_FROM = 32, 64, 2e-3
+_FINE_START, _COARSE_START, _COARSE_FROM = 32, 64, 1e-2
 #: Nodes further apart than this, in steps, tell nothing of what lies between them.
 FURTHEST = 64
 #: Interpolation may add so much to the error of friction, of the accuracy asked for.
 SHARE = 0.25
 # By how much halving an interval lowers the error at the least, by the nodes that its polynomial goes through: in the
-# limit it is 2 to the power of their number.
+# limit it is 2 to the power of their number.  Between nodes further apart than the first ones are at high accuracy,
+# which peaks of single modes fit between, halving gains nothing that can be counted on.
 _GAIN = (1.0, 1.0, 1.0, 2.0, 4.0, 4.0, 8.0)
 # Midpoints that are solved for each first interval, with those of later ones: as many as for three rubbers over twelve
 # decades at 1e-3.
@@ -164,7 +165,8 @@ class Curve:
         value, error = solved.values[FRICTION], solved.errors[FRICTION]
         # No more can be told than the errors of the solutions let tell.
         noise = np.hypot(error, expected.from_nodes[0, FRICTION])
-        allowed = _GAIN[len(chosen.nodes)] * self._allowed(value)
+        gain = 1.0 if one.high - one.low > _FINE_START else _GAIN[len(chosen.nodes)]
+        allowed = gain * self._allowed(value)
         return bool(abs(expected.values[0, FRICTION] - value) <= max(allowed, noise))
 
     def _agrees(self, one: Interval, known: list[int]) -> bool:
