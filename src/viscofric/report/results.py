@@ -108,7 +108,7 @@ def values(dataset: xr.Dataset, name: str) -> Array:
     """Return a variable as floats, nan throughout if it is absent."""
     if name in dataset.variables:
         return np.asarray(dataset[name].values, dtype=float)
-    return np.full(next(iter(dataset.sizes.values())), np.nan)
+    return np.full(tuple(dataset.sizes.values()), np.nan)
 
 
 def nominal_temperatures(*temperatures: Array) -> Array:
