@@ -78,7 +78,7 @@ def test_more_accuracy_takes_more_contacts() -> None:
 def test_scatter_of_the_contacts_does_not_refine_without_end() -> None:
     def scattered(task: Task) -> CaseRecord:
         record = made_up(task)
-        noise = np.random.default_rng(int(task.key[:8], 16)).uniform(-1.0, 1.0)
+        noise = np.random.default_rng(int(1e9 * task.speed)).uniform(-1.0, 1.0)
         error = 1e-3 * record.friction_coefficient
         friction = record.friction_coefficient + noise * error
         return replace(record, friction_coefficient=friction, friction_error=error)
