@@ -90,8 +90,8 @@ def test_scatter_of_the_contacts_does_not_refine_without_end() -> None:
         (record.friction_coefficient - made_up(alone(case)).friction_coefficient) / record.friction_error
         for case, record in zip(CASES, records(rough.found()), strict=True)
     ]
-    # The scatter is uniform up to the error that is claimed, which is √3 of its standard deviations: between nodes, as of
-    # a normal distribution, 92 % lie within it.  Cases between the same nodes share their scatter: 240 count as some 40.
+    # The scatter is uniform up to the error that is claimed, which is √3 of its standard deviations: between nodes, as
+    # of a normal distribution, 92 % lie within it.  Cases between the same nodes share their scatter: 240 are some 40.
     assert np.mean(np.abs(off) <= 1.0) >= 0.85
 
 
