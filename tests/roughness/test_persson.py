@@ -77,6 +77,28 @@ def test_another_quadrature_finds_the_same(gamma):
     assert found.friction_coefficient[0, 0] == pytest.approx(wanted, rel=5e-4)
 
 
+@pytest.mark.parametrize("speed", [1e-4, 100.0])
+def test_friction_under_vanishing_loads_does_not_depend_on_them(speed):
+    """P falls from one within 1e-24 of the longest wave; grids that miss that make up any friction."""
+    road = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.3)
+
+    def friction(pressure: float, accuracy: float) -> float:
+        told = vf.persson_theory(
+            FLUOROELASTOMER,
+            road,
+            speeds=speed,
+            pressure=pressure,
+            temperatures="30 degC",
+            gamma=1.0,
+            accuracy=accuracy,
+        )
+        return float(told.friction_coefficient[0, 0])
+
+    exact = friction(1e-4, 1e-6)
+    for pressure in (1e-4, 1.0):  # the second is 3e-6 from the limit
+        assert friction(pressure, 1e-4) == pytest.approx(exact, rel=1e-4)
+
+
 def test_what_each_scale_adds_sums_to_the_whole_and_area_falls_from_scale_to_scale():
     found = vf.persson_theory(RUBBER, ROAD, speeds=[0.001, 0.01, 0.1], pressure=1e5)
     assert found.area_by_scale.shape == (1, 3, len(found.wave_number))

@@ -26,8 +26,9 @@ if TYPE_CHECKING:
 _MOST_REFINEMENTS = 7
 _FIRST = math.log(10.0) / 8.0
 _DIRECTIONS = 12
-#: Length of the first interval of ln q, and how much longer the next ones are, over the longest.
-_START, _GROWTH = 1e-6, 2.0
+#: Lengths of the first interval of ln q: that over which G grows to a hundredth, between these.
+_SHORTEST, _LONGEST_START, _SMALL_SPREAD = 1e-24, 1e-6, 0.01
+_GROWTH = 2.0  # how much longer each of the next ones is, over the longest
 
 
 class Case(NamedTuple):
@@ -84,8 +85,17 @@ class Theory:
         )
 
     def _on_grid(self, cases: list[Case], width: float, directions: int) -> Found:
-        grid = _Grid(_interval_ends(np.log(self.spectrum.wave_number), width), self.spectrum, directions)
+        start = min(self._first_interval(case) for case in cases)
+        logs = np.log(self.spectrum.wave_number / self.spectrum.wave_number[0])
+        grid = _Grid(_interval_ends(logs, width, start), self.spectrum, directions)
         return Found(grid.q[::2], [self._case(case, grid) for case in cases])
+
+    def _first_interval(self, case: Case) -> float:
+        """Return how far beyond the longest wave, in ln q, G is still small: the less, the smaller the load."""
+        q = self.spectrum.wave_number[:1]
+        modulus = abs(self.material.at(case.kelvin).complex_modulus(case.speed * q)) / self.plane_strain
+        slope = 0.25 * math.pi * q**4 * self.spectrum(q) * np.square(modulus / self.pressure)
+        return float(np.clip(_SMALL_SPREAD / np.maximum(slope, 1e-300), _SHORTEST, _LONGEST_START)[0])
 
     def _case(self, case: Case, grid: _Grid) -> Scales:
         rise = np.zeros(len(grid.q))
@@ -123,25 +133,25 @@ class Theory:
         return np.asarray(b[:, None] * self.material.spectrum.complex_modulus(alpha[:, None] * frequency))
 
 
-def _interval_ends(logs: Array, width: float) -> Array:
-    """Return ends of intervals of ln q, no longer than a width, with all points of the spectrum among them.
+def _interval_ends(logs: Array, width: float, start: float) -> Array:
+    """Return ends of intervals of ln q/q0, no longer than a width, with all points of the spectrum among them.
 
-    Just beyond the longest wave P falls from one like the root of a small distance: intervals grow from there on.
+    Just beyond the longest wave P falls from one like the inverse root of the distance: intervals grow from there on.
     """
-    starts = [_START]
-    while starts[-1] < width:
+    starts = [start]
+    while starts[-1] < 1.0 / _GROWTH:
         starts.append(starts[-1] * (1.0 + _GROWTH * width))
-    graded = logs[0] + np.concatenate([[0.0], starts])
+    graded = np.concatenate([[0.0], starts])
     parts = np.unique(np.concatenate([logs, graded[graded < logs[-1]]]))
-    # Two that differ by rounding are one.
-    parts = parts[np.concatenate([[True], np.diff(parts) > 0.1 * _START])]
+    # Two that differ by rounding are one; those close to zero are exact.
+    parts = parts[np.concatenate([[True], np.diff(parts) > 1e-12 * parts[1:]])]
     counts = np.maximum(1, np.ceil(np.diff(parts) / width)).astype(int)
     pieces = zip(parts[:-1], parts[1:], counts, strict=True)
     return np.concatenate([*(np.linspace(a, b, n, endpoint=False) for a, b, n in pieces), logs[-1:]])
 
 
 class _Grid:
-    """Wave numbers at the ends and in the middles of intervals of ln q (Simpson's rule), and directions φ.
+    """Wave numbers at the ends and in the middles of intervals of ln q/q0 (Simpson's rule), and directions φ.
 
     Directions from 0 to π/2 are crowded towards π/2, where frequencies fall to zero: φ = π/2 (1 − s²), s by Gauss's
     rule.
@@ -152,7 +162,7 @@ class _Grid:
         logs[::2] = ends
         logs[1::2] = 0.5 * (ends[:-1] + ends[1:])
         self.width = np.diff(ends)
-        self.q = np.exp(logs)
+        self.q = spectrum.wave_number[0] * np.exp(logs)
         self.cubed_density = self.q**3 * spectrum(self.q)
         place, weight = np.polynomial.legendre.leggauss(directions)
         s = 0.5 * (place + 1.0)
