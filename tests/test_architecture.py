@@ -25,7 +25,19 @@ SOURCE = ROOT / "src" / "viscofric"
 
 #: From left to right: a module may import from its own room and from those to its left.
 ROOMS = {
-    "base": ("units", "errors", "files", "data", "traction", "nominal", "thermal", "threads", "processes"),
+    "base": (
+        "units",
+        "errors",
+        "files",
+        "data",
+        "traction",
+        "nominal",
+        "thermal",
+        "threads",
+        "processes",
+        "serving",
+        "lazy",
+    ),
     "readers": ("readers",),
     "rheology": ("rheology",),
     "contact": ("contact",),

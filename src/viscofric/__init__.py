@@ -5,8 +5,9 @@ The front door: every public name, loaded when first used, so that importing vis
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING, Any
+
+from viscofric.lazy import loaded_when_used
 
 if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import Backend as Backend
@@ -246,17 +247,15 @@ _HOME = {
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604
 
+_fetched = loaded_when_used(__name__, _HOME)
+
 
 def __getattr__(name: str) -> Any:
-    if name in _HOME:
-        value = getattr(importlib.import_module(_HOME[name]), name)
-        globals()[name] = value
-        return value
     if name == "__version__":
         from importlib.metadata import version
 
         return version("viscofric")
-    raise AttributeError(f"module 'viscofric' has no attribute {name!r}")
+    return _fetched(name)
 
 
 def __dir__() -> list[str]:
