@@ -201,3 +201,45 @@ def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
 def test_senseless_numbers_of_workers_are_refused(workers: Any) -> None:
     with pytest.raises(InputError, match="whole number of processes above zero"):
         call_all(statistics.fmean, [], workers=workers)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes that lost their parent keep it there")
+def test_processes_end_with_the_one_that_started_them(tmp_path: Path) -> None:
+    """Also where that is killed, and they are at work."""
+    (tmp_path / "slow_calls.py").write_text("import time\ndef rest(seconds):\n    time.sleep(seconds)\n")
+    (tmp_path / "script.py").write_text(
+        "from slow_calls import rest\n"
+        "from viscofric.processes import Workers, as_they_come\n"
+        "with Workers(2) as workers:\n"
+        "    for _, kind, _ in as_they_come(rest, [{'seconds': 100.0}] * 2, workers=workers):\n"
+        "        print(kind, flush=True)\n"
+    )
+    program = subprocess.Popen(
+        [sys.executable, tmp_path / "script.py"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+    )
+    assert program.stdout is not None
+    assert [program.stdout.readline() for _ in range(2)] == ["begun\n"] * 2
+    program.kill()
+    # All of them write to one standard error, which comes to its end with the last of them.
+    _, said = program.communicate(timeout=60.0)
+    assert said == ""
+
+
+def test_what_calls_need_is_imported_before_the_first_of_them(
+    children: list[subprocess.Popen[bytes]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = "import os, pathlib\npathlib.Path(os.environ['TOLD']).write_text('here')\n"
+    (tmp_path / "needed_calls.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setenv("TOLD", str(tmp_path / "told"))
+    with Workers(2, needed="needed_calls") as workers:
+        assert len(children) == 2
+        assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
+        assert len(children) == 2
+    assert (tmp_path / "told").read_text() == "here"
+    with Workers(1, needed="needed_calls"):
+        assert len(children) == 2

@@ -17,7 +17,6 @@ import subprocess
 import sys
 import threading
 from collections import deque
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.errors import InputError, ViscofricError, brief
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
 
     Child: TypeAlias = subprocess.Popen[bytes]
 
-_SERVE = "from viscofric.processes import serve; serve()"
+_SERVE = "from viscofric.serving import serve; serve({parent}, {needed})"
 _ENDED = "a process ended before its contact was solved, for want of memory as a rule; use fewer workers."
 # Waiting without an end cannot be interrupted everywhere (Windows).
 _LONGEST_WAIT = 1.0  # s
@@ -38,12 +37,16 @@ _LONGEST_WAIT = 1.0  # s
 class Workers:
     """Processes that share out one set of calls after another among them, until the end of a ``with`` block.
 
-    They are started when there are first calls for them; `call_all` and what rests on it take them for a number.
+    As a rule they are started when there are first calls for them; `call_all` and what rests on it take them for a
+    number.
 
     Parameters
     ----------
     number : int
         Processes.  One: everything is done in this one.
+    needed : str, optional
+        Module that the calls need.  With it, processes are started at the beginning of the block, and import it while
+        this process makes up the calls.
 
     Raises
     ------
@@ -64,15 +67,22 @@ class Workers:
     [0.25, 0.75]
     """
 
-    def __init__(self, number: int) -> None:
+    def __init__(self, number: int, needed: str = "") -> None:
         if type(number) is not int or number < 1:
             raise InputError(f"workers = {brief(number)}: must be a whole number of processes above zero, such as 2.")
-        self.number = number
+        self.number, self._needed = number, needed
         self._idle: list[Child] = []
         self._started: contextlib.ExitStack | None = None
 
     def __enter__(self) -> Self:
         self._started = contextlib.ExitStack()
+        if self._needed and self.number > 1:
+            try:
+                while len(self._idle) < self.number:
+                    self._idle.append(self._start())
+            except BaseException as error:
+                self.__exit__(type(error), error, None)
+                raise
         return self
 
     def __exit__(
@@ -103,16 +113,34 @@ class Workers:
 
     def _start(self) -> Child:
         assert self._started is not None
-        child = subprocess.Popen(
-            # -P: modules in the working folder must not stand in for those of this process
-            [sys.executable, "-P", "-c", _SERVE],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
-            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # none flashes up under Windows
-        )
-        self._started.callback(_end, child)
+        program = _SERVE.format(parent=os.getpid(), needed=repr(self._needed))
+        with _interrupts_wait():
+            child = subprocess.Popen(
+                # -P: modules in the working folder must not stand in for those of this process
+                [sys.executable, "-P", "-c", program],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
+                creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # none flashes up under Windows
+            )
+            self._started.callback(_end, child)
         return child
+
+
+@contextlib.contextmanager
+def _interrupts_wait() -> Iterator[None]:
+    """Keep an interrupt waiting, and from what is started meanwhile: it is the business of this process alone.
+
+    A terminal sends it to all of them, also to those that cannot ignore it yet.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def call_all(
@@ -343,45 +371,3 @@ def _end(child: Child) -> None:
     for pipe in (child.stdin, child.stdout):
         with contextlib.suppress(OSError):
             pipe.close()  # type: ignore[union-attr]
-
-
-def serve() -> None:
-    """Answer calls from standard input on standard output until there are no more; run in a process of its own."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the business of the process that asks
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # whatever is printed must not get between the answers
-    while True:
-        try:
-            message = pickle.load(sys.stdin.buffer)
-        except EOFError:
-            return
-        pickle.dump(_answer(message), answers)
-        answers.flush()
-
-
-def _answer(message: bytes) -> bytes:
-    """Call what a message names; return what became of it, pickled."""
-    try:
-        name, call = pickle.loads(message)
-        module, _, function = name.partition(":")
-        called = getattr(import_module(module), function)
-    except (AttributeError, ImportError) as error:
-        return pickle.dumps(("not understood", str(error)))
-    try:
-        result = called(**call)
-    except Exception as error:  # noqa: BLE001 - it is raised again by the process that asked
-        return _told(error)
-    try:
-        return pickle.dumps(("result", result))
-    except (pickle.PicklingError, AttributeError, TypeError) as error:
-        return pickle.dumps(("not understood", str(error)))
-
-
-def _told(error: Exception) -> bytes:
-    """Return an exception pickled; one that cannot be, or not be had back, in words."""
-    try:
-        answer = pickle.dumps(("error", error))
-        pickle.loads(answer)
-    except Exception:  # noqa: BLE001 - whatever its class does when it is made again
-        return pickle.dumps(("error", ViscofricError(f"{type(error).__name__}: {error}")))
-    return answer
