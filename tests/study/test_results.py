@@ -75,7 +75,7 @@ def test_missing_results_are_told_and_what_helps(tmp_path: Path) -> None:
         vf.open_results(tmp_path)
     (tmp_path / "cases").mkdir()
     (tmp_path / "cases" / "a.json").touch()
-    with pytest.raises(DataFileError, match=r"not been finished.*finished cases beside it are kept"):
+    with pytest.raises(DataFileError, match=r"not been finished.  Contacts solved so far: 1\.  .*--resume"):
         vf.open_results(tmp_path)
 
 

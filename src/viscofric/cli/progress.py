@@ -79,6 +79,8 @@ class TerminalProgress(Silent):
         """Show an event."""
         stage = event.stage or event.event
         words = _WORDS.get(stage, stage)
+        if event.event == "waiting":
+            self._console.print(f"Waiting: {event.reason}", highlight=False, markup=False)
         if self._console.is_terminal:
             self._draw(event, stage, words)
         else:

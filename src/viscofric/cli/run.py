@@ -35,6 +35,11 @@ _TOLD_OTHERWISE = ("Small strain", "Linear rubber", "Measured frequency range", 
     help="Go on in a folder that holds results: what is solved there is not solved again, even if the run file has "
     "changed since.",
 )
+@click.option(
+    "--finished-only",
+    is_flag=True,
+    help="Solve nothing: results and report of what an interrupted run has solved so far.",
+)
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Solve with N processes of this machine.")
 @click.option(
     "--scheduler", metavar="ADDRESS", help="Solve with the workers of a Dask scheduler, such as tcp://10.0.0.1:8786."
@@ -45,6 +50,7 @@ def command(
     study: Path,
     output: Path | None,
     resume: bool,
+    finished_only: bool,
     workers: int | None,
     scheduler: str | None,
     as_json: bool,
@@ -56,7 +62,16 @@ def command(
     interrupted, to the same digits.  The results do not depend on the number of workers.
     """
     folder = study.with_suffix(".results") if output is None else output
-    run_and_report(study, folder, resume=resume, workers=workers, scheduler=scheduler, as_json=as_json, quiet=quiet)
+    run_and_report(
+        study,
+        folder,
+        resume=resume,
+        finished_only=finished_only,
+        workers=workers,
+        scheduler=scheduler,
+        as_json=as_json,
+        quiet=quiet,
+    )
 
 
 def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: bool = False, **how: Any) -> None:
@@ -94,8 +109,9 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
             raise
     except KeyboardInterrupt as stop:
         terminated = isinstance(stop, Terminated)
-        solved = output.is_dir() and any(output.glob("cases/*.json"))
-        kept = f" What is solved is kept in {output}; the same command with --resume continues." if solved else ""
+        solved = sum(1 for _ in output.glob("cases/*.json")) if output.is_dir() else 0
+        contacts = "1 contact that is" if solved == 1 else f"{solved} contacts that are"
+        kept = f" {output} keeps the {contacts} solved; the same command with --resume continues." if solved else ""
         click.echo(("Terminated." if terminated else "Interrupted.") + kept, err=True)
         sys.exit(TERMINATED if terminated else INTERRUPTED)
     written = {

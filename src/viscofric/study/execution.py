@@ -39,6 +39,7 @@ def run_study(
     resume: bool = False,
     workers: int | None = None,
     scheduler: str | None = None,
+    finished_only: bool = False,
     progress: Progress = silent,
 ) -> StudyResults:
     """Run a study: material from DMA, friction of every case, measurement beside it.
@@ -57,6 +58,9 @@ def run_study(
         Processes of this machine that solve contacts; one, or the run file's [cluster], if not given.
     scheduler : str, optional
         Address of a Dask scheduler, such as ``"tcp://10.0.0.1:8786"``, whose workers solve contacts instead.
+    finished_only : bool
+        Whether to solve nothing, and put together what another run of the study solved before it was interrupted; the
+        other cases count as failed, until a run with `resume` solves them.
     progress : callable, optional
         Gets an `Event` of each stage that begins or takes a step, and of each contact.
 
@@ -79,13 +83,13 @@ def run_study(
     text = read_study_text(path)
     study = parse_study(text, path)
     folder = path.with_suffix(".results") if output is None else Path(output)
-    executor = choose_executor(workers, scheduler, study.cluster)
-    with study_folder(folder, resume) as store:
+    executor = choose_executor(workers, scheduler, study.cluster, finished_only)
+    # Workers come to life while the inputs are read.
+    with study_folder(folder, resume or finished_only) as store, executor:
         hashes = input_hashes(study.inputs)
         rubbers, measured = _inputs(study, _staged(progress))
         contacts = Contacts(study, rubbers, measured)
-        with executor:
-            run_plan(contacts.plan, store, executor, progress)
+        run_plan(contacts.plan, store, executor, progress)
         tree = _tree(contacts)
         tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)

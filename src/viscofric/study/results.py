@@ -155,8 +155,13 @@ def open_results(path: str | Path) -> StudyResults:
     file = file_path(path)
     if file.is_dir():
         file = file / RESULTS_FILE
-        if not file.is_file() and any(file.parent.glob("cases/*.json")):
-            raise DataFileError(file, f"no such file: the study has not been finished.{what_helps(file)}")
+        solved = 0 if file.is_file() else sum(1 for _ in file.parent.glob("cases/*.json"))
+        if solved:
+            raise DataFileError(
+                file,
+                f"no such file: the study has not been finished.  Contacts solved so far: {solved}.  Running it with "
+                "--resume completes it; with --finished-only, it puts together what is there.",
+            )
     if not file.is_file():
         raise DataFileError(file, "no such results file; run the study first.")
     try:

@@ -1,17 +1,25 @@
-"""Runs that are killed at random moments and resumed, with an account of what was solved when."""
+"""Runs of a study that are killed (SIGKILL) at random moments and resumed, with an account of what was solved when.
+
+Each run is a process of its own, forked from one that has everything imported, which takes a moment only.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import random
+import signal
 import subprocess
 import sys
 import time
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pathlib import Path
+    from types import TracebackType
+    from typing import Self
 
 STUDY = """
 [material]
@@ -40,14 +48,8 @@ class Account:
     begun: list[set[str]] = field(default_factory=list)
     solved: list[set[str]] = field(default_factory=list)
 
-    def read(self, lines: list[str]) -> None:
-        """Take up the events of one run, the last line of which may be cut."""
-        events = []
-        for line in lines:
-            try:
-                events.append(json.loads(line))
-            except ValueError:
-                assert line == lines[-1]
+    def read(self, events: list[dict[str, Any]]) -> None:
+        """Take up the events of one run."""
         self.begun.append({event["key"] for event in events if event["event"] == "solving"})
         self.solved.append({event["key"] for event in events if event["event"] == "solved"})
 
@@ -56,37 +58,110 @@ class Account:
         stored: set[str] = set()
         for begun, solved in zip(self.begun, self.solved, strict=True):
             assert not begun & stored
-            # Those in hand, and one that was stored just before anybody could be told.
+            # Those in hand, and with several workers one each that was stored, or begun, before anybody could be told.
             assert len(begun - solved) <= workers + 1
             stored |= solved
 
-
-def run(study: Path, folder: Path, workers: int) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "viscofric", "run", str(study), "-o", str(folder), "--resume", "--json"]
-    return subprocess.Popen(
-        [*command, "--workers", str(workers)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-    )
+    @property
+    def again(self) -> int:
+        """How many contacts were begun more than once."""
+        return sum(map(len, self.begun)) - len(set().union(*self.begun))
 
 
-def killed_and_resumed(study: Path, folder: Path, kills: int, workers: int, seed: int, apart: float) -> Account:
-    """Kill runs at random moments after their first contact, until one comes to its end."""
+class Runs:
+    """A process that has everything imported, and forks another one for each run of a study."""
+
+    def __enter__(self) -> Self:
+        self._program = subprocess.Popen(
+            [sys.executable, __file__],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        )
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._program.kill()
+        self._program.communicate()
+
+    def run(self, study: Path, folder: Path, workers: int, after: int | None, wait: float) -> tuple[int, list[Any]]:
+        """Run a study; kill it a moment after one of its events (by number), or not at all.
+
+        Returns
+        -------
+        status : int
+            Of the run; 0 if it came to its end.
+        events : list of dict
+        """
+        assert self._program.stdin is not None
+        assert self._program.stdout is not None
+        self._program.stdin.write(json.dumps([str(study), str(folder), workers]) + "\n")
+        self._program.stdin.flush()
+        process = int(self._program.stdout.readline())
+        events: list[Any] = []
+        for line in self._program.stdout:
+            with contextlib.suppress(ValueError):  # a line that was cut
+                event = json.loads(line)
+                if event["event"] == "ended":
+                    return event["status"], events
+                if event["event"] != "stored":
+                    events.append(event)
+            if after is not None and len(events) > after:
+                time.sleep(wait)
+                os.kill(process, signal.SIGKILL)
+                after = None
+        raise AssertionError("the process that starts the runs ended")
+
+
+def killed_and_resumed(study: Path, folder: Path, kills: int, workers: int, seed: int, contacts: int) -> Account:
+    """Kill runs at random moments, a few of them after the last contact, until one comes to its end.
+
+    Parameters
+    ----------
+    contacts : int
+        Of the study, which are spread over the kills.
+    """
     chance, account = random.Random(seed), Account()
-    for _ in range(kills):
-        program = run(study, folder, workers)
-        assert program.stdout is not None
-        lines = []
-        for line in program.stdout:
-            lines.append(line)
-            if '"solving"' in line:
-                break
-        time.sleep(chance.uniform(0.0, apart))
-        program.kill()
-        lines += program.stdout.readlines()
-        program.stdout.close()
-        assert program.wait() != 0, "there was nothing left to kill: give it more to solve"
-        account.read(lines)
-    program = run(study, folder, workers)
-    output, _ = program.communicate()
-    assert program.returncode == 0
-    account.read(output.splitlines())
+    # Half a dozen events come before the first contact, two for each; on an average, a third of the contacts is left.
+    most = 6 + 2 * contacts // kills
+    with Runs() as runs:
+        for _ in range(kills):
+            after, wait = chance.randint(0, most), chance.uniform(0.0, 0.05)
+            status, events = runs.run(study, folder, workers, after, wait)
+            assert status == -signal.SIGKILL, "there was nothing left to kill: give it more to solve"
+            account.read(events)
+        status, events = runs.run(study, folder, workers, None, 0.0)
+        assert status == 0
+        account.read(events)
     return account
+
+
+def _start_runs() -> None:
+    """Fork a process for each line of standard input, which names a study, a folder and a number of workers."""
+    from pathlib import Path
+
+    from viscofric.study.execution import run_study
+
+    for line in sys.stdin:
+        study, folder, workers = json.loads(line)
+        process = os.fork()
+        if process == 0:
+            sys.stdout.write(f"{os.getpid()}\n")
+            run_study(
+                study,
+                output=Path(folder),
+                resume=True,
+                workers=workers,
+                progress=lambda event: print(json.dumps(event.as_dict()), flush=True),
+            )
+            sys.stdout.flush()
+            os._exit(0)
+        _, status = os.waitpid(process, 0)
+        print("\n" + json.dumps({"event": "ended", "status": os.waitstatus_to_exitcode(status)}), flush=True)
+
+
+if __name__ == "__main__":
+    _start_runs()

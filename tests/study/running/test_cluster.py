@@ -60,6 +60,30 @@ def test_worker_killed_amid_a_study_changes_no_bit(tmp_path: Path) -> None:
     assert sorted(store.stored()) == sorted(shared.known)
 
 
+def test_study_waits_for_workers_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr("viscofric.study.running.cluster._PATIENCE", 0.1)
+    monkeypatch.setattr("viscofric.study.running.cluster._BETWEEN_LOOKS", 0.05)
+    plan, heard = TwoWaves(), []
+    with distributed.LocalCluster(
+        n_workers=0, processes=False, protocol="tcp", dashboard_address=None, silence_logs=logging.CRITICAL
+    ) as cluster:
+
+        def start_worker(event: Event) -> None:
+            heard.append(event)
+            if event.event == "waiting":
+                cluster.scale(1)
+
+        with choose_executor(None, cluster.scheduler_address, None) as executor:
+            run_plan(plan, CaseStore(tmp_path), executor, start_worker)
+        (said,) = (event.reason for event in heard if event.event == "waiting")
+        assert said == (
+            f"the scheduler {cluster.scheduler_address} has no workers; the study goes on as soon as one is started "
+            f"(dask worker {cluster.scheduler_address})."
+        )
+    assert len(plan.known) == 8
+
+
 def test_jobs_are_those_of_the_run_file() -> None:
     jobqueue = pytest.importorskip("dask_jobqueue")
     jobs = BatchJobs.of(TABLE)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from study.running.tasks import TwoWaves, solve_some, task
+from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
 from viscofric.study.record import CaseRecord, Failure
 from viscofric.study.running import Event, Processes, Serial, run_plan
@@ -17,6 +17,7 @@ from viscofric.study.solving import solve
 from viscofric.study.store import CaseStore
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
 
@@ -28,9 +29,15 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[TwoWaves, CaseStore
     return plan, store
 
 
-@pytest.mark.parametrize("killed", [False, True], ids=["undisturbed", "killed"])
-def test_processes_find_the_same_bits(
-    alone: tuple[TwoWaves, CaseStore], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, killed: bool
+@pytest.fixture(scope="module")
+def pair() -> Iterator[Processes]:
+    """Return two processes, which take most of a second to start."""
+    with Processes(2) as executor:
+        yield executor
+
+
+def test_processes_find_the_same_bits_and_one_may_be_killed(
+    alone: tuple[TwoWaves, CaseStore], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     children: list[subprocess.Popen[bytes]] = []
 
@@ -43,7 +50,7 @@ def test_processes_find_the_same_bits(
     heard: list[Event] = []
 
     def hear(event: Event) -> None:
-        if killed and event.event == "solved" and "solved" not in (one.event for one in heard):
+        if event.event == "solved" and "solved" not in (one.event for one in heard):
             children[0].kill()
         heard.append(event)
 
@@ -53,7 +60,7 @@ def test_processes_find_the_same_bits(
     assert plan.bits() == alone[0].bits()
     assert len([event for event in heard if event.event == "solved"]) == 8
     assert heard[-1].as_dict() == {"event": "stage", "stage": "contacts", "done": 8, "total": 8, "solves": 8}
-    assert len(children) == 2 + killed
+    assert len(children) == 3
     assert all(child.returncode is not None for child in children)
 
 
@@ -67,21 +74,29 @@ def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -
     assert [event.event for event in heard] == ["stage", *["stored"] * 8, "stage"]
 
 
-@pytest.mark.parametrize("executor", [Serial(), Processes(2)], ids=["serial", "processes"])
-def test_failed_cases_leave_the_others_alone(executor: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize("processes", [False, True], ids=["serial", "processes"])
+def test_failed_cases_leave_the_others_alone(pair: Processes, processes: bool, tmp_path: Path) -> None:
     plan, store = TwoWaves(), CaseStore(tmp_path)
     heard: list[Event] = []
-    with executor:
-        run_plan(plan, store, executor, heard.append, solve=solve_some)
+    run_plan(plan, store, pair if processes else Serial(), heard.append, solve=solve_some)
     failures = [one for one in plan.known.values() if isinstance(one, Failure)]
     assert [str(one) for one in failures] == [
         "0.1 m/s: it does not converge.",
-        "5 m/s: unexpectedly, ZeroDivisionError: nobody thought of that",
+        "5 m/s: unexpectedly, MemoryError: nobody thought of that",
     ]
     assert {event.reason for event in heard if event.event == "failed"} == {one.reason for one in failures}
     # What was unexpected may go another time; what does not converge will not.
     assert store.get(plan.first[0].key) == failures[0]
     assert store.get(plan.first[-1].key) is None
+    assert len(list(store.stored())) == 7
+
+
+def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processes, tmp_path: Path) -> None:
+    plan, store = TwoWaves(), CaseStore(tmp_path)
+    run_plan(plan, store, pair, solve=solve_or_end)
+    (failure,) = (one for one in plan.known.values() if isinstance(one, Failure))
+    assert str(failure).startswith("0.1 m/s: a process ended before its contact was solved, for want of memory")
+    assert store.get(plan.first[0].key) is None
     assert len(list(store.stored())) == 7
 
 
@@ -141,10 +156,12 @@ def test_fields_are_kept_beside_the_numbers(tmp_path: Path) -> None:
     assert store.get(asked.key) == record
 
 
-def test_worker_with_another_solver_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_worker_with_another_solver_is_refused(
+    pair: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with pytest.raises(ViscofricError, match="must be the same on all machines"):
         doing.take(solve, task(1.0), "another")
     monkeypatch.setattr("viscofric.study.running.executors.solver_fingerprint", lambda: "another")
-    with Processes(2) as executor, pytest.raises(ViscofricError, match="must be the same on all machines"):
-        run_plan(TwoWaves(), CaseStore(tmp_path), executor)
+    with pytest.raises(ViscofricError, match="must be the same on all machines"):
+        run_plan(TwoWaves(), CaseStore(tmp_path), pair)
     assert not list(tmp_path.iterdir())

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import queue
 import shutil
+import time
 import uuid
 from dataclasses import dataclass, field
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError, ViscofricError
-from viscofric.study.running.executors import Executor
+from viscofric.study.running.executors import Executor, Waiting
 from viscofric.study.running.task import Lost, take_on_cluster
 from viscofric.study.solving import solver_fingerprint
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
     from types import ModuleType, TracebackType
     from typing import Self
 
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from viscofric.study.settings_tables import ClusterTable
 
 _PATIENCE = 30.0  # s
+_BETWEEN_LOOKS = 1.0  # s
 
 
 @dataclass(frozen=True)
@@ -131,12 +134,46 @@ class Dask(Executor):
         work = functools.partial(take_on_cluster, solve, fingerprint=solver_fingerprint())
         futures = dict(zip(self._client.map(work, tasks, key=keys, pure=False), tasks, strict=True))
         try:
-            for future in self._distributed.as_completed(list(futures), loop=self._client.loop):
-                task = futures.pop(future)
-                yield task.key, self._outcome(future, task)
+            for found in self._finished(list(futures)):
+                if isinstance(found, Waiting):
+                    yield "", found
+                    continue
+                task = futures.pop(found)
+                yield task.key, self._outcome(found, task)
         finally:
             if futures:
                 self._client.cancel(list(futures))
+
+    def _finished(self, futures: Sequence[Any]) -> Iterator[Any]:
+        """Yield futures as they are finished; tell, once, where there has been nobody for long who could do them."""
+        finished: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        for future in futures:
+            future.add_done_callback(finished.put)
+        left, alone_since, told = len(futures), time.monotonic(), False
+        while left:
+            try:
+                found = finished.get(timeout=_BETWEEN_LOOKS)  # a wait without an end may not hear an interrupt
+            except queue.Empty:
+                if self._client.scheduler_info()["workers"]:
+                    alone_since, told = time.monotonic(), False
+                elif not told and time.monotonic() > alone_since + _PATIENCE:
+                    told = True
+                    yield Waiting(self._who_is_missing())
+            else:
+                left -= 1
+                alone_since = time.monotonic()
+                yield found
+
+    def _who_is_missing(self) -> str:
+        if isinstance(self._where, str):
+            return (
+                f"the scheduler {self._where} has no workers; the study goes on as soon as one is started "
+                f"(dask worker {self._where})."
+            )
+        return (
+            "none of the cluster's jobs is at work: the batch system lets them wait, or refused them (squeue tells); "
+            "the study goes on as soon as one begins."
+        )
 
     def _outcome(self, future: Any, task: Task) -> Outcome:
         try:

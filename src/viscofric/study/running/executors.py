@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
 
 from viscofric.processes import Workers, as_they_come
 from viscofric.study.running.task import Lost, attempt, take
@@ -12,11 +13,25 @@ from viscofric.study.solving import solver_fingerprint
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
     from types import TracebackType
-    from typing import Self, TypeAlias
+    from typing import Self
 
     from viscofric.study.running.task import Outcome, Solve, Task
 
-    Answers: TypeAlias = Generator[tuple[str, Outcome | None]]
+
+@dataclass(frozen=True)
+class Waiting:
+    """Nobody is there to do the tasks, now and maybe for long.
+
+    Attributes
+    ----------
+    reason : str
+        A sentence.
+    """
+
+    reason: str
+
+
+Answers: TypeAlias = "Generator[tuple[str, Outcome | Waiting | None]]"
 
 
 class Executor(contextlib.AbstractContextManager["Executor"]):
@@ -39,8 +54,9 @@ class Executor(contextlib.AbstractContextManager["Executor"]):
         ------
         key : str
             Of a task, in the order in which they are finished.
-        outcome : CaseRecord, Failure or None
+        outcome : CaseRecord, Failure, Waiting or None
             None, where that is known: the task is begun.  A `Lost` one, where its workers ended again and again.
+            `Waiting`, of no task, where there are no workers for the time being.
 
         Raises
         ------
@@ -68,10 +84,19 @@ class Serial(Executor):
             yield task.key, attempt(solve, task)
 
 
+class Nobody(Executor):
+    """Does no task: what is not known stays unknown."""
+
+    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+        """Give every task up; see `Executor`."""
+        for task in tasks:
+            yield task.key, Lost("not solved yet; running the study again with --resume solves it.", task.label)
+
+
 class Processes(Executor):
     """Shares tasks out among processes of this machine.
 
-    They live on from one set of tasks to the next; one that ended is replaced by another.
+    They start with the block, and live on from one set of tasks to the next; one that ended is replaced by another.
 
     Parameters
     ----------
@@ -84,7 +109,7 @@ class Processes(Executor):
     """
 
     def __init__(self, number: int) -> None:
-        self._workers = Workers(number)
+        self._workers = Workers(number, needed=take.__module__)
 
     def __enter__(self) -> Self:
         self._workers.__enter__()

@@ -73,23 +73,29 @@ def _locked(folder: Path) -> Iterator[None]:
                 "folder."
             )
         held = {"process": os.getpid(), "machine": platform.node(), "since": datetime.now(UTC).isoformat()}
-        file.truncate(0)
-        file.write(json.dumps(held).encode())
-        file.flush()
+        with _writing(path):
+            file.truncate(0)
+            file.write(json.dumps(held).encode())
         try:
             yield
         finally:
-            file.truncate(0)
+            with contextlib.suppress(OSError):  # what happened before counts more
+                file.truncate(0)
     finally:
         file.close()
 
 
 def _opened(path: Path) -> IO[bytes]:
+    with _writing(path):
+        return path.open("a+b", buffering=0)
+
+
+@contextlib.contextmanager
+def _writing(path: Path) -> Iterator[None]:
     try:
-        file = path.open("a+b", buffering=0)
+        yield
     except OSError as error:
         raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error
-    return file
 
 
 def _is_alone(file: IO[bytes]) -> bool:

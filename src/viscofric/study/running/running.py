@@ -8,6 +8,7 @@ import time
 from typing import TYPE_CHECKING, Protocol
 
 from viscofric.study.running.events import Event, silent
+from viscofric.study.running.executors import Waiting
 from viscofric.study.running.task import Lost
 from viscofric.study.solving import solve
 
@@ -119,10 +120,13 @@ class _Run:
                     begun[key] = time.monotonic()
                     self._tell("solving", by_key[key])
                     continue
+                if isinstance(outcome, Waiting):
+                    self._tell("waiting", reason=outcome.reason)
+                    continue
                 if not isinstance(outcome, Lost):
                     self.store.put(key, outcome)
+                    self.solves += 1
                 outcomes[key] = outcome
-                self.solves += 1
                 hand_on()
                 self._tell_outcome(by_key[key], outcome, begun.get(key))
 

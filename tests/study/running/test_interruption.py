@@ -1,0 +1,77 @@
+"""Studies that are interrupted: nothing is left behind, and what is solved can be had without solving the rest."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+import xarray
+
+from study.running.kills import STUDY
+from viscofric.errors import DataFileError, InputError
+from viscofric.study import open_results, run_study
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from viscofric.study.running import Event
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="no groups of processes to interrupt")
+def test_interrupt_of_all_processes_ends_them_with_one_sentence(tmp_path: Path) -> None:
+    study, folder = tmp_path / "study.toml", tmp_path / "results"
+    study.write_text(STUDY.format(points=200, cases="each"))
+    program = subprocess.Popen(
+        [sys.executable, "-m", "viscofric", "run", str(study), "-o", str(folder), "--json", "--workers", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+    )
+    assert program.stdout is not None
+    assert any('"solved"' in line for line in program.stdout)
+    os.killpg(program.pid, signal.SIGINT)  # as a terminal does
+    _, said = program.communicate(timeout=60.0)  # until the last of them has closed it
+    assert program.returncode == 130
+    solved = len(list((folder / "cases").iterdir()))
+    contacts = "1 contact that is" if solved == 1 else f"{solved} contacts that are"
+    assert said == (f"Interrupted. {folder} keeps the {contacts} solved; the same command with --resume continues.\n")
+
+
+def test_finished_cases_of_an_interrupted_study_are_put_together(tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY.format(points=3, cases="each"))
+    solved: list[str] = []
+
+    def interrupt(event: Event) -> None:
+        if event.event == "solved":
+            solved.append(str(event.key))
+        if len(solved) == 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_study(study, progress=interrupt)
+    folder = tmp_path / "study.results"
+    with pytest.raises(DataFileError, match=r"has not been finished.  Contacts solved so far: 4\.  .*--finished-only"):
+        open_results(folder)
+    run_study(study, finished_only=True)
+    part = open_results(folder)
+    failed = part.dataset["failed"].values.ravel()
+    assert failed.tolist() == [0, 0, 0, 0, 1, 1]
+    assert all("not solved yet; running the study again with --resume solves it" in one for one in part.failures)
+    whole = run_study(study, resume=True, progress=lambda event: solved.append(str(event.key)) if event.key else None)
+    assert whole.failures == ()
+    known = np.isfinite(part.dataset["friction_coefficient"])
+    assert int(known.sum()) == 4
+    xarray.testing.assert_identical(
+        part.dataset["friction_coefficient"].where(known), whole.dataset["friction_coefficient"].where(known)
+    )
+    with pytest.raises(InputError, match="neither workers nor a scheduler"):
+        run_study(study, finished_only=True, workers=2)
