@@ -102,17 +102,16 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
                 figures, report = write_figures_and_report(results.tree, results.folder)
                 progress(Event("stage", stage="report", done=1, total=1))
         except ViscofricError as error:
-            hearer.tell("error", message=str(error))
-            raise click.ClickException(str(error)) from error
+            # A full disk, for one, ends a study as an interrupt does.
+            said = f"{error}{_kept(output)}" if "cannot be written" in str(error) else str(error)
+            hearer.tell("error", message=said)
+            raise click.ClickException(said) from error
         except KeyboardInterrupt as stop:
             hearer.tell("terminated" if isinstance(stop, Terminated) else "interrupted", folder=str(output))
             raise
     except KeyboardInterrupt as stop:
         terminated = isinstance(stop, Terminated)
-        solved = sum(1 for _ in output.glob("cases/*.json")) if output.is_dir() else 0
-        contacts = "1 contact that is" if solved == 1 else f"{solved} contacts that are"
-        kept = f" {output} keeps the {contacts} solved; the same command with --resume continues." if solved else ""
-        click.echo(("Terminated." if terminated else "Interrupted.") + kept, err=True)
+        click.echo(("Terminated." if terminated else "Interrupted.") + _kept(output), err=True)
         sys.exit(TERMINATED if terminated else INTERRUPTED)
     written = {
         "figures": [str(figure) for figure in figures],
@@ -128,6 +127,13 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         click.echo(f"report   {report}")
     if results.failures:
         sys.exit(SOME_CASES_FAILED)
+
+
+def _kept(output: Path) -> str:
+    """Say what a study that ended too early leaves, and what goes on with it."""
+    solved = sum(1 for _ in output.glob("cases/*.json")) if output.is_dir() else 0
+    contacts = "1 contact that is" if solved == 1 else f"{solved} contacts that are"
+    return f" {output} keeps the {contacts} solved; the same command with --resume continues." if solved else ""
 
 
 def tell(results: StudyResults, quiet: bool = False) -> None:
