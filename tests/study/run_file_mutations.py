@@ -9,7 +9,7 @@ from typing import Any
 _QUANTITIES = (
     "25 N", "-25 N", "25", "0 N", "1e400 N", "nan N", "25 mm", "2 N/mm", "1,5 N", "30 degC", "-300 degC", "30 °C",
     "1 µm/s", "25 N N", "N", "", " ", "25 N", "2**9999 N", "9" * 400 + " N", "1 " + "m" * 60, "25 \\u0000", "١ N",
-    "1e-320 m", "5 deg", "90 deg",
+    "1e-320 m", "5 deg", "90 deg", "-5 deg", "50 kPa", "1e300 m", "1e9 um",
 )  # fmt: skip
 _VALUES = (
     "true", "false", "0", "-1", "1", "3", "1e-3", "nan", "inf", "-inf", "1e308", "0x7fffffffffffffff", "9" * 25,
@@ -20,12 +20,15 @@ _VALUES = (
     "{ from = '1 degC', to = '9 degC', points = 3, spacing = 'log' }", "['load', 'radius']", "[['load', 'radius']]",
     "[['speed', 'temperature'], ['load', 'load']]", "'*'", "'**/*'", "'/dev/null'", "'../..'", "'.'",
     "'a\\nb'", '"\\u0000"', '"\\U0001F9E8"', "'" + "x" * 2000 + "'", "'cone'", "'ball'", "'cylinder'", "'constant'",
-    "'sparse'", "['25 N', 25, '3 m']", "['1 mm', '1 mm']",
+    "'sparse'", "['25 N', 25, '3 m']", "['1 mm', '1 mm']", "[64, 64]", "[512, 1]", "{ from = 0, to = 3 }",
+    "{ from = 3, to = 0 }", "{ from = 0, to = 99999999 }", "[1, 1]", "['fill', 'remove tilt']", "'window 0.1'",
+    "'filll'", "'crop x 0 um to 1 um'", "'remove N'",
 )  # fmt: skip
 _TABLES = (
     "material",
     "[material]",
     "indenter",
+    "surface",
     "layer",
     "conditions",
     "sweep",

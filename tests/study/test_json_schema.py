@@ -11,7 +11,7 @@ import pytest
 
 from study.json_schema_check import wrong
 from viscofric.cli.new import SCHEMA_LINE, TEMPLATES, template_text
-from viscofric.study.axis_values import RANGE
+from viscofric.study.axis_values import RANGE, SEED_RANGE
 from viscofric.study.contact_tables import SHAPES
 from viscofric.study.json_schema import json_schema
 from viscofric.study.run_file import TABLES, Study
@@ -75,7 +75,7 @@ def test_the_readme_names_every_key() -> None:
     absent = [
         f"{home}.{key}"
         for name, table in TABLES.items()
-        if (home := "indenter" if table in SHAPES.values() else name) not in ("", RANGE)
+        if (home := "indenter" if table in SHAPES.values() else name) not in ("", RANGE, SEED_RANGE)
         for key in keys(table)
         if f"`{home}.{key}`" not in text
     ]
@@ -98,5 +98,6 @@ def described(node: Any, name: str = "") -> list[str]:
 def test_every_key_is_described_and_every_table_is_there() -> None:
     assert described(SCHEMA) == []
     assert set(SCHEMA["properties"]) == set(keys(Study))
-    assert SCHEMA["required"] == ["material", "indenter", "conditions"]
+    assert SCHEMA["required"] == ["material", "conditions"]
+    assert SCHEMA["oneOf"] == [{"required": ["indenter"]}, {"required": ["surface"]}]
     assert json.loads(json.dumps(SCHEMA)) == SCHEMA

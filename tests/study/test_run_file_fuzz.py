@@ -16,7 +16,10 @@ from viscofric.study.run_file import decoded, parse_study
 HOME = files("viscofric")
 SOURCES = [
     (HOME / "example" / "study.toml").read_text(encoding="utf-8"),
-    *((HOME / "templates" / f"{name}.toml").read_text(encoding="utf-8") for name in ("cylinder", "layer", "sweep")),
+    *(
+        (HOME / "templates" / f"{name}.toml").read_text(encoding="utf-8")
+        for name in ("cylinder", "layer", "sweep", "surface")
+    ),
 ]
 # So many in every run of the tests; VISCOFRIC_FUZZ asks for more.
 HOW_MANY = int(os.environ.get("VISCOFRIC_FUZZ", "1500"))

@@ -58,7 +58,7 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
         "study": str(path),
         "title": study.title,
         "materials": [_of_rubber(rubber, material.name) for rubber, material in _pairs(found)],
-        "indenter": study.indenter.shape,
+        "indenter": study.body.shape,
         "axes": {axis.name: {name: list(values) for name, values in axis.columns.items()} for axis in sweep.axes},
         "cases": len(sweep.cases),
         "master_curve_points": study.solver.master_curve_points if _is_one_curve(found) else 0,
@@ -80,6 +80,8 @@ def _pairs(found: CheckedStudy) -> list[tuple[Rubber, Any]]:
 
 def _is_one_curve(found: CheckedStudy) -> bool:
     """Whether all cases lie on one friction master curve: there is one of everything but temperature and speed."""
+    if found.study.indenter is None:
+        return False
     return all(len(axis) == 1 or set(axis.columns) <= {"temperature", "speed", "sample"} for axis in found.sweep.axes)
 
 
@@ -103,7 +105,7 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     lines += [("material", _material_line(made)) for made in record["materials"]]
     if record["measured_points"] is not None:
         lines.append(("measured", f"{record['measured_points']} points of friction"))
-    line = found.study.indenter.LINE
+    line = found.study.body.LINE
     shown = [
         columns
         for name, columns in record["axes"].items()
@@ -175,8 +177,12 @@ def _shown(name: str, value: float, line: bool) -> str:
     """Return a value of an axis in the unit that people use for it."""
     if name == "temperature":
         return f"{value - 273.15:.5g} °C"
-    if name == "angle":
+    if name in ("angle", "direction"):
         return f"{math.degrees(value):.4g}°"
+    if name == "seed":
+        return str(value)
+    if name == "pressure":
+        return f"{value / 1e3:.4g} kPa"
     if name == "load":
         return f"{value / 1e3:.4g} N/mm" if line else f"{value:.4g} N"
     return f"{1e3 * value:.4g} {'mm/s' if name == 'speed' else 'mm'}"

@@ -22,6 +22,7 @@ TEMPLATES = {
     "measured": "measured friction beside the prediction",
     "cylinder": "a roller, its load per length",
     "layer": "rubber of finite thickness",
+    "surface": "a rough surface, several seeds",
     "sweep": "several rubbers, radii and loads",
     "uncertainty": "how well friction is known",
 }

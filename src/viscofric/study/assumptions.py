@@ -9,6 +9,7 @@ import numpy as np
 from viscofric.friction.assumptions import AssumptionCheck, check_assumptions
 from viscofric.study import labels
 from viscofric.study.bands import curves_of
+from viscofric.study.surface_words import surface_checks
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -33,9 +34,12 @@ def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[st
     asked, at_points : Solved
         Cases asked for, and those at the measured points.
     """
+    if contacts.study.indenter is None:
+        of_surface = surface_checks(contacts.study, asked.of_records)
+        return {"/assumptions": labels.assumption_data(of_surface)} if of_surface else {}
     alike: dict[object, list[tuple[Case, CaseRecord]]] = {}
     for case, record in zip(asked.of_records, asked.records, strict=True):
-        alike.setdefault((case.material, case.sample, case.indenter, case.load, case.layer), []).append((case, record))
+        alike.setdefault(case.alike, []).append((case, record))
     found: dict[str, AssumptionCheck] = {}
     for pairs in alike.values():
         records = [record for _, record in pairs]
@@ -43,7 +47,7 @@ def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[st
     if at_points.records and contacts.measured is not None:
         solved = np.array([not hasattr(outcome, "reason") for outcome in at_points.outcomes], dtype=bool)
         curves = contacts.measured.curves.select(solved)
-        _keep_worst(found, _checked(contacts, at_points.cases[0], curves, at_points.records))
+        _keep_worst(found, _checked(contacts, at_points.of_records[0], curves, at_points.records))
     return {"/assumptions": labels.assumption_data(list(found.values()))} if found else {}
 
 

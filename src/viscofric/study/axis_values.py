@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -13,8 +14,11 @@ from viscofric.study.quantities import (
     MOST_POINTS,
     Angle,
     Count,
+    Direction,
     Length,
     Load,
+    Pressure,
+    Seed,
     Speed,
     Temperature,
     listed,
@@ -31,10 +35,18 @@ if TYPE_CHECKING:
     from viscofric.study.table import Problem
 
 # Branches of a choice between types appear in pydantic's locations, not in the file: no key looks like these.
-RANGE, LIST = "<range>", "<list>"
+RANGE, LIST, SEED_RANGE = "<range>", "<list>", "<seeds>"
 
 
-class _Range(Table):
+class _Span(Table, ABC):
+    """What stands for several values."""
+
+    @abstractmethod
+    def values(self) -> tuple[Any, ...]:
+        """Return all values."""
+
+
+class _Range(_Span):
     """From one value to another; its ends are those of a subclass."""
 
     first: float
@@ -92,6 +104,38 @@ class LoadRange(_Range):
     spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
 
 
+class PressureRange(_Range):
+    """Pressures from one to another."""
+
+    first: Pressure = Field(alias="from", description=_FROM)
+    last: Pressure = Field(alias="to", description=_TO)
+    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
+
+
+class DirectionRange(_Range):
+    """Directions from one to another, in equal steps."""
+
+    first: Direction = Field(alias="from", description=_FROM)
+    last: Direction = Field(alias="to", description=_TO)
+    spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
+
+
+class SeedRange(_Span):
+    """All whole numbers from one to another."""
+
+    first: Seed = Field(alias="from", description=_FROM)
+    last: Seed = Field(alias="to", description=_TO)
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        if not 0 < self.last - self.first < MOST_POINTS:
+            yield "to", f"must lie above from, by less than {MOST_POINTS:,}"
+
+    def values(self) -> tuple[int, ...]:
+        """Return all of them."""
+        return tuple(range(self.first, self.last + 1))
+
+
 class TemperatureRange(_Range):
     """Temperatures from one to another, in equal steps."""
 
@@ -100,16 +144,13 @@ class TemperatureRange(_Range):
     spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
 
 
-def _kind(value: object) -> str:
-    return RANGE if isinstance(value, dict | _Range) else LIST
-
-
 @dataclass(frozen=True)
 class _Many:
     """Marks a field whose values may be one, a list or a range; it holds all of them as a tuple."""
 
     one: Any
-    span: type[_Range]
+    span: type[_Span]
+    tag: str = RANGE
 
     most: ClassVar[int] = MOST_POINTS
 
@@ -120,20 +161,27 @@ class _Many:
             BeforeValidator(listed),
             one_or_more(schema_of(self.one)),
         ]
+
+        def kind(value: object) -> str:
+            return self.tag if isinstance(value, dict | _Span) else LIST
+
         either = Annotated[
-            Annotated[self.span, Tag(RANGE)] | Annotated[several, Tag(LIST)],  # type: ignore[name-defined]
-            Discriminator(_kind),
+            Annotated[self.span, Tag(self.tag)] | Annotated[several, Tag(LIST)],  # type: ignore[name-defined]
+            Discriminator(kind),
         ]
         return core_schema.no_info_after_validator_function(_values, handler.generate_schema(either))
 
 
-def _values(found: _Range | tuple[float, ...]) -> tuple[float, ...]:
-    return found.values() if isinstance(found, _Range) else found
+def _values(found: _Span | tuple[float, ...]) -> tuple[float, ...]:
+    return found.values() if isinstance(found, _Span) else found
 
 
 #: One value, a list of them, or ``{ from, to, points, spacing }``: all of them, SI.
 Lengths = Annotated[tuple[float, ...], _Many(Length, LengthRange)]
 Angles = Annotated[tuple[float, ...], _Many(Angle, AngleRange)]
 Loads = Annotated[tuple[float, ...], _Many(Load, LoadRange)]
+Pressures = Annotated[tuple[float, ...], _Many(Pressure, PressureRange)]
+Directions = Annotated[tuple[float, ...], _Many(Direction, DirectionRange)]
+Seeds = Annotated[tuple[int, ...], _Many(Seed, SeedRange, SEED_RANGE)]
 Speeds = Annotated[tuple[float, ...], _Many(Speed, SpeedRange)]
 Temperatures = Annotated[tuple[float, ...], _Many(Temperature, TemperatureRange)]

@@ -13,6 +13,9 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
 from viscofric.study.rubber import make_rubber
+from viscofric.study.surface_source import surface_of
+from viscofric.study.surface_words import surface_notes, uncertainty_of
+from viscofric.study.sweep import Case
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -52,14 +55,15 @@ class CheckedStudy:
     def expected(self) -> Expectation:
         """What solving will take, roughly: the cases asked for and the measured points."""
         study, cases = self.study, [*self.sweep.cases]
-        if self.measured is not None:
+        first = cases[0]
+        if self.measured is not None and isinstance(first, Case):
             points = zip(self.measured.temperature, self.measured.speed, self.measured.load, strict=True)
-            cases += [replace(cases[0], temperature=T, speed=v, load=F) for T, v, F in points]
+            cases += [replace(first, temperature=T, speed=v, load=F) for T, v, F in points]
         return estimate(
             cases,
             [rubber.material for rubber in self.rubbers],
             accuracy=study.solver.accuracy,
-            sensitive=study.uncertainty.draws > 0 and any(rubber.fit is not None for rubber in self.rubbers),
+            sensitive=uncertainty_of(study).draws > 0 and any(rubber.fit is not None for rubber in self.rubbers),
             fields=study.outputs.fields == "all",
             each=study.solver.cases == "each",
         )
@@ -69,6 +73,7 @@ class CheckedStudy:
         """What was doubtful, changed or left out in reading the data, and what jobs may lack: one sentence each."""
         said = [note for rubber in self.rubbers for note in rubber.notes]
         said += self.measured.notes if self.measured is not None else ()
+        said += surface_notes(self.study)
         return tuple(dict.fromkeys([*said, *self._of_jobs()]))
 
     def _of_jobs(self) -> Iterator[str]:
@@ -118,9 +123,15 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
             measured = read_measurement(study.measurement)
         except InputError as error:
             wrong.append(str(error))
+    try:
+        sweep = study.sweep()
+        if study.surface is not None:
+            surface_of(sweep.cases[0].surface)  # type: ignore[union-attr]
+    except InputError as error:
+        wrong.append(f"surface: {error}")
     if wrong:
         raise StudyError("\n  ".join([f"{path}: its data cannot be used:", *wrong]))
-    return CheckedStudy(study, study.sweep(), tuple(rubbers), measured)
+    return CheckedStudy(study, sweep, tuple(rubbers), measured)
 
 
 def _check_temperatures(rubber: Rubber, temperatures: NDArray[np.float64]) -> None:

@@ -10,7 +10,7 @@ from pydantic import Discriminator, Field, Tag
 
 from viscofric.contact.indenters.indenter import Ball, Cylinder
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid
-from viscofric.study.axis_values import Angles, Lengths, Loads, Speeds, Temperatures  # noqa: TC001 - pydantic looks at them
+from viscofric.study.axis_values import Angles, Directions, Lengths, Loads, Pressures, Speeds, Temperatures  # noqa: TC001 - pydantic looks at them
 from viscofric.study.quantities import Length, Modulus, Number  # noqa: TC001 - likewise
 from viscofric.study.table import Table
 
@@ -23,12 +23,13 @@ if TYPE_CHECKING:
 _SHAPE = "Its shape; each has lengths or an angle of its own."
 
 
-class _IndenterTable(Table, ABC):
+class AnyIndenterTable(Table, ABC):
     """[indenter]: what slides or rolls over the rubber."""
 
     modulus: Modulus | None = Field(None, description="Young's modulus of an elastic indenter; rigid without it.")
     poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
 
+    shape: str
     #: Keys whose values are axes of the study.
     AXES: ClassVar[tuple[str, ...]]
     #: Whether its load is per length.
@@ -49,7 +50,7 @@ class _IndenterTable(Table, ABC):
         """Return the indenter of one value for each axis, in their order."""
 
 
-class BallTable(_IndenterTable):
+class BallTable(AnyIndenterTable):
     """[indenter]: a ball."""
 
     shape: Literal["ball"] = Field("ball", description=_SHAPE)
@@ -61,7 +62,7 @@ class BallTable(_IndenterTable):
         return Ball(*values)
 
 
-class CylinderTable(_IndenterTable):
+class CylinderTable(AnyIndenterTable):
     """[indenter]: a long cylinder across the motion, whose load is per length."""
 
     shape: Literal["cylinder"] = Field(description=_SHAPE)
@@ -74,7 +75,7 @@ class CylinderTable(_IndenterTable):
         return Cylinder(*values)
 
 
-class EllipsoidTable(_IndenterTable):
+class EllipsoidTable(AnyIndenterTable):
     """[indenter]: a surface with two radii of curvature."""
 
     shape: Literal["ellipsoid"] = Field(description=_SHAPE)
@@ -87,7 +88,7 @@ class EllipsoidTable(_IndenterTable):
         return Ellipsoid(*values)
 
 
-class ConeTable(_IndenterTable):
+class ConeTable(AnyIndenterTable):
     """[indenter]: a blunt cone."""
 
     shape: Literal["cone"] = Field(description=_SHAPE)
@@ -106,7 +107,7 @@ class ConeTable(_IndenterTable):
 
 
 #: What a run file calls a shape -> its table.
-SHAPES: dict[str, type[_IndenterTable]] = {
+SHAPES: dict[str, type[AnyIndenterTable]] = {
     "ball": BallTable,
     "cylinder": CylinderTable,
     "ellipsoid": EllipsoidTable,
@@ -138,9 +139,16 @@ class LayerTable(Table):
 
 
 class ConditionsTable(Table):
-    """[conditions]: loads, speeds and temperatures to predict friction at."""
+    """[conditions]: loads or pressures, speeds and temperatures to predict friction at."""
 
-    load: Loads = Field(description="Normal load; that of a cylinder is per length, such as '2 N/mm'.")
+    load: Loads = Field(
+        default_factory=tuple, description="Normal load of an indenter; that of a cylinder is per length: '2 N/mm'."
+    )
+    pressure: Pressures = Field(default_factory=tuple, description="Mean pressure on a rough surface, instead.")
+    direction: Directions = Field(
+        default_factory=tuple,
+        description="Direction in which a rough surface slides, from x towards y; along x without.",
+    )
     speed: Speeds = Field(description="Speed at which the rubber is deformed; above zero.")
     temperature: Temperatures = Field(description="Temperature of the rubber.")
     thickness: Length | None = Field(

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import CaseRecord, Failure
-from viscofric.study.sweep import Case, Sweep
+from viscofric.study.record import CaseRecord, Failure, Record
+from viscofric.study.sweep import AnyCase, Case, Sweep
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from viscofric.study.run_file import Study
     from viscofric.study.study_rubber import StudyRubber
 
+_OF_SURFACES = "some frequencies 2πv/λ of the surface's wavelengths lie"
 # A little beyond the speeds asked for, so that rounding leaves no point outside the master curve.
 _ROUNDING = 1e-6
 
@@ -30,23 +31,23 @@ class Solved:
 
     Attributes
     ----------
-    cases : tuple of Case
-    outcomes : tuple of CaseRecord or Failure
+    cases : tuple of Case or SurfaceCase
+    outcomes : tuple of CaseRecord, SurfaceRecord or Failure
     """
 
-    cases: tuple[Case, ...]
-    outcomes: tuple[CaseRecord | Failure, ...]
+    cases: tuple[AnyCase, ...]
+    outcomes: tuple[Record | Failure, ...]
 
     @property
-    def records(self) -> list[CaseRecord]:
-        """Those that have one, in their order."""
-        return [outcome for outcome in self.outcomes if isinstance(outcome, CaseRecord)]
+    def records(self) -> list[Any]:
+        """Those that have one, in their order; of an indenter's cases `CaseRecord`, else `SurfaceRecord`."""
+        return [outcome for outcome in self.outcomes if isinstance(outcome, Record)]
 
     @property
-    def of_records(self) -> list[Case]:
+    def of_records(self) -> list[Any]:
         """The cases of `records`."""
         pairs = zip(self.cases, self.outcomes, strict=True)
-        return [case for case, outcome in pairs if isinstance(outcome, CaseRecord)]
+        return [case for case, outcome in pairs if isinstance(outcome, Record)]
 
     @property
     def failures(self) -> list[Failure]:
@@ -72,7 +73,8 @@ class Contacts:
     at_points : tuple of Case
         At each measured point.
     along : tuple of Case
-        Along the friction master curve; none where there is more than one, as of several loads.
+        Along the friction master curve; none where there is more than one, as of several loads, nor of a rough surface,
+        whose seeds each have their own.
     plan : Plan
         Of all of them, so that what is solved for the ones serves the others.
     """
@@ -119,23 +121,21 @@ class Contacts:
         )
 
     def _at_points(self) -> tuple[Case, ...]:
-        if self.measured is None:
+        first = self.sweep.cases[0]
+        if self.measured is None or not isinstance(first, Case):
             return ()
-        curves, ball = self.measured.curves, self.sweep.cases[0].indenter
+        curves, ball = self.measured.curves, first.indenter
         points = zip(curves.temperature.tolist(), curves.speed.tolist(), curves.load.tolist(), strict=True)
         return tuple(Case(0, ball, *point) for point in points)
 
-    def _reduced(self, case: Case) -> float:
+    def _reduced(self, case: AnyCase) -> float:
         return case.speed * float(self.rubbers[case.material].shift(case.temperature))
 
     def _along(self) -> tuple[Case, ...]:
         """Return the master curve's contacts, all of them at the reference temperature."""
-        ones = {
-            (case.material, case.indenter, case.load, case.layer) for case in self.sweep.cases if case.sample is None
-        }
-        if len(ones) > 1:
-            return ()
         one = self.sweep.cases[0]
+        if not isinstance(one, Case) or len({case.alike for case in self.sweep.cases if case.sample is None}) > 1:
+            return ()
         reduced = np.array([self._reduced(case) for case in self.sweep.cases])
         if self.measured is not None:
             reduced = np.concatenate([reduced, self.measured.reduced_speed])
@@ -159,15 +159,9 @@ class Contacts:
     def _few(self) -> list[int]:
         """Choose cases whose fields are kept: of the first load, shape … the slowest, middle and fastest, reduced."""
         first = self.sweep.cases[0]
-        numbers = [number for number, case in enumerate(self.sweep.cases) if _differs_in_rate(case, first)]
+        numbers = [number for number, case in enumerate(self.sweep.cases) if case.alike == first.alike]
         numbers.sort(key=lambda number: self._reduced(self.sweep.cases[number]))
         return sorted({numbers[0], numbers[len(numbers) // 2], numbers[-1]})
-
-
-def _differs_in_rate(case: Case, other: Case) -> bool:
-    """Whether two cases differ by temperature and speed at most."""
-    same = ("material", "indenter", "load", "layer", "sample")
-    return all(getattr(case, name) == getattr(other, name) for name in same)
 
 
 def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[str]:
@@ -176,19 +170,24 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[str]
     sentences = []
     wide = [(case, record) for case, record in pairs if record.warnings]
     if wide:
-        worst, record = max(wide, key=lambda pair: pair[1].front + pair[1].rear)
+        worst, record = max(wide, key=lambda pair: _extent(pair[1]))
         said = " ".join(record.warnings)
         sentences.append(f"In {len(wide)} of all {len(pairs)} contacts, most of all at {place(worst)}: {said}")
-    beyond = [case for case, record in pairs if not rubbers[case.material].is_within(record)]
+    beyond = [case for case, record in pairs if not rubbers[case.material].is_within(case, record)]
     if beyond:
+        what = "the contact's frequency v/a lies" if isinstance(beyond[0], Case) else _OF_SURFACES
         sentences.append(
-            f"In {len(beyond)} of all {len(pairs)} contacts, such as {place(beyond[0])}, the contact's frequency v/a "
-            "lies beyond the reduced frequencies at which the rubber is known: their friction rests on the "
-            "extrapolated spectrum."
+            f"In {len(beyond)} of all {len(pairs)} contacts, such as {place(beyond[0])}, {what} beyond the reduced "
+            "frequencies at which the rubber is known: their friction rests on the extrapolated spectrum."
         )
     return sentences
 
 
-def place(case: Case) -> str:
+def _extent(record: Record) -> float:
+    """Tell which of several contacts is the largest: its length, or the pressure on a rough surface."""
+    return record.front + record.rear if isinstance(record, CaseRecord) else record.max_pressure
+
+
+def place(case: AnyCase) -> str:
     """Say where a case lies, for people."""
     return f"{celsius(case.temperature):.4g} °C, {1e3 * case.speed:.4g} mm/s"

@@ -19,6 +19,7 @@ from viscofric.study.run_file import parse_study, read_study_text
 from viscofric.study.running import Event, choose_executor, run_plan, silent, study_folder
 from viscofric.study.setting import setting
 from viscofric.study.study_rubber import StudyRubber, all_within, band_columns
+from viscofric.study.surface_words import surface_notes, uncertainty_of
 from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 if TYPE_CHECKING:
@@ -119,13 +120,13 @@ def _inputs(
     curves = None if table is None else stage("measurement", lambda: read_measurement(table))
     rubbers: list[StudyRubber] = stage(
         "material",
-        lambda: [StudyRubber.of(one, study.uncertainty, conditions.temperature) for one in study.materials],
+        lambda: [StudyRubber.of(one, uncertainty_of(study), conditions.temperature) for one in study.materials],
     )
     if curves is None:
         return rubbers, None
-    ball: Any = study.sweep().cases[0].indenter
+    first: Any = study.sweep().cases[0]  # of a ball, as it is measured
     load = float(conditions.load[0])
-    return rubbers, stage("shift", lambda: Measurement(curves, rubbers[0].material, ball, load))
+    return rubbers, stage("shift", lambda: Measurement(curves, rubbers[0].material, first.indenter, load))
 
 
 def _tree(contacts: Contacts) -> xarray.DataTree:
@@ -156,8 +157,9 @@ def _tree(contacts: Contacts) -> xarray.DataTree:
         curves = rubbers[0].bands.curves(along.records)
         groups["/prediction_master"] = labels.prediction_data(along.records, within(along), curves)
         if measured is not None:
-            points = [None if isinstance(one, Failure) else one for one in at_points.outcomes]
-            inside = [one is not None and rubbers[0].is_within(one) for one in points]
+            points: list[Any] = [None if isinstance(one, Failure) else one for one in at_points.outcomes]
+            pairs = zip(at_points.cases, points, strict=True)
+            inside = [one is not None and rubbers[0].is_within(case, one) for case, one in pairs]
             groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
     groups |= assumptions(contacts, asked, at_points)
     tree = xarray.DataTree.from_dict(groups)
@@ -166,7 +168,7 @@ def _tree(contacts: Contacts) -> xarray.DataTree:
     tree.attrs = {
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
-        "notes": _listed([*notes, *(measured.notes if measured else ())]),
+        "notes": _listed([*notes, *surface_notes(study), *(measured.notes if measured else ())]),
         "warnings": _listed([*said, *doubts((asked, at_points, along), rubbers)]),
         "failures": _listed(failures),
         **about,

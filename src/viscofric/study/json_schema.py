@@ -31,6 +31,7 @@ def json_schema() -> dict[str, Any]:
     for table in schema["properties"].values():
         if "$ref" in table:  # beside it this dialect hears nothing; the table tells its own defaults
             table.pop("default", None)
+    schema["oneOf"] = [{"required": [body]} for body in ("indenter", "surface")]
     about = "What a study asks for. Every quantity carries its unit; paths are relative to the run file."
     return {"$schema": DIALECT, **schema, "title": "Run file of viscofric", "description": about}
 

@@ -71,15 +71,26 @@ Force = Annotated[float, _positive("N"), _text("25 N")]
 Speed = Annotated[float, _positive("m/s"), _text("100 mm/s")]
 Angle = Annotated[float, _positive("rad"), _text("5 deg")]
 Modulus = Annotated[float, _positive("Pa"), _text("200 GPa")]
+Pressure = Annotated[float, _positive("Pa"), _text("50 kPa")]
+Direction = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "rad", VALUE)), _text("30 deg")]
 # Plain, for else pydantic makes a bare float of a load per length.
 Load = Annotated[float, PlainValidator(_load), _text("25 N", "2 N/mm")]
 Temperature = Annotated[float, BeforeValidator(kelvin), _text("30 degC")]
 TemperatureStep = Annotated[float, _positive("delta_degC"), _text("1 delta_degC")]
 SignedForce = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "N", VALUE)), _text("0.12 N")]
 
+#: Of random numbers.
+BIGGEST_SEED = 2**63 - 1
 #: Numbers as TOML writes them: no text, no true or false in their place.
 Count = Annotated[int, Strict()]
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
+
+Seed = Annotated[
+    int,
+    Strict(),
+    Field(ge=0, le=BIGGEST_SEED),
+    WithJsonSchema({"type": "integer", "minimum": 0, "maximum": BIGGEST_SEED}),
+]
 
 
 def listed(value: object) -> object:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeAlias
 
 import numpy as np
 
@@ -55,34 +55,23 @@ class Failure:
         return f"{self.label}: {self.reason}"
 
 
-@dataclass(frozen=True)
-class CaseRecord:
-    """The numbers of one contact, all SI; see `ContactSolution` and `Diagnostics`.
+@dataclass(frozen=True, kw_only=True)
+class Record:
+    """What the numbers of every contact have in common, all SI.
 
     Attributes
     ----------
-    speed, temperature, load : float
-        m/s, K, and N (N/m of a line contact).
+    speed, temperature : float
+        m/s, K.
     friction_coefficient, friction_error : float
-    indentation, indentation_error : float
-        m.
-    contact_area, contact_area_error : float
-        m²; the width, m, of a line contact.
-    front, rear, half_width : float
-        m; the half width of a line contact is infinite.
-    edge_error : float
-        Of the three, m.
-    max_pressure, max_pressure_error : float
+    max_pressure : float
         Pa.
-    centre_of_pressure : float
-        Ahead of the axis, m.
     energy_balance, complementarity : float
         Residuals of the solution; where the contact is interpolated, the largest of those that it lies between.
     cells, products : int
-        Along the longer edge of the window, and products with the influence matrix; none where it is interpolated.
+        Along the longer edge of the window, or of the period, and products with the influence matrix, or with its
+        transfer function; none where it is interpolated.
     warnings : tuple of str
-    sensitivity : ComplianceSensitivity or None
-        How friction answers to the rubber's compliance, where bands are wanted.
     interpolated : bool
         Whether it was not solved, but lies between contacts that were.
     interpolation_error : float
@@ -93,9 +82,77 @@ class CaseRecord:
 
     speed: float
     temperature: float
-    load: float
     friction_coefficient: float
     friction_error: float
+    max_pressure: float
+    energy_balance: float
+    complementarity: float
+    cells: int
+    products: int
+    warnings: tuple[str, ...] = ()
+    interpolated: bool = False
+    interpolation_error: float = 0.0
+    fields: ContactFields | None = field(default=None, repr=False, compare=False)
+
+    @classmethod
+    def numbers(cls) -> tuple[str, ...]:
+        """Return the names of those attributes that are single numbers."""
+        other = ("warnings", "sensitivity", "interpolated", "fields")
+        return tuple(field.name for field in fields(cls) if field.name not in other)
+
+    @classmethod
+    def from_values(cls, values: dict[str, Any]) -> Self:
+        """Make a record of what `to_json` wrote, as JSON's reader returns it; without fields.
+
+        Raises
+        ------
+        ValueError, TypeError, KeyError
+            If it is something else.
+        """
+        record = cls(**{**values, "warnings": tuple(values["warnings"])})
+        if not all(isinstance(text, str) for text in record.warnings) or not isinstance(record.interpolated, bool):
+            raise TypeError("warnings are no texts.")
+        if not all(is_number(getattr(record, name)) for name in cls.numbers() if name not in cls.ENDLESS):
+            raise ValueError("a number is none.")
+        return record
+
+    #: Numbers that may be infinite.
+    ENDLESS: ClassVar[tuple[str, ...]] = ()
+
+    def to_json(self) -> str:
+        """Write the record down, to the last digit; its fields go elsewhere."""
+        return json.dumps(self.values())
+
+    def values(self) -> dict[str, Any]:
+        """Return everything but the fields."""
+        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "fields"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaseRecord(Record):
+    """The numbers of one indenter's contact, all SI; see `ContactSolution`, `Diagnostics` and `Record`.
+
+    Attributes
+    ----------
+    load : float
+        N (N/m of a line contact).
+    indentation, indentation_error : float
+        m.
+    contact_area, contact_area_error : float
+        m²; the width, m, of a line contact.
+    front, rear, half_width : float
+        m; the half width of a line contact is infinite.
+    edge_error : float
+        Of the three, m.
+    max_pressure_error : float
+        Pa.
+    centre_of_pressure : float
+        Ahead of the axis, m.
+    sensitivity : ComplianceSensitivity or None
+        How friction answers to the rubber's compliance, where bands are wanted.
+    """
+
+    load: float
     indentation: float
     indentation_error: float
     contact_area: float
@@ -104,18 +161,10 @@ class CaseRecord:
     rear: float
     half_width: float
     edge_error: float
-    max_pressure: float
     max_pressure_error: float
     centre_of_pressure: float
-    energy_balance: float
-    complementarity: float
-    cells: int
-    products: int
-    warnings: tuple[str, ...] = ()
     sensitivity: ComplianceSensitivity | None = None
-    interpolated: bool = False
-    interpolation_error: float = 0.0
-    fields: ContactFields | None = field(default=None, repr=False, compare=False)
+    ENDLESS: ClassVar[tuple[str, ...]] = ("half_width",)
 
     @classmethod
     def of(
@@ -160,49 +209,47 @@ class CaseRecord:
         return self.speed / (0.5 * (self.front + self.rear))
 
     @classmethod
-    def from_json(cls, text: str) -> CaseRecord:
-        """Read what `to_json` wrote; without fields.
+    def from_values(cls, values: dict[str, Any]) -> Self:
+        """Make a record of what `to_json` wrote, as JSON's reader returns it; without fields.
 
         Raises
         ------
         ValueError, TypeError, KeyError
             If it is something else.
         """
-        values = json.loads(text)
         sensitivity = values["sensitivity"]
         if sensitivity is not None:
             columns = {name: np.array(sensitivity[name], dtype=float) for name in _COLUMNS}
             sensitivity = ComplianceSensitivity(**{**sensitivity, **columns})
-        record = cls(**{**values, "warnings": tuple(values["warnings"]), "sensitivity": sensitivity})
-        if not all(isinstance(text, str) for text in record.warnings) or not isinstance(record.interpolated, bool):
-            raise TypeError("warnings are no texts.")
-        numbers = (getattr(record, name) for name in NUMBERS if name != "half_width")
-        if not all(_is_number(value) for value in numbers) or not _is_sound(sensitivity):
+        record = super().from_values({**values, "sensitivity": sensitivity})
+        if not _is_sound(sensitivity):
             raise ValueError("a number is none.")
-        if not (_is_number(record.half_width) or record.half_width == math.inf):
+        if not (is_number(record.half_width) or record.half_width == math.inf):
             raise ValueError("the half width is none.")
         return record
 
-    def to_json(self) -> str:
-        """Write the record down, to the last digit; its fields go elsewhere."""
-        values = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "fields"}
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Read what `to_json` wrote; see `from_values`."""
+        return cls.from_values(json.loads(text))
+
+    def values(self) -> dict[str, Any]:
+        """Return everything but the fields."""
+        values = super().values()
         if self.sensitivity is not None:
             told = {field.name: getattr(self.sensitivity, field.name) for field in fields(self.sensitivity)}
             values["sensitivity"] = told | {name: told[name].tolist() for name in _COLUMNS}
-        return json.dumps(values)
+        return values
 
 
-#: Attributes of a record that are single numbers.
-NUMBERS = tuple(
-    field.name
-    for field in fields(CaseRecord)
-    if field.name not in ("warnings", "sensitivity", "interpolated", "fields")
-)
+#: Attributes of an indenter's record that are single numbers.
+NUMBERS = CaseRecord.numbers()
 # Arrays of a sensitivity.
 _COLUMNS = ("log_tau", "slope")
 
 
-def _is_number(value: object) -> bool:
+def is_number(value: object) -> bool:
+    """Whether it is a finite number."""
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
@@ -212,7 +259,7 @@ def _is_sound(sensitivity: ComplianceSensitivity | None) -> bool:
         return True
     single = [field.name for field in fields(sensitivity) if field.name not in _COLUMNS]
     columns = [getattr(sensitivity, name) for name in _COLUMNS]
-    return all(_is_number(getattr(sensitivity, name)) for name in single) and all(
+    return all(is_number(getattr(sensitivity, name)) for name in single) and all(
         column.ndim == 1 and column.size > 1 and column.size == columns[0].size and np.all(np.isfinite(column))
         for column in columns
     )

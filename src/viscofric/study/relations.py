@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.study.contact_tables import BallTable
 from viscofric.study.quantities import PerLength
-from viscofric.study.sweep import MOST_CASES, axes_of, count_cases
+from viscofric.study.sweep import CONDITIONS, MOST_CASES, axes_of, count_cases
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -28,6 +28,7 @@ def relations(tables: Tables) -> Iterator[Problem]:
         Those that are right in themselves, by their names in the run file.
     """
     yield from _names_of_materials(tables)
+    yield from _body(tables)
     yield from _loads(tables)
     yield from _thickness(tables)
     wrong = list(_sweep(tables))
@@ -50,8 +51,38 @@ def _names_of_materials(tables: Tables) -> Iterator[Problem]:
             yield f"material.{number}.name", f"{material.name!r} is the name of {times[material.name]} materials"
 
 
+def _body(tables: Tables) -> Iterator[Problem]:
+    """Yield whether not just one thing slides over the rubber, and what does not go with it."""
+    if "indenter" not in tables or "surface" not in tables:
+        return
+    indenter, surface, conditions = tables["indenter"], tables["surface"], tables.get("conditions")
+    if indenter is None and surface is None:
+        yield "indenter", "is missing (what slides or rolls over the rubber); give it, or [surface] for a rough one"
+        return
+    if indenter is not None and surface is not None:
+        yield "surface", "is there beside [indenter]; a study has one of them"
+        return
+    if conditions is None:
+        return
+    wanted, other, of = ("load", "pressure", "an indenter") if surface is None else ("pressure", "load", "a [surface]")
+    if getattr(conditions, other):
+        yield f"conditions.{other}", f"is not for {of}; give its {wanted} instead, such as {_EXAMPLES[wanted]!r}"
+    elif not getattr(conditions, wanted):
+        yield f"conditions.{wanted}", f"is missing; {of} has one, such as {_EXAMPLES[wanted]!r}"
+    if surface is None and conditions.direction:
+        yield "conditions.direction", "is for a rough [surface]; the motion of an indenter is along x"
+
+
+_EXAMPLES = {"load": "25 N", "pressure": "50 kPa"}
+
+
+def body_of(tables: Tables) -> Any:
+    """Return the table of what slides over the rubber; None where that is not known."""
+    return tables.get("indenter") or tables.get("surface")
+
+
 def _loads(tables: Tables) -> Iterator[Problem]:
-    if "indenter" not in tables or "conditions" not in tables:
+    if tables.get("indenter") is None or "conditions" not in tables:
         return
     indenter, loads = tables["indenter"], tables["conditions"].load
     wrong = [(place, load) for place, load in enumerate(loads) if isinstance(load, PerLength) != indenter.LINE]
@@ -76,12 +107,14 @@ def _known(tables: Tables) -> dict[str, tuple[Any, ...]]:
         known["material"] = tuple(material.name for material in tables["material"])
     if "uncertainty" in tables:
         known["sample"] = tuple(range(tables["uncertainty"].members + 1))
-    if "indenter" in tables:
-        known |= tables["indenter"].axes
+    body = body_of(tables)
+    if body is not None:
+        known |= body.axes
     if tables.get("layer") is not None:
         known["thickness"] = tables["layer"].thickness
     if "conditions" in tables:
-        known |= {name: getattr(tables["conditions"], name) for name in ("load", "temperature", "speed")}
+        given = {name: getattr(tables["conditions"], name) for name in CONDITIONS}
+        known |= {name: values for name, values in given.items() if values}
     return known
 
 
@@ -93,7 +126,8 @@ def _together(tables: Tables, known: dict[str, tuple[Any, ...]]) -> list[list[st
 
 def _sweep(tables: Tables) -> Iterator[Problem]:
     known = _known(tables)
-    whole = all(name in tables for name in ("material", "indenter", "conditions", "layer"))
+    whole = all(name in tables for name in ("material", "indenter", "surface", "conditions", "layer"))
+    whole = whole and body_of(tables) is not None
     choices = [name for name in known if name != "sample"]
     for number, group in enumerate(tables["sweep"].together if "sweep" in tables else ()):
         for place, name in enumerate(group):
@@ -117,7 +151,7 @@ def _twice(tables: Tables, known: dict[str, tuple[Any, ...]]) -> Iterator[Proble
         points = list(zip(*axis.columns.values(), strict=False))
         twice = _repeated(points)
         if twice:
-            places = " and ".join(_PLACES.get(name, f"indenter.{name}") for name in axis.columns)
+            places = " and ".join(_place(name) for name in axis.columns)
             where = f" (entry {twice[0] + 1})" if len(twice) == 1 else f" ({len(twice)} entries)"
             yield places, f"holds the same value twice{where}; each is solved once"
 
@@ -151,6 +185,8 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
     if len(tables.get("material", ())) > 1:
         yield "measurement", f"is of one rubber, but there are {len(tables['material'])} materials"
     indenter = tables.get("indenter")
+    if tables.get("surface") is not None:
+        yield "measurement", "is of a ball, but there is a rough [surface]"
     if indenter is not None and not isinstance(indenter, BallTable):
         yield "measurement", f"is of a ball, but the indenter is a {indenter.shape}"
     elif indenter is not None and len(indenter.radius) > 1:
@@ -171,9 +207,10 @@ def _members(tables: Tables) -> Iterator[Problem]:
             )
 
 
-_PLACES = {
-    "load": "conditions.load",
-    "temperature": "conditions.temperature",
-    "speed": "conditions.speed",
-    "thickness": "layer.thickness",
-}
+def _place(name: str) -> str:
+    """Return where the values of an axis stand."""
+    table = "conditions" if name in CONDITIONS else _TABLES.get(name, "indenter")
+    return f"{table}.{name}"
+
+
+_TABLES = {"thickness": "layer", "seed": "surface"}

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
 from viscofric.errors import StudyError
-from viscofric.study.axis_values import RANGE, SpeedRange
+from viscofric.study.axis_values import RANGE, SEED_RANGE, SeedRange, SpeedRange
 from viscofric.study.contact_tables import (
     SHAPES,
     ConditionsTable,
@@ -23,12 +23,14 @@ from viscofric.study.measurement_table import MeasurementTable
 from viscofric.study.relations import relations
 from viscofric.study.run_file_errors import place, sentences, told
 from viscofric.study.settings_tables import ClusterTable, OutputsTable, SolverTable, SweepTable, UncertaintyTable
+from viscofric.study.surface_table import SurfaceTable
 from viscofric.study.sweep import Sweep, sweep_of
 from viscofric.study.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from viscofric.study.contact_tables import AnyIndenterTable
     from viscofric.study.table import Problem
 
 #: A run file is far shorter; what is longer is something else.
@@ -52,7 +54,9 @@ class Study(Table):
     data_origin : {"measured", "synthetic"}
     materials : tuple of MaterialTable
         [material], or each of several [[material]].
-    indenter : BallTable, CylinderTable, EllipsoidTable or ConeTable
+    indenter : BallTable, CylinderTable, EllipsoidTable or ConeTable, or None
+    surface : SurfaceTable or None
+        A rough surface instead.
     layer : LayerTable or None
     conditions : ConditionsTable
     sweep_table : SweepTable
@@ -71,7 +75,8 @@ class Study(Table):
     materials: Annotated[
         tuple[MaterialTable, ...], Field(min_length=1, max_length=_MOST_MATERIALS), BeforeValidator(_several)
     ] = Field(alias="material", description="The rubber; [[material]] for each of several, with a name of its own.")
-    indenter: IndenterTable = Field(description="What slides or rolls over the rubber.")
+    indenter: IndenterTable | None = Field(None, description="What slides or rolls over the rubber.")
+    surface: SurfaceTable | None = Field(None, description="A rough surface that slides over it, instead.")
     layer: LayerTable | None = Field(None, description="Rubber of finite thickness; a half-space without this table.")
     conditions: ConditionsTable = Field(description="Loads, speeds and temperatures to predict friction at.")
     sweep_table: SweepTable = Field(SweepTable(), alias="sweep", description="Which axes go together.")
@@ -94,7 +99,13 @@ class Study(Table):
     def inputs(self) -> tuple[Path, ...]:
         """All data files."""
         files = [path for material in self.materials for path in material.inputs]
+        files += self.surface.inputs if self.surface else ()
         return (*dict.fromkeys(files), *(self.measurement.inputs if self.measurement else ()))
+
+    @property
+    def body(self) -> AnyIndenterTable | SurfaceTable:
+        """What slides over the rubber."""
+        return self.indenter or self.surface  # type: ignore[return-value]  # one of them is there
 
     def sweep(self) -> Sweep:
         """Return all cases that the study asks for, with their axes.
@@ -113,9 +124,11 @@ TABLES: dict[str, type[BaseModel]] = {
     "material": MaterialTable,
     "indenter": SHAPES["ball"],
     **{f"<{shape}>": table for shape, table in SHAPES.items()},
+    "surface": SurfaceTable,
     "layer": LayerTable,
     "conditions": ConditionsTable,
     RANGE: SpeedRange,
+    SEED_RANGE: SeedRange,
     "sweep": SweepTable,
     "measurement": MeasurementTable,
     "solver": SolverTable,
@@ -251,9 +264,11 @@ def _of_sound_tables(error: ValidationError, values: dict[str, Any]) -> list[str
     if any(problem["type"] == "relation" and len(problem["loc"]) < 1 for problem in error.errors()):
         return []
     sound: dict[str, Any] = {}
+    unknown = wrong - {field.alias or name for name, field in FIELDS.items()}
     for name, field in FIELDS.items():
         key = field.alias or name
-        if key not in wrong:
+        # A table whose name is misspelt may be one of these.
+        if key not in wrong and not (unknown and key in ("indenter", "surface") and key not in values):
             sound[key] = _adapter(name).validate_python(values[key]) if key in values else field.get_default()
     return [told(place(_parts(key), values), words) for key, words in relations(sound)]
 
@@ -274,6 +289,7 @@ def _resolve_paths(study: Study, path: Path) -> Study:
     try:
         materials = tuple(material.beside(folder) for material in study.materials)
         measurement = None if study.measurement is None else study.measurement.beside(folder)
+        surface = None if study.surface is None else study.surface.beside(folder)
     except (OSError, ValueError) as error:
         raise StudyError(f"{path}: {getattr(error, 'strerror', None) or error}.") from None
-    return study.model_copy(update={"materials": materials, "measurement": measurement})
+    return study.model_copy(update={"materials": materials, "measurement": measurement, "surface": surface})

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
-from viscofric.study.quantities import MOST_POINTS, VALUE, Count, Number, with_unit
+from viscofric.study.quantities import BIGGEST_SEED, MOST_POINTS, VALUE, Count, Number, with_unit
 from viscofric.study.table import Table
 from viscofric.units import positive
 
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 _MOST_SAMPLES = 10_000
 _MOST_MEMBERS = 1_000
-_BIGGEST_SEED = 2**63 - 1
 #: Formats in which results are written besides netCDF.
 Format = Literal["csv", "excel", "zarr"]
 
@@ -75,7 +74,7 @@ class UncertaintyTable(Table):
     members: Count = Field(
         0, ge=0, le=_MOST_MEMBERS, description="Draws of the rubber that every case is really solved with, too."
     )
-    seed: Count = Field(0, ge=0, le=_BIGGEST_SEED, description="Of the random draws: the same seed, the same rubbers.")
+    seed: Count = Field(0, ge=0, le=BIGGEST_SEED, description="Of the random draws: the same seed, the same rubbers.")
 
 
 class OutputsTable(Table):

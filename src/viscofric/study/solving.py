@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.study.record import Record
+    from viscofric.study.surface_solving import SurfaceTask
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,10 +81,10 @@ class Task:
 
     def _key(self) -> str:
         described: dict[str, object] = {
-            "modes": _modes_written(self.modes),
+            "modes": modes_written(self.modes),
             "poisson_ratio": self.poisson_ratio,
-            "indenter": _written(self.indenter),
-            "layer": None if self.layer is None else _written(self.layer),
+            "indenter": written(self.indenter),
+            "layer": None if self.layer is None else written(self.layer),
             "speed": self.speed,
             "load": self.load,
             "temperature": self.temperature,
@@ -94,41 +96,45 @@ class Task:
         }
         return case_key(described)
 
+    def solve(self) -> CaseRecord:
+        """Solve it; see `solve`."""
+        material = Material(self.modes, poisson_ratio=self.poisson_ratio)
+        case: dict[str, Any] = {
+            "speed": self.speed,
+            "load": self.load,
+            "accuracy": self.accuracy,
+            "layer": self.layer,
+            "indenter_modulus": self.indenter_modulus,
+            "indenter_poisson_ratio": self.indenter_poisson_ratio,
+        }
+        if self.sensitive:
+            try:
+                solution, sensitivity = solve_with_sensitivity(material, self.indenter, temperature=None, **case)
+                return CaseRecord.of(solution, self.temperature, sensitivity, self.fields)
+            except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
+                pass
+        return CaseRecord.of(solve_steady(material, self.indenter, **case), self.temperature, with_fields=self.fields)
 
-def solve(task: Task) -> CaseRecord:
+
+def solve(task: Task | SurfaceTask) -> Record:
     """Solve one contact.
 
     Parameters
     ----------
-    task : Task
+    task : Task or SurfaceTask
 
     Returns
     -------
-    CaseRecord
+    CaseRecord or SurfaceRecord
         The same to the last bit in whatever process.  Without a sensitivity where friction was found but not how it
         answers to the rubber.
 
     Raises
     ------
     InputError, ConvergenceError
-        As of `solve_steady`.
+        As of `solve_steady`, or `solve_periodic`.
     """
-    material = Material(task.modes, poisson_ratio=task.poisson_ratio)
-    case: dict[str, Any] = {
-        "speed": task.speed,
-        "load": task.load,
-        "accuracy": task.accuracy,
-        "layer": task.layer,
-        "indenter_modulus": task.indenter_modulus,
-        "indenter_poisson_ratio": task.indenter_poisson_ratio,
-    }
-    if task.sensitive:
-        try:
-            solution, sensitivity = solve_with_sensitivity(material, task.indenter, temperature=None, **case)
-            return CaseRecord.of(solution, task.temperature, sensitivity, task.fields)
-        except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
-            pass
-    return CaseRecord.of(solve_steady(material, task.indenter, **case), task.temperature, with_fields=task.fields)
+    return task.solve()
 
 
 def case_key(description: dict[str, object]) -> str:
@@ -138,14 +144,15 @@ def case_key(description: dict[str, object]) -> str:
 
 
 @functools.lru_cache(maxsize=64)  # many tasks have the same modes
-def _modes_written(modes: RetardationSpectrum) -> str:
+def modes_written(modes: RetardationSpectrum) -> str:
+    """Return what changes with any of the modes."""
     digest = hashlib.sha256(np.array([modes.E0, modes.E_inf]).tobytes())
     for column in (modes.C, modes.tau):
         digest.update(np.ascontiguousarray(column).tobytes())
     return digest.hexdigest()
 
 
-def _written(shape: Any) -> list[object]:
+def written(shape: Any) -> list[object]:
     """Write an indenter or a layer down, whatever its kind."""
     values = ((entry.name, getattr(shape, entry.name)) for entry in fields(shape))
     return [type(shape).__name__, *((name, _digest(value)) for name, value in values)]
@@ -158,14 +165,30 @@ def _digest(value: Any) -> object:
     return value.item() if isinstance(value, np.generic) else value
 
 
+#: Files of other rooms that decide what is kept of a contact.
+_OWN = {
+    "friction": ("sensitivity.py",),
+    "study": (
+        "solving.py",
+        "record.py",
+        "surface_solving.py",
+        "surface_record.py",
+        "surface_source.py",
+        "surface_steps.py",
+    ),
+}
+
+
 @functools.cache
 def solver_fingerprint() -> str:
     """Return what changes with any line of the solver, so that cases of an older one are not taken for new."""
     digest = hashlib.sha256()
-    for name, source in _sources(files("viscofric.contact")):
-        digest.update(name.encode() + b"\0" + source)
-    for room, name in (("friction", "sensitivity.py"), ("study", "solving.py"), ("study", "record.py")):
-        digest.update((files("viscofric") / room / name).read_bytes())
+    for room in ("contact", "roughness", "readers/topography"):
+        for name, source in _sources(files("viscofric") / room):
+            digest.update(name.encode() + b"\0" + source)
+    for room, names in _OWN.items():
+        for name in names:
+            digest.update((files("viscofric") / room / name).read_bytes())
     return digest.hexdigest()
 
 

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.files import write_atomically
-from viscofric.study.record import CaseRecord, ContactFields, Failure
+from viscofric.study.record import ContactFields, Failure, Record
+from viscofric.study.surface_record import read_record
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,7 +33,7 @@ class CaseStore:
 
     folder: Path
 
-    def get(self, key: str, with_fields: bool = False) -> CaseRecord | Failure | None:
+    def get(self, key: str, with_fields: bool = False) -> Record | Failure | None:
         """Return what became of a case; None if it is not known (or its file was damaged, by a crash or otherwise).
 
         Parameters
@@ -46,7 +47,7 @@ class CaseStore:
             failure = _failure(text)
             if failure is not None:
                 return failure
-            record = CaseRecord.from_json(text)
+            record = read_record(text)
             return replace(record, fields=self._fields(key)) if with_fields else record
         except _DAMAGED:
             return None
@@ -63,7 +64,7 @@ class CaseStore:
         write_atomically(probe, b"")
         probe.unlink(missing_ok=True)
 
-    def put(self, key: str, outcome: CaseRecord | Failure) -> None:
+    def put(self, key: str, outcome: Record | Failure) -> None:
         """Store what became of a case; it is either there whole or not at all.
 
         Raises

@@ -13,7 +13,9 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
 from viscofric.study.bands import FrictionBands, draw_rubber
 from viscofric.study.checking import shift_of
+from viscofric.study.record import CaseRecord
 from viscofric.study.rubber import Rubber, make_rubber
+from viscofric.study.sweep import SurfaceCase
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -22,9 +24,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.study.material_table import MaterialTable
-    from viscofric.study.record import CaseRecord
+    from viscofric.study.record import Record
     from viscofric.study.settings_tables import UncertaintyTable
-    from viscofric.study.sweep import Case
+    from viscofric.study.sweep import AnyCase
 
 
 class BandColumns(NamedTuple):
@@ -82,11 +84,20 @@ class StudyRubber:
         fit = getattr(self.material.spectrum, "fit", None)
         return None if fit is None else fit.frequency_range
 
-    def is_within(self, record: CaseRecord) -> bool:
-        """Whether the contact's frequency v/a, reduced by α(T), lies within the master curve's, as far as is known."""
-        low, high = self.frequency_range or (0.0, math.inf)
-        half = record.half_width if math.isfinite(record.half_width) else 0.5 * (record.front + record.rear)
-        return low <= float(self.shift(record.temperature)) * record.speed / half <= high
+    def is_within(self, case: AnyCase, record: Record) -> bool:
+        """Whether a contact's frequencies, reduced by α(T), lie within the master curve's, as far as is known.
+
+        That of an indenter is v/a; a rough surface has 2πv/λ for the shortest and the longest of its wavelengths.
+        """
+        if self.frequency_range is None:
+            return True
+        low, high = self.frequency_range
+        rate = float(self.shift(record.temperature)) * record.speed
+        if isinstance(record, CaseRecord):
+            half = record.half_width if math.isfinite(record.half_width) else 0.5 * (record.front + record.rear)
+            return low <= rate / half <= high
+        shortest, longest = case.surface.wavelengths if isinstance(case, SurfaceCase) else (math.nan, math.nan)
+        return low <= 2.0 * math.pi * rate / longest and 2.0 * math.pi * rate / shortest <= high
 
     def doubts(self, temperatures: Sequence[float]) -> list[str]:
         """Tell what of the prediction rests on more than was measured, or does not lie on one curve."""
@@ -113,15 +124,17 @@ class StudyRubber:
         return said
 
 
-def all_within(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[CaseRecord]) -> list[bool]:
+def all_within(rubbers: Sequence[StudyRubber], cases: Sequence[AnyCase], records: Sequence[Record]) -> list[bool]:
     """Whether each case, solved, lies within the frequencies at which its rubber is known, as far as these are."""
-    return [rubbers[case.material].is_within(record) for case, record in zip(cases, records, strict=True)]
+    return [rubbers[case.material].is_within(case, record) for case, record in zip(cases, records, strict=True)]
 
 
 def band_columns(
-    rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[CaseRecord]
+    rubbers: Sequence[StudyRubber], cases: Sequence[AnyCase], records: Sequence[Any]
 ) -> BandColumns | None:
     """Return the bands of solved cases; None if no rubber has any.  Those of a posterior's members have none."""
+    if all(rubber.bands.samples is None for rubber in rubbers):
+        return None
     columns = np.full((len(BandColumns._fields), len(records)), np.nan)
     for number, rubber in enumerate(rubbers):
         rows = [row for row, case in enumerate(cases) if case.material == number and case.sample is None]

@@ -16,11 +16,14 @@ if TYPE_CHECKING:
 
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.study.run_file import Study
+    from viscofric.study.surface_source import SurfaceSource
 
     Values: TypeAlias = tuple[float | str, ...]
 
 #: A study asks for as many cases at most.
 MOST_CASES = 1_000_000
+#: Axes of [conditions], in their order, as far as they are given.
+CONDITIONS = ("load", "pressure", "direction", "temperature", "speed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +62,58 @@ class Case:
     indenter_poisson_ratio: float = 0.3
     sample: int | None = None
 
+    @property
+    def alike(self) -> tuple[object, ...]:
+        """What cases have in common that differ by temperature and speed at most."""
+        return (self.material, self.sample, self.indenter, self.load, self.layer)
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceCase:
+    """One contact of a rough surface, SI.
+
+    Parameters
+    ----------
+    material : int
+        Its number in `Study.materials`, from 0.
+    surface : MadeSurface or ScannedSurface
+    temperature : float
+        K.
+    speed : float
+        m/s.
+    pressure : float
+        Mean pressure, Pa.
+    direction : float
+        Of the motion, from x towards y, rad.
+    layer : Layer, optional
+        A half-space without.
+    surface_modulus : float, optional
+        Young's modulus of an elastic surface, Pa; rigid without.
+    surface_poisson_ratio : float
+        Of an elastic surface.
+    sample : int, optional
+        Member of the material's posterior that it is solved with, from 1; the best estimate if None.
+    """
+
+    material: int
+    surface: SurfaceSource
+    temperature: float
+    speed: float
+    pressure: float
+    direction: float = 0.0
+    layer: Layer | None = None
+    surface_modulus: float | None = None
+    surface_poisson_ratio: float = 0.3
+    sample: int | None = None
+
+    @property
+    def alike(self) -> tuple[object, ...]:
+        """What cases have in common that differ by temperature and speed at most."""
+        return (self.material, self.sample, self.surface, self.pressure, self.direction, self.layer)
+
+
+AnyCase: TypeAlias = Case | SurfaceCase
+
 
 @dataclass(frozen=True, eq=False)
 class Axis:
@@ -67,8 +122,8 @@ class Axis:
     Parameters
     ----------
     name : str
-        "material", "sample", "radius" ("radius_x", "radius_y", "angle"), "thickness", "load", "temperature" or "speed";
-        of several that are stepped together, joined: "load_radius".
+        "material", "sample", "radius" ("radius_x", "radius_y", "angle"), "seed", "thickness", "load", "pressure",
+        "direction", "temperature" or "speed"; of several that are stepped together, joined: "load_radius".
     columns : dict of str to tuple
         Each coordinate's values, one for each point of the axis, SI; names of materials, numbers of samples (0: the
         best estimate).
@@ -88,14 +143,14 @@ class Sweep:
     Parameters
     ----------
     axes : tuple of Axis
-        In the order material, sample, shape of the indenter, thickness, load, temperature, speed; those of one point
-        included.
-    cases : tuple of Case
+        In the order material, sample, shape of the indenter or seed of the surface, thickness, load or pressure,
+        direction, temperature, speed; those of one point included.
+    cases : tuple of Case or SurfaceCase
         One for each combination of the axes' points; the last axis runs fastest.
     """
 
     axes: tuple[Axis, ...]
-    cases: tuple[Case, ...]
+    cases: tuple[AnyCase, ...]
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -114,11 +169,9 @@ def coordinates(study: Study) -> dict[str, Values]:
     return {
         "material": tuple(material.name for material in study.materials),
         "sample": tuple(range(study.uncertainty.members + 1)),
-        **study.indenter.axes,
+        **study.body.axes,
         **layer,
-        "load": study.conditions.load,
-        "temperature": study.conditions.temperature,
-        "speed": study.conditions.speed,
+        **{name: values for name in CONDITIONS if (values := getattr(study.conditions, name))},
     }
 
 
@@ -138,32 +191,35 @@ def sweep_of(study: Study) -> Sweep:
     """Return all cases of a study; see `Study.sweep`."""
     axes = axes_of(coordinates(study), study.sweep_table.together)
     column = _columns(axes)
-    made: dict[tuple[float, ...], Indenter] = {}
     layers: dict[float, Layer] = {}
-
-    def indenter(*values: float) -> Indenter:
-        if values not in made:
-            made[values] = study.indenter.indenter(*values)
-        return made[values]
 
     def layer(thickness: float) -> Layer:
         if thickness not in layers:
             layers[thickness] = Layer(thickness, bonded=study.layer is None or study.layer.base == "bonded")
         return layers[thickness]
 
-    cases = map(
-        Case,
-        column["material"],
-        map(indenter, *(column[name] for name in study.indenter.axes)),
-        column["temperature"],
-        column["speed"],
-        map(float, column["load"]),
+    body = study.body
+    make = study.indenter.indenter if study.indenter is not None else study.surface.source  # type: ignore[union-attr]
+    made: dict[tuple[Any, ...], Any] = {}
+
+    def one(*values: Any) -> Any:
+        if values not in made:
+            made[values] = make(*values)
+        return made[values]
+
+    count = count_cases(axes)
+    bodies = map(one, *(column[name] for name in body.axes)) if body.axes else itertools.repeat(one(), count)
+    first, then = ((column["material"], bodies), (column["temperature"], column["speed"]))
+    last = (
         itertools.repeat(None) if study.layer is None else map(layer, column["thickness"]),
-        itertools.repeat(study.indenter.modulus),
-        itertools.repeat(study.indenter.poisson_ratio),
+        itertools.repeat(body.modulus),
+        itertools.repeat(body.poisson_ratio),
         (number or None for number in column["sample"]),
     )
-    return Sweep(axes, tuple(cases))
+    if study.indenter is not None:
+        return Sweep(axes, tuple(map(Case, *first, *then, map(float, column["load"]), *last)))
+    toward = column.get("direction", itertools.repeat(0.0))
+    return Sweep(axes, tuple(map(SurfaceCase, *first, *then, column["pressure"], toward, *last)))
 
 
 def _columns(axes: Sequence[Axis]) -> dict[str, list[Any]]:

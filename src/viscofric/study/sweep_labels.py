@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.study.labels import MEANING, band
-from viscofric.study.record import NUMBERS, CaseRecord
+from viscofric.study.record import Record
+from viscofric.study.sweep import Case, SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 #: What a case holds besides its numbers: flags with what stands for a case that failed.
 _FLAGS = {"interpolated": 0, "within_measured_frequencies": -1}
 #: Numbers of a record that are coordinates here.
-_PLACES = ("speed", "temperature", "load")
+_PLACES = ("speed", "temperature", "load", "pressure")
 # coordinate -> unit, long name
 _COORDINATES = {
     "material": ("1", "name of the rubber"),
@@ -42,6 +43,18 @@ _COORDINATES = {
     "radius_y": ("m", "radius of curvature of the indenter across the motion"),
     "angle": ("rad", "angle between the cone's flank and the surface"),
     "thickness": ("m", "thickness of the rubber"),
+    "seed": ("1", "seed of the rough surface, one of many of the same statistics"),
+    "direction": ("rad", "direction of the motion, from x towards y"),
+}
+# of a rough surface, where it is something else: variable -> unit, long name
+_OF_A_SURFACE = {
+    "complementarity": ("1", "largest violation of the contact conditions over the rms height"),
+    "cells": ("1", "points along the longer period"),
+    "products": ("1", "products with the transfer function on the finest grid"),
+    "within_measured_frequencies": (
+        "1",
+        "whether 2πv/λ, reduced, lies within the measured frequencies for all waves of the surface (1), not (0)",
+    ),
 }
 # of a line contact, where it is something else: variable -> unit, long name
 _OF_A_LINE = {
@@ -49,6 +62,8 @@ _OF_A_LINE = {
     "contact_area": ("m", "width of the contact along the motion"),
     "contact_area_error": ("m", "error estimate of the width of the contact"),
 }
+#: What a coordinate is called beside a field of its name.
+_BESIDE_FIELDS = {"pressure": "mean_pressure"}
 # field -> unit, long name
 _FIELDS = {
     "x": ("m", "position along the motion, ahead of the indenter's axis"),
@@ -60,7 +75,7 @@ _FIELDS = {
 
 def prediction(
     sweep: Sweep,
-    outcomes: Sequence[CaseRecord | Failure],
+    outcomes: Sequence[Record | Failure],
     *,
     within: Sequence[bool] | None = None,
     curves: FrictionCurves | BandColumns | None = None,
@@ -70,7 +85,7 @@ def prediction(
     Parameters
     ----------
     sweep : Sweep
-    outcomes : sequence of CaseRecord or Failure
+    outcomes : sequence of CaseRecord, SurfaceRecord or Failure
         One for each case, in their order.
     within : sequence of bool, optional
         Of those that were solved, in their order: whether the contact's frequency lies within those measured.
@@ -85,10 +100,12 @@ def prediction(
     """
     import xarray
 
-    solved = np.array([isinstance(outcome, CaseRecord) for outcome in outcomes], dtype=bool)
-    records = [outcome for outcome in outcomes if isinstance(outcome, CaseRecord)]
+    solved = np.array([isinstance(outcome, Record) for outcome in outcomes], dtype=bool)
+    records = [outcome for outcome in outcomes if isinstance(outcome, Record)]
     columns: dict[str, Any] = {
-        name: [getattr(record, name) for record in records] for name in NUMBERS if name not in _PLACES
+        name: [getattr(record, name) for record in records]
+        for name in (records[0].numbers() if records else ())
+        if name not in _PLACES
     }
     columns |= {} if curves is None else band(curves, "friction")
     columns["interpolated"] = [record.interpolated for record in records]
@@ -112,7 +129,7 @@ def prediction(
     return xarray.Dataset(variables, coordinates)
 
 
-def field_groups(sweep: Sweep, outcomes: Sequence[CaseRecord | Failure]) -> dict[str, xarray.Dataset]:
+def field_groups(sweep: Sweep, outcomes: Sequence[Record | Failure]) -> dict[str, xarray.Dataset]:
     """Label the fields of those cases that kept them.
 
     Returns
@@ -123,21 +140,25 @@ def field_groups(sweep: Sweep, outcomes: Sequence[CaseRecord | Failure]) -> dict
     """
     import xarray
 
-    meaning = _meaning(sweep)
+    meaning, of_fields = _meaning(sweep), _FIELDS
+    if sweep.cases and isinstance(sweep.cases[0], SurfaceCase):
+        of_fields = _FIELDS | {name: ("m", f"position along {name}") for name in ("x", "y")}
     groups = {}
     for number, outcome in enumerate(outcomes):
-        if not isinstance(outcome, CaseRecord) or outcome.fields is None:
+        if not isinstance(outcome, Record) or outcome.fields is None:
             continue
         kept = outcome.fields
         plane = ["x", "y"][: np.ndim(kept.pressure)]
         variables: dict[str, Any] = {
-            name: (plane, getattr(kept, name), _attributes(name, _FIELDS)) for name in ("pressure", "displacement")
+            name: (plane, getattr(kept, name), _attributes(name, of_fields)) for name in ("pressure", "displacement")
         }
-        coordinates: dict[str, Any] = {name: (name, getattr(kept, name), _attributes(name, _FIELDS)) for name in plane}
+        coordinates: dict[str, Any] = {
+            name: (name, getattr(kept, name), _attributes(name, of_fields)) for name in plane
+        }
         place = np.unravel_index(number, sweep.shape)
         for axis, point in zip(sweep.axes, place, strict=True):
             coordinates |= {
-                name: ((), values[int(point)], _attributes(name, meaning))
+                _BESIDE_FIELDS.get(name, name): ((), values[int(point)], _attributes(name, meaning))
                 for name, values in axis.columns.items()
                 if _tells(name, values)
             }
@@ -177,7 +198,9 @@ def material_groups(
 
 
 def _meaning(sweep: Sweep) -> dict[str, tuple[str, str]]:
-    line = bool(sweep.cases) and sweep.cases[0].indenter.geometry.load_unit == "N/m"
+    if sweep.cases and isinstance(sweep.cases[0], SurfaceCase):
+        return MEANING | _COORDINATES | _OF_A_SURFACE
+    line = any(isinstance(case, Case) and case.indenter.geometry.load_unit == "N/m" for case in sweep.cases[:1])
     return MEANING | _COORDINATES | (_OF_A_LINE if line else {})
 
 

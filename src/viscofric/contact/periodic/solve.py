@@ -117,6 +117,10 @@ def solve_periodic(
     >>> solution.diagnostics.full_contact, round(solution.friction_coefficient, 7)
     (True, 0.0001465)
     """
+    if not hasattr(surface, "z"):  # of a topography, heights may be missing, or not repeat themselves
+        raise InputError(
+            f"surface = {brief(surface)}: must be a PeriodicSurface, such as that of Topography.to_surface()."
+        )
     velocity, toward = _motion(speed, direction)
     if (pressure is None) == (gap is None):
         both = "neither" if pressure is None else "both"

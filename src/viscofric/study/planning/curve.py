@@ -64,6 +64,9 @@ class Curve:
         s of each case.
     accuracy : float
         Of the friction, relative.
+    logarithmic : (columns,) array of bool, optional
+        Which columns of the nodes, the first of them friction, are interpolated by their logarithms; those of an
+        indenter's contact if not given.
 
     Attributes
     ----------
@@ -75,8 +78,8 @@ class Curve:
         Those between whose nodes the others lie.
     """
 
-    def __init__(self, places: Array, accuracy: float) -> None:
-        self._places, self._accuracy = places, accuracy
+    def __init__(self, places: Array, accuracy: float, logarithmic: NDArray[np.bool_] = LOGARITHMIC) -> None:
+        self._places, self._accuracy, self._logarithmic = places, accuracy, logarithmic
         self._nodes: dict[int, Node] = {}
         self._failed: set[int] = set()
         self.alone: list[int] = []
@@ -155,7 +158,7 @@ class Curve:
     def _at(self, chosen: Stencil, places: Array) -> Interpolated:
         values = np.array([self._nodes[node].values for node in chosen.nodes])
         errors = np.array([self._nodes[node].errors for node in chosen.nodes])
-        return interpolate(chosen, STEP, places, values, errors, LOGARITHMIC)
+        return interpolate(chosen, STEP, places, values, errors, self._logarithmic)
 
     def _foretells(self, one: Interval, known: list[int]) -> bool:
         """Whether friction at the midpoint is what the nodes known before let expect."""

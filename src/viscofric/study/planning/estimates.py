@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -14,13 +15,16 @@ from viscofric.errors import InputError
 from viscofric.study.planning.conditions import Rubbers
 from viscofric.study.planning.curve import Curve
 from viscofric.study.planning.families import Placing
+from viscofric.study.planning.surfaces import surface_place
+from viscofric.study.sweep import SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from viscofric.rheology.material import Material
-    from viscofric.study.planning.families import Family
-    from viscofric.study.sweep import Case
+    from viscofric.study.planning.families import Family, Place
+    from viscofric.study.planning.surfaces import SurfaceFamily, SurfacePlace
+    from viscofric.study.sweep import AnyCase
 
 # Processor time of a contact on one core of 2020, s: at low accuracy, what 1e-3 adds, and the power of 1/accuracy with
 # which that grows.  Means over six speeds at two temperatures of the synthetic fluoroelastomer
@@ -31,6 +35,9 @@ _SECONDS = {
     "other": (0.09, 0.10, 1.6),
     "layer": (0.13, 0.05, 1.6),
 }
+# On a rough surface, s: of a contact, and of each of its points, half as much in full contact (512² points of the
+# synthetic fluoroelastomer at 2 to 6 % of contact; the accuracy hardly counts).  Bytes of a point, while it is solved.
+_SURFACE_SECONDS, _SURFACE_SECONDS_PER_POINT, _BYTES_PER_POINT = 0.012, 1.1e-6, 250.0
 #: Finding how friction answers to the rubber takes about as long as finding friction.
 _SENSITIVE = 2.0
 # Bytes: of a process that solves; of each cell of the finest window while it does; of a record and its sensitivity.
@@ -67,7 +74,7 @@ class Expectation:
 
 
 def estimate(
-    cases: Sequence[Case],
+    cases: Sequence[AnyCase],
     materials: Sequence[Material],
     *,
     accuracy: float = 1e-3,
@@ -90,6 +97,7 @@ def estimate(
     drawn = max((case.sample or 0 for case in cases), default=0)
     rubbers = Rubbers(materials, {number: [material] * drawn for number, material in enumerate(materials)})
     solves: dict[tuple[str, bool], float] = defaultdict(float)
+    points = _points(cases)
     if each:
         for case in set(cases):
             solves[_kind(case)] += 1
@@ -97,24 +105,29 @@ def estimate(
         for kind, curve in _curves(cases, rubbers, kept, accuracy, solves):
             solves[kind] += curve.expected
     seconds = sum(
-        number * _seconds(kind, accuracy) * (_SENSITIVE if sensitive and best else 1.0)
+        number * _seconds(kind, accuracy, points) * (_SENSITIVE if sensitive and best and not points else 1.0)
         for (kind, best), number in solves.items()
     )
     cells = min(_MOST_CELLS, _CELLS * np.sqrt(1e-3 / accuracy)) ** 2
     record = _RECORD + _SENSITIVITY * sensitive
+    working = _PER_CELL * (_LINE_CELLS if {kind for kind, _ in solves} == {"line"} else cells)
     return Expectation(
         cases=len(cases),
         solves=round(sum(solves.values())),
         seconds=float(seconds),
-        memory=_PROCESS + record * len(cases) + _FIELD * _FIELD_CELLS**2 * len(kept),
-        memory_per_process=float(
-            _PROCESS + _PER_CELL * (_LINE_CELLS if {kind for kind, _ in solves} == {"line"} else cells)
-        ),
+        memory=_PROCESS + record * len(cases) + _FIELD * (points or _FIELD_CELLS**2) * len(kept),
+        memory_per_process=float(_PROCESS + (_BYTES_PER_POINT * points if points else working)),
     )
 
 
+def _points(cases: Sequence[AnyCase]) -> int:
+    """Return the points of the rough surface; none of an indenter."""
+    first = cases[0] if cases else None
+    return math.prod(first.surface.shape) if isinstance(first, SurfaceCase) else 0
+
+
 def _curves(
-    cases: Sequence[Case],
+    cases: Sequence[AnyCase],
     rubbers: Rubbers,
     kept: Collection[int],
     accuracy: float,
@@ -122,14 +135,15 @@ def _curves(
 ) -> list[tuple[tuple[str, bool], Curve]]:
     """Return the curves of all families, with their kinds; cases that are solved by themselves are counted."""
     placing = Placing(rubbers)
-    places: dict[Family, list[float]] = defaultdict(list)
-    kinds: dict[Family, tuple[str, bool]] = {}
+    places: dict[Family | SurfaceFamily, list[float]] = defaultdict(list)
+    kinds: dict[Family | SurfaceFamily, tuple[str, bool]] = {}
     for number, case in enumerate(cases):
         if number in kept:
             solves[_kind(case)] += 1
             continue
+        place: Place | SurfacePlace
         try:
-            place = placing.place(case)
+            place = surface_place(case, rubbers) if isinstance(case, SurfaceCase) else placing.place(case)
         except InputError:
             continue  # it fails at once
         places[place.family].append(place.s)
@@ -137,9 +151,11 @@ def _curves(
     return [(kinds[family], Curve(np.array(values), accuracy)) for family, values in places.items()]
 
 
-def _kind(case: Case) -> tuple[str, bool]:
+def _kind(case: AnyCase) -> tuple[str, bool]:
     """Tell what contact it is, and whether with the best estimate of the rubber."""
     best = case.sample is None
+    if isinstance(case, SurfaceCase):
+        return "surface", best
     if case.layer is not None:
         return "layer", best
     match case.indenter:
@@ -150,6 +166,8 @@ def _kind(case: Case) -> tuple[str, bool]:
     return "other", best
 
 
-def _seconds(kind: str, accuracy: float) -> float:
+def _seconds(kind: str, accuracy: float, points: int) -> float:
+    if points:
+        return _SURFACE_SECONDS + _SURFACE_SECONDS_PER_POINT * points
     least, more, power = _SECONDS[kind]
     return float(least + more * (1e-3 / accuracy) ** power)

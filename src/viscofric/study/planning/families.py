@@ -11,22 +11,33 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from viscofric.contact.counterface import indenter_compliance
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Ball, Cylinder
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid
 from viscofric.errors import InputError
-from viscofric.study.planning.curve import STEP
+from viscofric.study.planning.between import records_between
+from viscofric.study.planning.curve import STEP, Curve
+from viscofric.study.planning.numbers import Node
 from viscofric.study.solving import Task
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
     from viscofric.rheology.material import Material
     from viscofric.study.planning.conditions import Rubbers, Settings
+    from viscofric.study.planning.curve import Interval
+    from viscofric.study.record import CaseRecord, Failure
     from viscofric.study.sweep import Case
+
+    Array: TypeAlias = NDArray[np.float64]
 
 # Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
 _LOW_SLOPE = 0.01
@@ -94,7 +105,6 @@ class Placing:
 
     def __init__(self, rubbers: Rubbers) -> None:
         self._rubbers = rubbers
-        self._shifts: dict[tuple[int, int | None, float], tuple[float, float]] = {}
         self._scales: dict[tuple[Indenter, float, float], Scale] = {}
 
     def place(self, case: Case) -> Place:
@@ -108,7 +118,7 @@ class Placing:
         if not 0.0 < case.speed < math.inf:
             raise InputError(f"speed = {case.speed:g} m/s: must be above zero and finite to lie on a friction curve.")
         material = self._rubbers.of(case)
-        alpha, b = self._shift(case, material)
+        alpha, b = self._rubbers.shifts(case)
         modulus = None if case.indenter_modulus is None else case.indenter_modulus / b
         alike = None if case.layer is not None else representative(case.indenter)
         family = Family(
@@ -128,14 +138,6 @@ class Placing:
         if key not in self._scales:
             self._scales[key] = Scale.for_load(*key)
         return self._scales[key]
-
-    def _shift(self, case: Case, material: Material) -> tuple[float, float]:
-        key = case.material, case.sample, case.temperature
-        if key not in self._shifts:
-            alpha = 1.0 if material.shift is None else float(material.shift(case.temperature))
-            b = 1.0 if material.vertical_shift is None else float(material.vertical_shift(case.temperature))
-            self._shifts[key] = alpha, b
-        return self._shifts[key]
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,6 +186,20 @@ class Representative:
             indenter_poisson_ratio=self.family.indenter_poisson_ratio,
             sensitive=self.settings.sensitive and self.family.rubber[1] is None,
         )
+
+    def curve(self, places: Array) -> Curve:
+        """Return the curve on which cases lie, given s of each."""
+        return Curve(places, self.settings.accuracy)
+
+    def node(self, record: CaseRecord) -> Node:
+        """Return what was solved as a node of the curve."""
+        return Node.of(record, self.scale)
+
+    def between(
+        self, curve: Curve, one: Interval, cases: Sequence[Case], places: Sequence[Place]
+    ) -> Iterator[tuple[int, CaseRecord | Failure]]:
+        """Yield the records of the cases of a closed interval; see `records_between`."""
+        yield from records_between(curve, one, cases, places, self)
 
     def task(self, node: int) -> Task:
         """Return what is to be solved at a node of the curve."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -39,12 +39,12 @@ class Node:
 
     Attributes
     ----------
-    record : CaseRecord
+    record : CaseRecord or SurfaceRecord
     values, errors : (columns,) array
         In the units of its contact.
     """
 
-    record: CaseRecord
+    record: Any  # the same kind in all nodes of a curve
     values: Array
     errors: Array
 

@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.study.planning.between import records_between
 from viscofric.study.planning.conditions import Rubbers, Settings, label_of, task_of
-from viscofric.study.planning.curve import Curve
 from viscofric.study.planning.families import Placing, Representative
-from viscofric.study.planning.numbers import Node
-from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.planning.surfaces import SurfaceFamily, SurfaceRepresentative, surface_place
+from viscofric.study.record import Failure, Record
+from viscofric.study.sweep import SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping, Sequence
 
     from viscofric.rheology.material import Material
+    from viscofric.study.planning.conditions import AnyTask
+    from viscofric.study.planning.curve import Curve
     from viscofric.study.planning.families import Family, Place
-    from viscofric.study.solving import Task
-    from viscofric.study.sweep import Case
+    from viscofric.study.planning.numbers import Node
+    from viscofric.study.planning.surfaces import SurfacePlace
+    from viscofric.study.sweep import AnyCase
 
-Outcome: TypeAlias = CaseRecord | Failure
+    AnyFamily: TypeAlias = Family | SurfaceFamily
+    AnyPlace: TypeAlias = Place | SurfacePlace
+
+Outcome: TypeAlias = Record | Failure
 
 
 class Plan:
@@ -39,11 +44,11 @@ class Plan:
         Those of them whose outcome is known, or that lie where no more need be solved for them.
     """
 
-    def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
+    def __init__(self, cases: Sequence[AnyCase], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
         self.total, self.done = len(cases), 0
         self._cases, self._rubbers, self._settings = cases, rubbers, settings
         self._outcomes: list[Outcome | None] = [None] * len(cases)
-        self._waiting: dict[str, Task] = {}
+        self._waiting: dict[str, AnyTask] = {}
         self._told: dict[str, list[Callable[[Outcome], None]]] = {}
         self._known: dict[str, Outcome] = {}
         alone = set(apart)
@@ -52,7 +57,7 @@ class Plan:
         for number in sorted(alone):
             self.solve_alone(number)
 
-    def wanted(self) -> list[Task]:
+    def wanted(self) -> list[AnyTask]:
         """Return what is to be solved next, all of it independent of each other; empty when every case is known."""
         return list(self._waiting.values())
 
@@ -63,7 +68,7 @@ class Plan:
         ----------
         key : str
             Of the task.
-        outcome : CaseRecord or Failure
+        outcome : CaseRecord, SurfaceRecord or Failure
 
         Raises
         ------
@@ -111,7 +116,7 @@ class Plan:
         else:
             self.ask(task, partial(self.settle, number))
 
-    def ask(self, task: Task, tell: Callable[[Outcome], None]) -> None:
+    def ask(self, task: AnyTask, tell: Callable[[Outcome], None]) -> None:
         """Have a task solved, or its outcome told at once where it is known."""
         if task.key in self._known:
             tell(self._known[task.key])
@@ -119,22 +124,26 @@ class Plan:
         self._waiting.setdefault(task.key, task)
         self._told.setdefault(task.key, []).append(tell)
 
-    def representative(self, family: Family) -> Representative:
+    def representative(self, family: AnyFamily) -> Any:
         """Return what is solved for a family."""
-        return Representative(family, self._rubbers.named(*family.rubber), self._settings)
+        material = self._rubbers.named(*family.rubber)
+        if isinstance(family, SurfaceFamily):
+            return SurfaceRepresentative(family, material, self._settings)
+        return Representative(family, material, self._settings)
 
-    def case(self, number: int) -> Case:
+    def case(self, number: int) -> AnyCase:
         """Return a case by its number."""
         return self._cases[number]
 
-    def _families(self, alone: Collection[int]) -> dict[Family, list[tuple[int, Place]]]:
+    def _families(self, alone: Collection[int]) -> dict[AnyFamily, list[tuple[int, AnyPlace]]]:
         """Sort all cases but some into families."""
         placing = Placing(self._rubbers)
-        families: dict[Family, list[tuple[int, Place]]] = {}
+        families: dict[AnyFamily, list[tuple[int, AnyPlace]]] = {}
         for number, case in enumerate(self._cases):
             if number not in alone:
+                place: AnyPlace
                 try:
-                    place = placing.place(case)
+                    place = surface_place(case, self._rubbers) if isinstance(case, SurfaceCase) else placing.place(case)
                 except InputError as error:
                     self.settle(number, Failure(str(error), label_of(case)))
                 else:
@@ -145,12 +154,12 @@ class Plan:
 class _FamilyPlan:
     """The part of a plan that concerns one family: its curve, and the wave that is under way."""
 
-    def __init__(self, plan: Plan, family: Family, members: list[tuple[int, Place]]) -> None:
+    def __init__(self, plan: Plan, family: AnyFamily, members: list[tuple[int, AnyPlace]]) -> None:
         self._plan = plan
         self._numbers = [number for number, _ in members]
         self._places = [place for _, place in members]
         self._solved = plan.representative(family)
-        self._curve = Curve(np.array([place.s for place in self._places]), self._solved.settings.accuracy)
+        self._curve: Curve = self._solved.curve(np.array([place.s for place in self._places]))
         self._wave: dict[int, Node | None] = {}
         self._counted = 0
 
@@ -164,7 +173,7 @@ class _FamilyPlan:
             self._settle()
 
     def _hear(self, place: int, outcome: Outcome) -> None:
-        self._wave[place] = Node.of(outcome, self._solved.scale) if isinstance(outcome, CaseRecord) else None
+        self._wave[place] = None if isinstance(outcome, Failure) else self._solved.node(outcome)
         if len(self._wave) == len(self._curve.wanted):
             self._curve.advance(self._wave)
             self._count(sum(len(one.cases) for one in self._curve.closed))
@@ -178,14 +187,14 @@ class _FamilyPlan:
         self._count(0)  # each is counted when it is settled
         cases = [self._plan.case(number) for number in self._numbers]
         for one in self._curve.closed:
-            for row, outcome in records_between(self._curve, one, cases, self._places, self._solved):
+            for row, outcome in self._solved.between(self._curve, one, cases, self._places):
                 self._plan.settle(self._numbers[row], outcome)
         for row in sorted(self._curve.alone):
             self._plan.solve_alone(self._numbers[row])
 
 
 def plan_cases(
-    cases: Sequence[Case],
+    cases: Sequence[AnyCase],
     materials: Sequence[Material],
     *,
     members: Mapping[int, Sequence[Material]] | None = None,
@@ -198,7 +207,7 @@ def plan_cases(
 
     Parameters
     ----------
-    cases : sequence of Case
+    cases : sequence of Case or SurfaceCase
     materials : sequence of Material
         That the cases name by number; with a shift where cases differ in temperature.
     members : mapping of int to sequence of Material, optional

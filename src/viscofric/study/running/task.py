@@ -7,15 +7,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
-from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.record import Failure, Record
 from viscofric.study.solving import solver_fingerprint
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
     from typing import Self
 
-Outcome: TypeAlias = CaseRecord | Failure
-Solve: TypeAlias = Callable[[Any], CaseRecord]
+Outcome: TypeAlias = Record | Failure
+Solve: TypeAlias = Callable[[Any], Record]
 
 
 class Task(Protocol):

@@ -1,0 +1,208 @@
+"""Rough surfaces of a study as they are described: small enough to go to every process, which makes the heights."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import math
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from viscofric.errors import DataFileError
+from viscofric.roughness.made import self_affine
+from viscofric.roughness.reading import read_topography
+from viscofric.study.surface_steps import step_of
+from viscofric.units import to_si
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.roughness.topography import Topography
+
+# Surfaces that a process keeps: one of 2048² points takes 34 MB.
+_KEPT = 2
+
+
+@dataclass(frozen=True)
+class MadeSurface:
+    """A self-affine surface; see `viscofric.self_affine`, SI.
+
+    Parameters
+    ----------
+    hurst : float
+    points : (int, int)
+        Along x and y; one along y for a profile.
+    spacing : (float, float)
+        m.
+    seed : int
+    shortest, longest, rolloff : float
+        Wavelengths, m; the last two as far as they are given.
+    rms_height : float, optional
+        m; either it or the slope.
+    rms_slope : float, optional
+    aspect, angle : float
+        Of the lay; rad.
+    exact : bool
+    """
+
+    hurst: float
+    points: tuple[int, int]
+    spacing: tuple[float, float]
+    seed: int
+    shortest: float
+    longest: float | None = None
+    rolloff: float | None = None
+    rms_height: float | None = None
+    rms_slope: float | None = None
+    aspect: float = 1.0
+    angle: float = 0.0
+    exact: bool = True
+
+    def topography(self) -> Topography:
+        """Return the heights.
+
+        Raises
+        ------
+        InputError
+            As of `self_affine`.
+        """
+        values = asdict(self)
+        hurst, points = values.pop("hurst"), values.pop("points")
+        return self_affine(hurst, shape=points, **values)
+
+    def described(self) -> list[object]:
+        """Return everything that decides the heights, in plain types."""
+        return ["made", asdict(self)]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Points along x and y."""
+        return self.points
+
+    @property
+    def wavelengths(self) -> tuple[float, float]:
+        """The shortest and the longest, m."""
+        period = max(n * d for n, d in zip(self.points, self.spacing, strict=True) if n > 1)
+        return self.shortest, period if self.longest is None else min(self.longest, period)
+
+
+@dataclass(frozen=True)
+class ScannedSurface:
+    """A measured surface; see `viscofric.read_topography`.
+
+    Parameters
+    ----------
+    path : Path
+    digest : str
+        SHA-256 of the file.
+    steps : tuple of str
+        Of preparation; see `step_of`.
+    unit, spacing, channel, missing, lines
+        Of the file, as far as it does not say them.
+    """
+
+    path: Path
+    digest: str
+    steps: tuple[str, ...] = ()
+    unit: str = ""
+    spacing: tuple[float, float] | None = None
+    channel: str | int | None = None
+    missing: float | None = None
+    lines: Literal["x", "y"] = "x"
+
+    def topography(self) -> Topography:
+        """Return the heights, prepared.
+
+        Raises
+        ------
+        DataFileError
+            If the file cannot be read, or is another one by now.
+        InputError
+            If a step of preparation cannot be done.
+        """
+        if file_digest(self.path) != self.digest:
+            raise DataFileError(self.path, "was changed while the study ran; run it again with --resume.")
+        found = read_topography(
+            self.path,
+            unit=self.unit,
+            spacing=self.spacing,
+            channel=self.channel,
+            missing=self.missing,
+            lines=self.lines,
+        )
+        for words in self.steps:
+            found = step_of(words)(found)
+        return found
+
+    def described(self) -> list[object]:
+        """Return everything that decides the heights, in plain types: the file's content, not its name."""
+        values = asdict(self)
+        del values["path"]
+        return ["scanned", values]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Points along x and y."""
+        return surface_of(self).shape
+
+    @property
+    def wavelengths(self) -> tuple[float, float]:
+        """The shortest and the longest that it can hold, m."""
+        surface = surface_of(self)
+        along = [
+            (step, period)
+            for step, period, n in zip(surface.spacing, surface.period, surface.shape, strict=True)
+            if n > 1
+        ]
+        least = 2.0 * min(step for step, _ in along)
+        return max([least, *self._cut_offs()]), max(period for _, period in along)
+
+    def _cut_offs(self) -> list[float]:
+        return [to_si(one.split(maxsplit=1)[1], "m", "shortest") for one in self.steps if one.startswith("shortest")]
+
+
+SurfaceSource: TypeAlias = MadeSurface | ScannedSurface
+
+
+@functools.lru_cache(maxsize=_KEPT)
+def surface_of(source: SurfaceSource) -> PeriodicSurface:
+    """Return the surface that a contact is solved with; made once for many contacts on it.
+
+    Raises
+    ------
+    InputError, DataFileError
+        If it cannot be made, or does not repeat itself.
+    """
+    return source.topography().to_surface()
+
+
+def file_digest(path: Path) -> str:
+    """Return the SHA-256 of a file.
+
+    Raises
+    ------
+    DataFileError
+        If it cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except FileNotFoundError:
+        raise DataFileError(path, "no such file.") from None
+    except (OSError, ValueError) as error:
+        raise DataFileError(path, f"cannot be read ({getattr(error, 'strerror', None) or error}).") from None
+
+
+def unit_vector(angle: float) -> tuple[float, float]:
+    """Return the direction of a motion, exact along the axes.
+
+    Parameters
+    ----------
+    angle : float
+        From x towards y, rad.
+    """
+    quarters = angle / (0.5 * math.pi)
+    if quarters == round(quarters):
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]
+    return math.cos(angle), math.sin(angle)

@@ -1,0 +1,239 @@
+"""[surface] of a run file: a rough surface that slides over the rubber, made or measured."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Field
+
+from viscofric.errors import InputError
+from viscofric.study.axis_values import Seeds  # noqa: TC001 - pydantic looks at it
+from viscofric.study.quantities import (
+    Count,
+    Direction,
+    FileName,
+    Length,
+    Modulus,
+    Number,
+    Words,
+    listed,
+    one_or_more,
+)
+from viscofric.study.surface_steps import step_of
+from viscofric.study.table import Table
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from viscofric.study.surface_source import SurfaceSource
+    from viscofric.study.table import Problem
+
+_MOST_POINTS, _MOST_STEPS = 16_384, 50
+_FEWEST_POINTS = 4
+_ROUNDING = 1e-9
+
+_Points = Annotated[int, Field(strict=True, ge=1, le=_MOST_POINTS)]
+Points = Annotated[
+    tuple[_Points, ...],
+    BeforeValidator(listed),
+    Field(min_length=1, max_length=2),
+    one_or_more({"type": "integer", "minimum": 1, "maximum": _MOST_POINTS}, 2),
+]
+
+
+def _known(words: str) -> str:
+    try:
+        step_of(words)
+    except InputError as error:
+        raise ValueError(str(error)) from None
+    return " ".join(words.split())
+
+
+Step = Annotated[Words, AfterValidator(_known)]
+
+
+def _unit_of_length(value: str) -> str:
+    conversion(value, "m", "unit")
+    return value
+
+
+class SurfaceTable(Table):
+    """[surface]: a rough surface that repeats itself, self-affine by its numbers, or read from a file."""
+
+    shape: ClassVar[str] = "rough surface"
+    #: Whether its load is per length.
+    LINE: ClassVar[bool] = False
+
+    hurst: Number | None = Field(None, gt=0.0, le=1.0, description="Hurst exponent of a surface that is made.")
+    rms_height: Length | None = Field(None, description="Root mean square of its heights; or rms_slope.")
+    rms_slope: Number | None = Field(None, gt=0.0, description="Root mean square of its slopes; or rms_height.")
+    longest: Length | None = Field(None, description="Longest wavelength; the period without.")
+    rolloff: Length | None = Field(
+        None, description="Wavelength above which its spectrum is flat; the longest without."
+    )
+    shortest: Length | None = Field(None, description="Shortest wavelength; eight points of the grid or more.")
+    points: Points = Field(
+        default_factory=tuple, description="Points along both axes, or [along, across]; [512, 1] is a profile."
+    )
+    spacing: Length | None = Field(
+        None, description="Distance of neighbouring points; of a file only where it does not say it."
+    )
+    period: Length | None = Field(None, description="Length after which it repeats itself along x, instead of spacing.")
+    seed: Seeds = Field(
+        default_factory=tuple, description="Random numbers that it is made of; each seed makes a surface of its own."
+    )
+    aspect: Number = Field(1.0, gt=0.0, description="How many times longer it is correlated along its lay than across.")
+    angle: Direction = Field(0.0, description="Direction of the lay, from x towards y.")
+    exact: bool = Field(True, description="Whether each surface has just the rms value, or all of them in the mean.")
+
+    file: FileName | None = Field(None, description="A measured surface, instead: its file.")
+    unit: Annotated[Words, AfterValidator(_unit_of_length)] | None = Field(
+        None, description="Unit of the file's heights, where it does not say it."
+    )
+    channel: Words | Count | None = Field(None, description="Which map of several in the file: its name or number.")
+    missing: Number | None = Field(None, description="Number that stands for a missing height, such as -9999.0.")
+    lines: Literal["x", "y"] = Field("x", description="Axis along which the lines of a text matrix follow one another.")
+    prepare: Annotated[tuple[Step, ...], BeforeValidator(listed)] = Field(
+        (),
+        max_length=_MOST_STEPS,
+        description="Steps in their order: 'fill', 'remove tilt', 'window', 'shortest 40 um' …",
+    )
+
+    modulus: Modulus | None = Field(None, description="Young's modulus of an elastic surface; rigid without it.")
+    poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic surface.")
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        if "poisson_ratio" in self.model_fields_set and self.modulus is None:
+            yield "poisson_ratio", "is for an elastic surface, whose modulus is not given; a rigid one has none"
+        given = self.model_fields_set
+        if self.file is None and self.hurst is None:
+            yield "", 'nothing says what it is; give file = "scan.csv", or the hurst exponent of one to be made'
+            return
+        wrong, kind = (MADE, "made, but there is a file") if self.file else (READ, "read from a file")
+        found = [name for name in wrong if name in given]
+        for name in found:
+            yield name, f"is for a surface that is {kind}; leave it out"
+        if self.file is None and not found:
+            missing = list(self._missing())
+            yield from missing
+            if not missing:
+                yield from self._cannot_be_made()
+
+    def _missing(self) -> Iterator[Problem]:
+        """Yield what a surface lacks to be made."""
+        for name, example in (("shortest", '"40 um"'), ("points", "256"), ("seed", "1")):
+            if name not in self.model_fields_set:
+                yield name, f"is missing; a surface is made with {name} = {example}, for instance"
+        for one, other in (("rms_height", "rms_slope"), ("spacing", "period")):
+            both = [getattr(self, one), getattr(self, other)]
+            if both.count(None) != 1:
+                yield one, f"give {one} or {other}, {'one of them' if None in both else 'not both'}"
+
+    def _cannot_be_made(self) -> Iterator[Problem]:
+        """Yield why its numbers make no surface."""
+        nx, ny = self.shape_of_grid
+        period = max(nx, ny) * self.step
+        longest, shortest = self.longest or period, self.shortest or 0.0
+        rolloff = self._rolloff or longest
+        least = 2.0 * self.step * max(self.aspect, 1.0 / self.aspect) ** 0.5
+        if nx < _FEWEST_POINTS:
+            yield "points", f"{nx} along x are too few; {_FEWEST_POINTS} are the least"
+        elif not shortest < rolloff <= longest:
+            words = f"{shortest:g} m, rolloff {rolloff:g} m and longest {longest:g} m must grow in this order"
+            yield "shortest", words if self.longest else f"{words}; the period is the longest where none is given"
+        elif shortest <= least:
+            yield "shortest", f"{shortest:g} m is no more than two points of the grid, {least:.4g} m; eight are good"
+        elif period < shortest:
+            yield "shortest", f"{shortest:g} m is longer than the period, {period:g} m"
+        if ny == 1 and self.aspect != 1.0:
+            yield "aspect", "is of a lay, which a profile does not have"
+
+    @property
+    def axes(self) -> dict[str, tuple[Any, ...]]:
+        """What makes several surfaces, with all its values."""
+        return {} if self.file is not None else {"seed": self.seed}
+
+    @property
+    def shape_of_grid(self) -> tuple[int, int]:
+        """Points along x and y of a made surface."""
+        return self.points[0], self.points[-1]
+
+    @property
+    def _rolloff(self) -> float | None:
+        """The roll-off, m: no longer than the longest wavelength by rounding."""
+        longest = self.longest or max(self.points) * self.step
+        near = self.rolloff is not None and 0.0 < self.rolloff - longest < _ROUNDING * longest
+        return longest if near else self.rolloff
+
+    @property
+    def step(self) -> float:
+        """Distance of neighbouring points of a made surface, m."""
+        return self.spacing if self.spacing is not None else (self.period or math.nan) / self.points[0]
+
+    def source(self, *seed: int) -> SurfaceSource:
+        """Return the surface of one value for each axis.
+
+        Raises
+        ------
+        DataFileError
+            If its file cannot be read.
+        """
+        from viscofric.study.surface_source import MadeSurface, ScannedSurface, file_digest
+
+        if self.file is not None:
+            steps = None if self.spacing is None else (self.spacing, self.spacing)
+            return ScannedSurface(
+                self.file,
+                file_digest(self.file),
+                self.prepare,
+                self.unit or "",
+                steps,
+                self.channel,
+                self.missing,
+                self.lines,
+            )
+        return MadeSurface(
+            hurst=self.hurst or math.nan,
+            points=self.shape_of_grid,
+            spacing=(self.step, self.step),
+            seed=seed[0],
+            shortest=self.shortest or math.nan,
+            longest=self.longest,
+            rolloff=self._rolloff,
+            rms_height=self.rms_height,
+            rms_slope=self.rms_slope,
+            aspect=self.aspect,
+            angle=self.angle,
+            exact=self.exact,
+        )
+
+    def beside(self, folder: Path) -> SurfaceTable:
+        """Return the table with its path relative to a folder."""
+        return self if self.file is None else self.model_copy(update={"file": folder / self.file})
+
+    @property
+    def inputs(self) -> tuple[Path, ...]:
+        """All files that the surface comes from."""
+        return () if self.file is None else (self.file,)
+
+
+#: Keys of a surface that is made, and of one that is read.
+MADE = (
+    "hurst",
+    "rms_height",
+    "rms_slope",
+    "longest",
+    "rolloff",
+    "shortest",
+    "points",
+    "period",
+    "seed",
+    "aspect",
+    "angle",
+    "exact",
+)
+READ = ("unit", "channel", "missing", "lines", "prepare")
