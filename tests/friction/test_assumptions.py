@@ -11,13 +11,8 @@ import viscofric as vf
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
 from viscofric.friction import warming
-from viscofric.friction.flash_temperature import (
-    FILLED_RUBBER,
-    STEEL,
-    bulk_temperature,
-    flash_temperature,
-    shared_flash_temperature,
-)
+from viscofric.friction.flash_temperature import bulk_temperature, flash_temperature, shared_flash_temperature
+from viscofric.thermal import FILLED_RUBBER, STEEL
 
 RUBBER = vf.synthetic_fluoroelastomer()
 BALL = vf.Ball(radius="9.525 mm")
