@@ -80,7 +80,7 @@ class TerminalProgress(Silent):
         stage = event.stage or event.event
         words = _WORDS.get(stage, stage)
         if event.event == "waiting":
-            self._console.print(f"Waiting: {event.reason}", highlight=False, markup=False)
+            self._console.print(f"Waiting: {event.reason}", highlight=False, markup=False, soft_wrap=True)
         if self._console.is_terminal:
             self._draw(event, stage, words)
         else:

@@ -132,9 +132,12 @@ class Contacts:
         return case.speed * float(self.rubbers[case.material].shift(case.temperature))
 
     def _along(self) -> tuple[Case, ...]:
-        """Return the master curve's contacts, all of them at the reference temperature."""
-        one = self.sweep.cases[0]
-        if not isinstance(one, Case) or len({case.alike for case in self.sweep.cases if case.sample is None}) > 1:
+        """Return the master curve's contacts, all of them at the reference temperature.
+
+        What is measured is of one rubber and one ball, and laid beside the curve of the first load.
+        """
+        one, alike = self.sweep.cases[0], {case.alike for case in self.sweep.cases if case.sample is None}
+        if not isinstance(one, Case) or (len(alike) > 1 and self.measured is None):
             return ()
         reduced = np.array([self._reduced(case) for case in self.sweep.cases])
         if self.measured is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import logging
 import queue
 import shutil
 import time
@@ -107,6 +108,7 @@ class Dask(Executor):
             except (OSError, ValueError) as error:
                 raise InputError(f"scheduler {self._where!r} cannot be reached: {error}") from error
             self._client = opened.enter_context(client)
+            opened.enter_context(_without_tracebacks())
             self._open = opened.pop_all()
         return self
 
@@ -190,6 +192,20 @@ class Dask(Executor):
                 "viscofric must be installed on all machines, in the same version."
             ) from error
         return outcome
+
+
+@contextlib.contextmanager
+def _without_tracebacks() -> Iterator[None]:
+    """Keep Dask from printing its inside where the scheduler ends, which is told in a sentence."""
+    loggers = [logging.getLogger(name) for name in ("distributed.client", "distributed.utils")]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
 
 
 def _clock(seconds: int) -> str:
