@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from viscofric.report.between_temperatures import filled_in
 from viscofric.report.map_figures import map_figure, maximum_ridge, plot_friction_map
 from viscofric.report.sweep_figures import plot_sweep, sweep_figure
 from viscofric.report.sweeps import layout_of
@@ -128,3 +129,34 @@ def test_maps_of_several_loads_share_their_colours(make_sweep: Make) -> None:
     first, second = (next(area for area in axes.collections if hasattr(area, "levels")) for axes in figure.axes[:2])
     np.testing.assert_allclose(first.levels, second.levels)
     assert len(figure.axes) == 3  # with one colour bar
+
+
+def test_maps_follow_the_shift_between_temperatures() -> None:
+    # A ridge that moves two decades from one temperature to the next, of a friction that has one height everywhere.
+    kelvins, known = np.array([293.15, 333.15, 373.15]), np.linspace(253.15, 393.15, 30)
+    log = 2000.0 * (1.0 / known - 1.0 / 293.15)
+    speed = np.geomspace(1e-3, 1e3, 61)
+
+    def friction(kelvin: float) -> Any:
+        return 0.1 / (1.0 + (np.log10(speed) + 2000.0 * (1.0 / kelvin - 1.0 / 293.15)) ** 2)
+
+    given = np.array([friction(kelvin) for kelvin in kelvins.tolist()])
+    at, whole = filled_in(speed, kelvins, given, (known, log))
+    for kelvin, row in zip(kelvins, given, strict=True):
+        np.testing.assert_allclose(whole[np.flatnonzero(at == kelvin)[0]], row)
+    middle = int(np.argmin(np.abs(at - 313.15)))
+    # Straight lines between points a tenth of a decade apart miss the peak by its curvature, 0.1 · 2 · 0.05²/2 at most.
+    np.testing.assert_allclose(whole[middle], friction(float(at[middle])), atol=3e-4)
+    straight = 0.5 * (given[0] + given[1])
+    assert np.abs(straight - friction(313.15)).max() > 5e-3  # what the islands along a ridge were made of
+    assert filled_in(speed, kelvins, given, None)[1] is given
+
+
+def test_a_case_that_failed_stays_white_in_a_map() -> None:
+    speed, kelvins = np.geomspace(1e-3, 1e3, 13), np.array([293.15, 333.15, 373.15])
+    friction = np.full((3, 13), 0.1)
+    friction[1, :3] = np.nan
+    at, whole = filled_in(speed, kelvins, friction, (kelvins, np.array([0.0, -1.0, -1.8])))
+    near = np.abs(at - 333.15) < 15.0
+    assert np.isnan(whole[np.ix_(near, range(3))]).all()
+    assert np.isfinite(whole[:, 3:]).all()

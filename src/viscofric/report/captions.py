@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.report.between_temperatures import known_shifts
 from viscofric.report.contacts import shown_contacts
 from viscofric.report.doubts import interpolated, is_extrapolated
 from viscofric.report.house_style import degrees
@@ -95,7 +96,8 @@ def _of_map(tree: xr.DataTree) -> str:
     said = "Predicted viscoelastic friction over speed and temperature"
     said += f", one panel for each {' and each '.join(axis.title for axis in others)}" if others else ""
     said += ". Diamonds: the speed of the highest friction at each temperature, where it lies inside the range. "
-    said += "Between the speeds and temperatures that were asked for, the colours are interpolated."
+    said += "Between the speeds and temperatures that were asked for, the colours are interpolated"
+    said += ", from one temperature to the next along α(T)·v." if any(known_shifts(tree)) else "."
     if friction is not None and friction.sizes.get("temperature", 0) <= MARKED_TEMPERATURES:
         said += " Dotted: those temperatures."
     if group(tree, "measurement") is not None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.report.between_temperatures import known_shifts
 from viscofric.report.contacts import shown_contacts, trails
 from viscofric.report.convergence_figures import convergence_figure
 from viscofric.report.field_figures import contacts_figure, trail_figure
@@ -83,7 +84,7 @@ def friction_map(tree: xr.DataTree) -> Figure | None:
     """Friction over speed and temperature."""
     friction, measurement = labelled(tree), group(tree, "measurement")
     points = None if measurement is None else (values(measurement, "speed"), values(measurement, "temperature"))
-    return None if friction is None else map_figure(friction, points)
+    return None if friction is None else map_figure(friction, points, known_shifts(tree))
 
 
 def friction_master_curve(tree: xr.DataTree) -> Figure | None:

@@ -168,10 +168,10 @@ def _scientific(number: float) -> str:
     return rf"$10^{{{power}}}$" if digits == "1" else rf"${digits}\times10^{{{power}}}$"
 
 
-def speed_ticks(axis: Axis) -> None:
-    """Tick a short log axis in plain numbers (20, 50, 100, 200), a long one in powers of ten."""
+def speed_ticks(axis: Axis, narrow: bool = False) -> None:
+    """Tick a short log axis in plain numbers (20, 50, 100, 200), a long one, or a narrow panel's, in powers of ten."""
     low, high = sorted(axis.get_view_interval())
-    if math.log10(high / low) > 3.2:
+    if math.log10(high / low) > (1.6 if narrow else 3.2):
         decade_ticks(axis)
         return
     _short_log_ticks(axis, low, high, plain=True)
@@ -220,6 +220,10 @@ def mark_synthetic(panels: Sequence[Axes]) -> None:
             for text in (legend.get_title(), *legend.get_texts()):
                 text.set_text(text.get_text().replace("measured", "synthetic"))
     last = panels[-1]
+    figure = last.get_figure(root=True)
+    if last.get_title() and figure is not None and figure.get_supxlabel():  # small multiples: their titles are above
+        figure.text(0.995, 0.005, "synthetic data", fontsize=9, color=VERMILION, ha="right", va="bottom")
+        return
     legend = last.get_legend()
     # Beside the axes where the legend stands above them, for neither may hide the other.
     place: dict[str, Any] = {"x": 1.01, "y": 1.0, "rotation": 270, "ha": "left", "va": "top"}

@@ -10,12 +10,15 @@ import matplotlib.patheffects
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
+from viscofric.report.between_temperatures import filled_in
 from viscofric.report.house_style import INK, VERMILION, WHITE, slender_bar, speed_ticks
 from viscofric.report.panels import panel_points, panel_title, small_multiples
 from viscofric.report.sweep_figures import FRICTION
 from viscofric.report.sweeps import best_estimate, sweep_axes
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.contour import QuadContourSet
@@ -34,7 +37,13 @@ MARKED_TEMPERATURES = 10
 
 
 def plot_friction_map(
-    axes: Axes, speed: Array, temperature: Array, friction: Array, *, levels: Array | int = _LEVELS
+    axes: Axes,
+    speed: Array,
+    temperature: Array,
+    friction: Array,
+    *,
+    levels: Array | int = _LEVELS,
+    shift: tuple[Array, Array] | None = None,
 ) -> QuadContourSet:
     """Draw friction over the logarithm of the speed and the temperature, with the ridge of its maximum.
 
@@ -49,6 +58,8 @@ def plot_friction_map(
         NaN where a case was not solved.
     levels : (k,) array or int
         Of the filled contours, or how many of them.
+    shift : ((k,) array, (k,) array), optional
+        Temperatures (K) and log10 of the shift factor, along which friction is interpolated between temperatures.
 
     Returns
     -------
@@ -56,9 +67,10 @@ def plot_friction_map(
         For a colour bar.
     """
     x, y = 1e3 * np.asarray(speed), np.asarray(temperature) - 273.15
-    known = np.ma.masked_invalid(friction)
-    filled: QuadContourSet = axes.contourf(x, y, known, levels=levels, cmap=matplotlib.colormaps["viridis"])
-    axes.contour(x, y, known, levels=filled.levels, colors=WHITE, linewidths=0.4, alpha=0.6)
+    kelvin, whole = filled_in(np.asarray(speed), np.asarray(temperature), np.asarray(friction), shift)
+    known, rows = np.ma.masked_invalid(whole), kelvin - 273.15
+    filled: QuadContourSet = axes.contourf(x, rows, known, levels=levels, cmap=matplotlib.colormaps["viridis"])
+    axes.contour(x, rows, known, levels=filled.levels, colors=WHITE, linewidths=0.4, alpha=0.6)
     ridge = maximum_ridge(speed, temperature, friction)
     if ridge.size:
         around = [matplotlib.patheffects.withStroke(linewidth=3.0, foreground=WHITE)]
@@ -112,7 +124,11 @@ def maximum_ridge(speed: Array, temperature: Array, friction: Array) -> Array:
     return np.array(found).reshape(-1, 2)
 
 
-def map_figure(friction: xr.Dataset, measurement: tuple[Array, Array] | None = None) -> Figure | None:
+def map_figure(
+    friction: xr.Dataset,
+    measurement: tuple[Array, Array] | None = None,
+    shifts: Sequence[tuple[Array, Array] | None] = (),
+) -> Figure | None:
     """Return friction as a map over speed and temperature, one for each point of the other axes, on one scale.
 
     Parameters
@@ -121,6 +137,8 @@ def map_figure(friction: xr.Dataset, measurement: tuple[Array, Array] | None = N
         Labelled results.
     measurement : ((n,) array, (n,) array), optional
         Speeds (m/s) and temperatures (K) of measured points, to mark.
+    shifts : sequence of ((k,) array, (k,) array) or None
+        Temperatures (K) and log10 of the shift factor of each rubber, where they are known.
 
     Returns
     -------
@@ -141,8 +159,10 @@ def map_figure(friction: xr.Dataset, measurement: tuple[Array, Array] | None = N
     speed, temperature = mu["speed"].values, mu["temperature"].values
     for axes, place in zip(grid, chosen, strict=True):
         part = mu.isel(place).transpose("temperature", "speed").values
-        filled = plot_friction_map(axes, speed, temperature, part, levels=levels)
+        shift = shifts[place.get("material", 0)] if shifts else None
+        filled = plot_friction_map(axes, speed, temperature, part, levels=levels, shift=shift)
         axes.set_title(panel_title(panels, place), fontsize=9.5)
+        speed_ticks(axes.xaxis, narrow=len(chosen) > 1)
         _mark_points(axes, speed, temperature, part, measurement)
     slender_bar(figure, filled, grid, FRICTION)
     figure.supxlabel("speed $v$ (mm/s)", fontsize=10.5)

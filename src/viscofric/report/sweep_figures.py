@@ -119,16 +119,19 @@ def sweep_figure(friction: xr.Dataset, layout: Layout | None = None) -> Figure |
         plot_sweep(axes, friction.isel(place), layout, shown)
         axes.set_title(panel_title(layout.panels, place), fontsize=9.5)
     for axes in panels:
-        _finish(axes, layout.along)
+        _finish(axes, layout.along, narrow=len(panels) > 1)
     _label_outside(figure, layout.along, panels)
     _legend_beside(panels[columns_of(len(panels)) - 1], friction, layout, shown)
     return figure
 
 
-def _finish(axes: Axes, along: SweepAxis) -> None:
+def _finish(axes: Axes, along: SweepAxis, narrow: bool) -> None:
     if along.is_logarithmic:
         axes.set_xscale("log")
-        (speed_ticks if along.name == "speed" else decade_ticks)(axes.xaxis)
+        if along.name == "speed":
+            speed_ticks(axes.xaxis, narrow)
+        else:
+            decade_ticks(axes.xaxis)
     elif not along.is_ordered:
         axes.set_xticks(along.position, along.labels, rotation=30, ha="right")
         axes.set_xlim(along.position[0] - 0.5, along.position[-1] + 0.5)
