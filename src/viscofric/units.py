@@ -291,3 +291,15 @@ def kelvin_hint(kelvin: float) -> str:
     if kelvin >= COLDEST_PLAUSIBLE:
         return ""
     return f"; plain numbers are kelvin: for {kelvin:.4g} °C write '{kelvin:.4g} degC'"
+
+
+def plain(number: float, digits: int = 4) -> str:
+    """Return a number as people write it: at most so many significant digits, no power of ten up to a million."""
+    if 10**digits <= abs(number) < 1e6:
+        return f"{float(f'{number:.{digits - 1}e}'):.0f}"
+    return f"{number:.{digits}g}"
+
+
+def told_speed(speed: float, digits: int = 4) -> str:
+    """Return a speed (m/s) with its unit: mm/s, or m/s from 1 m/s on."""
+    return f"{plain(speed, digits)} m/s" if speed >= 0.99995 else f"{plain(1e3 * speed, digits)} mm/s"

@@ -41,7 +41,7 @@ def test_check_says_how_much_is_asked_for(tmp_path: Path) -> None:
     call("new", tmp_path, "--template", "sweep")
     result = call("check", tmp_path / "study.toml")
     assert result.exit_code == 0, result.output
-    assert "cases      744 = 2 material × 3 load_radius × 4 temperature × 31 speed" in result.stdout
+    assert "cases      744 = 2 materials × 3 loads with radius × 4 temperatures × 31 speeds" in result.stdout
     assert "load 2.5 N to 40 N, radius 3 mm to 12 mm (3)" in result.stdout
     assert "tables (csv), tables (excel)" in result.stdout
     assert "SYNTHETIC" in result.stdout

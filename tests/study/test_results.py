@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from typing import TYPE_CHECKING
 
@@ -12,9 +13,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
-from study.sweeps import made_results, made_sweep
+from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
-from viscofric.study.results import save_results
+from viscofric.report.messages import grouped_failures
+from viscofric.study.contacts import Solved
+from viscofric.study.export import export_results
+from viscofric.study.places import place_in
+from viscofric.study.results import input_hashes, save_results
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -68,6 +73,36 @@ def test_a_netcdf_file_of_others_is_told(tmp_path: Path) -> None:
     xarray.Dataset({"a": 1.0}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
     with pytest.raises(DataFileError, match="not one of results of viscofric"):
         vf.open_results(tmp_path / "other.nc")
+
+
+def test_exported_cases_and_the_folder_above_are_not_taken_for_results(tmp_path: Path) -> None:
+    folder = tmp_path / "größe.results"
+    made = made_results(folder)
+    exported = export_results(made, "netcdf")
+    with pytest.raises(DataFileError, match="holds the cases alone"):
+        vf.open_results(exported)
+    with pytest.raises(DataFileError, match=f"there are results in {folder}"):
+        vf.open_results(tmp_path)
+
+
+def test_inputs_beside_the_run_file_are_named_from_there(tmp_path: Path) -> None:
+    (tmp_path / "data").mkdir()
+    file = tmp_path / "data" / "dma.csv"
+    file.write_text("1")
+    elsewhere = tmp_path.parent / "away"
+    assert list(json.loads(input_hashes([file], tmp_path))) == ["data/dma.csv"]
+    assert list(json.loads(input_hashes([file], elsewhere))) == [file.as_posix()]
+
+
+def test_a_place_tells_all_that_varies(tmp_path: Path) -> None:
+    sweep = made_sweep(materials=("NBR", "EPDM"), speeds=(0.02, 20.0))
+    assert place_in(sweep, 0) == "30 °C, 20 mm/s, NBR, 10 N, radius 5 mm"
+    assert place_in(sweep, len(sweep.cases) - 1) == "90 °C, 20000 mm/s, EPDM, 25 N, radius 10 mm"
+    solved = Solved(sweep.cases, tuple(made_outcomes(sweep, failed=[5])), sweep)
+    assert [str(one) for one in solved.failures] == [f"{place_in(sweep, 5)}: accuracy not reached."]
+    assert grouped_failures([str(one) for one in solved.failures], 5) == [
+        "90 °C, 20 m/s, NBR, 10 N, radius 5 mm: accuracy not reached."
+    ]
 
 
 def test_missing_results_are_told_and_what_helps(tmp_path: Path) -> None:

@@ -15,10 +15,12 @@ from viscofric.cli.errors import told
 if TYPE_CHECKING:
     from viscofric.study.checking import CheckedStudy
     from viscofric.study.rubber import Rubber
+    from viscofric.study.sweep import Axis
 
 _STDIN = Path("standard input")
 # Axes that are not told when they stand alone: the materials are listed, and one sample is the best estimate.
 _NOT_SHOWN = {"material", "sample"}
+_PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thickness": "thicknesses"}
 
 
 @click.command(name="check")
@@ -112,7 +114,7 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
         if name not in _NOT_SHOWN or (name == "sample" and len(columns[name]) > 1)
     ]
     lines += [("axis", _axis_line(columns, line)) for columns in shown]
-    points = [f"{len(axis)} {axis.name}" for axis in found.sweep.axes if len(axis) > 1]
+    points = [_points(axis) for axis in found.sweep.axes if len(axis) > 1]
     product = f" = {' × '.join(points)}" if len(points) > 1 else ""
     lines.append(("cases", f"{record['cases']:,}{product}"))
     more = [f"{record['master_curve_points']} along the friction master curve"] if record["master_curve_points"] else []
@@ -143,7 +145,7 @@ def duration(seconds: float) -> str:
     for unit, size, least in (("days", 86400.0, 2.0), ("hours", 3600.0, 2.0), ("minutes", 60.0, 2.0)):
         if seconds >= least * size:
             return f"about {_rounded(seconds / size)} {unit}"
-    return f"about {_rounded(max(seconds, 1.0))} seconds"
+    return "about a second" if seconds < 1.5 else f"about {_rounded(seconds)} seconds"
 
 
 def _bytes(number: float) -> str:
@@ -158,6 +160,13 @@ def _material_line(made: dict[str, Any]) -> str:
     return ", ".join(parts) + (", SYNTHETIC" if made["synthetic"] else "")
 
 
+def _points(axis: Axis) -> str:
+    """Say how many points an axis has: 3 loads; of one that is stepped together, by the first of them."""
+    names = [name.replace("_", " ") for name in axis.columns]
+    together = f" with {' and '.join(names[1:])}" if len(names) > 1 else ""
+    return f"{len(axis):,} {_PLURAL.get(names[0], names[0] + 's')}{together}"
+
+
 def _axis_line(columns: dict[str, list[Any]], line: bool) -> str:
     told = ", ".join(f"{name} {_span(name, values, line)}" for name, values in columns.items())
     points = len(next(iter(columns.values())))
@@ -169,20 +178,6 @@ def _span(name: str, values: list[Any], line: bool) -> str:
         return ", ".join(values)
     if name == "sample":
         return f"0 (the best estimate) to {values[-1]}"
-    ends = [_shown(name, value, line) for value in dict.fromkeys((values[0], values[-1]))]
-    return " to ".join(ends)
+    from viscofric.study.places import shown
 
-
-def _shown(name: str, value: float, line: bool) -> str:
-    """Return a value of an axis in the unit that people use for it."""
-    if name == "temperature":
-        return f"{value - 273.15:.5g} °C"
-    if name in ("angle", "direction"):
-        return f"{math.degrees(value):.4g}°"
-    if name == "seed":
-        return str(value)
-    if name == "pressure":
-        return f"{value / 1e3:.4g} kPa"
-    if name == "load":
-        return f"{value / 1e3:.4g} N/mm" if line else f"{value:.4g} N"
-    return f"{1e3 * value:.4g} {'mm/s' if name == 'speed' else 'mm'}"
+    return " to ".join(shown(name, value, line) for value in dict.fromkeys((values[0], values[-1])))

@@ -131,6 +131,8 @@ def _speeds(text: str, points: int) -> list[float]:
     if len(ends) > 2:
         raise click.BadParameter(f"{text!r}: a range has two ends: '1 mm/s to 1 m/s'.", param_hint="--speed")
     first, last = (positive(end, "m/s", "--speed") for end in ends)
+    if first == last:
+        raise click.BadParameter(f"{text!r}: the range has one speed only; give it alone.", param_hint="--speed")
     return [float(speed) for speed in np.geomspace(first, last, points)]
 
 

@@ -113,7 +113,7 @@ class TerminalProgress(Silent):
             many = f" ({event.total})" if event.total and event.total > 1 else ""
             self._console.print(f"{words}{many} ...", highlight=False)
             self._last_line = now
-        elif now > self._last_line + _BETWEEN_LINES:
+        elif event.event != "stage" and now > self._last_line + _BETWEEN_LINES:
             self._last_line = now
             self._console.print(
                 f"  {event.done} of {event.total} cases known, {event.solves} contacts solved", highlight=False

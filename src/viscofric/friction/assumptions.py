@@ -14,7 +14,7 @@ from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.warming import Warming
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties
-from viscofric.units import Quantity, celsius, positive, to_si_array
+from viscofric.units import Quantity, celsius, plain, positive, to_si_array, told_speed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -205,8 +205,8 @@ def _radii(given: Quantities, count: int) -> Array:
 
 
 def _at(curves: FrictionCurves, row: int) -> str:
-    load = f"{curves.load[row]:.3g} {curves.load_unit}"
-    return f"at {celsius(float(curves.temperature[row])):.0f} °C, {1e3 * curves.speed[row]:.3g} mm/s and {load}"
+    load = f"{plain(float(curves.load[row]), 3)} {curves.load_unit}"
+    return f"at {celsius(float(curves.temperature[row])):.0f} °C, {told_speed(float(curves.speed[row]), 3)} and {load}"
 
 
 def _half_space(size: _Size, thickness: Quantity | None) -> AssumptionCheck:
@@ -272,6 +272,6 @@ def _one_temperature(
     said = (
         f"{counted} the rubber by {bulk:.2g} K at most ({_at(curves, worst)}; typical handbook values of {rubber.name} "
         f"and {counterbody.name} are assumed). That shifts the speed by {decades:.2g} decades and friction by "
-        f"{100 * change:.2g} %{verdict}"
+        f"{plain(100 * change, 2)} %{verdict}"
     )
     return AssumptionCheck("one temperature", change, WARMING, holds, said)

@@ -84,8 +84,8 @@ def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
         yield Check("Small strain", "noted", words)
         return
     wide = int(np.sum(reaches > SMALL_STRAIN))
-    of = f"{wide} of {reaches.size} cases asked for and along the friction master curve"
-    many = f" This concerns {of}, which the tables mark." if wide else ""
+    along = " and along the friction master curve" if len(parts) > 1 else ""
+    many = f" This concerns {wide} of {reaches.size} cases asked for{along}, which the tables mark." if wide else ""
     yield Check.of(
         "Small strain",
         wide == 0,

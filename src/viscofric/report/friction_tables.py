@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
-from viscofric.report.doubts import EXTRAPOLATED, WIDE, remarks
+from viscofric.report.doubts import EXTRAPOLATED, WIDE, interpolated, remarks
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import ABSENT, percent, several, signed_percent, significant, with_error
 from viscofric.report.results import group, nearest, nominal_temperatures, number, values
@@ -167,6 +167,10 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
     prediction = cases_of(prediction)
     friction, error = (values(prediction, part) for part in ("friction_coefficient", "friction_error"))
     full = prediction.assign(relative_error=("case", error / np.where(friction == 0.0, np.nan, np.abs(friction))))
+    between = interpolated(full)
+    for work in ("cells", "products"):  # what was not solved took none
+        if work in full:
+            full[work] = ("case", np.where(between, np.nan, values(full, work)))
     load, area = (_unit(full, part) for part in ("load", "contact_area"))
     is_line = area == "m"
     table = made_table(

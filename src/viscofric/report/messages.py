@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 _NUMBER = r"[-−]?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 # A condition such as "89.9995 °C, 19.9996 mm/s"
 _CONDITION = re.compile(rf"({_NUMBER}) °C, ({_NUMBER}) (mm/s|m/s)")
-_FAILURE = re.compile(rf"({_CONDITION.pattern}): (.*)", re.DOTALL)
+# … and what else varies, as in "90 °C, 20 mm/s, 5 N, radius 5 mm"
+_FAILURE = re.compile(rf"({_CONDITION.pattern}.*?): (.*)", re.DOTALL)
 _MINUS = re.compile(r"(?<![\w.\-/])-(?=\d)")
 _SHOWN_CONDITIONS = 6
 

@@ -63,7 +63,7 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
     if sweeps is not None:
         steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(sweeps, "temperature"))]
         at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
-        file = f" ({attrs['dma_format']})" if attrs.get("dma_format") else ""
+        file = f" ({str(attrs['dma_format']).split(' (')[0]})" if attrs.get("dma_format") else ""
         said.append(
             f"The rubber is known from dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
             f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s"

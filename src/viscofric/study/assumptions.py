@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -41,9 +42,11 @@ def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[st
     for case, record in zip(asked.of_records, asked.records, strict=True):
         alike.setdefault(case.alike, []).append((case, record))
     found: dict[str, AssumptionCheck] = {}
-    for pairs in alike.values():
+    # The largest contact first: where the thickness is not known there is nothing else to tell the worst by.
+    for pairs in sorted(alike.values(), key=lambda pairs: -max(_reach(record) for _, record in pairs)):
         records = [record for _, record in pairs]
-        _keep_worst(found, _checked(contacts, pairs[0][0], curves_of(records), records))
+        curves = replace(curves_of(records), load_unit=pairs[0][0].indenter.geometry.load_unit)
+        _keep_worst(found, _checked(contacts, pairs[0][0], curves, records))
     if at_points.records and contacts.measured is not None:
         solved = np.array([not hasattr(outcome, "reason") for outcome in at_points.outcomes], dtype=bool)
         curves = contacts.measured.curves.select(solved)
@@ -55,11 +58,16 @@ def _checked(
     contacts: Contacts, case: Case, curves: FrictionCurves, records: list[CaseRecord]
 ) -> Iterable[AssumptionCheck]:
     """Check contacts of one rubber, shape and load."""
-    halves = ((0.5 * (record.front + record.rear), record.half_width) for record in records)
-    reach = np.array([max(along, across) if np.isfinite(across) else along for along, across in halves])
+    reach = np.array([_reach(record) for record in records])
     thickness, material = contacts.study.conditions.thickness, contacts.rubbers[case.material].material
     checks = check_assumptions(material, case.indenter, curves, thickness=thickness, contact_radius=reach)
     return (check for check in checks if case.layer is None or check.name != _OF_HALF_SPACES)
+
+
+def _reach(record: CaseRecord) -> float:
+    """Return half the contact's length or its half-width, whichever is larger, m."""
+    along, across = 0.5 * (record.front + record.rear), record.half_width
+    return max(along, across) if np.isfinite(across) else along
 
 
 def _keep_worst(found: dict[str, AssumptionCheck], checks: Iterable[AssumptionCheck]) -> None:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.study.places import place, place_in
 from viscofric.study.planning.plan import plan_cases
 from viscofric.study.record import CaseRecord, Failure, Record
 from viscofric.study.sweep import AnyCase, Case, Sweep
-from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,10 +33,17 @@ class Solved:
     ----------
     cases : tuple of Case or SurfaceCase
     outcomes : tuple of CaseRecord, SurfaceRecord or Failure
+    sweep : Sweep, optional
+        That the cases are, where they are one.
     """
 
     cases: tuple[AnyCase, ...]
     outcomes: tuple[Record | Failure, ...]
+    sweep: Sweep | None = None
+
+    def place(self, number: int) -> str:
+        """Say where one of the cases lies."""
+        return place(self.cases[number]) if self.sweep is None else place_in(self.sweep, number)
 
     @property
     def records(self) -> list[Any]:
@@ -51,8 +58,12 @@ class Solved:
 
     @property
     def failures(self) -> list[Failure]:
-        """The others."""
-        return [outcome for outcome in self.outcomes if isinstance(outcome, Failure)]
+        """The others, each with its place among the cases."""
+        return [
+            replace(outcome, label=self.place(number))
+            for number, outcome in enumerate(self.outcomes)
+            if isinstance(outcome, Failure)
+        ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +114,8 @@ class Contacts:
         """
         found, parts = list(self.plan.found()), []
         for cases in (self.sweep.cases, self.at_points, self.along):
-            parts.append(Solved(cases, tuple(found[: len(cases)])))
+            of = self.sweep if cases is self.sweep.cases else None
+            parts.append(Solved(cases, tuple(found[: len(cases)]), of))
             del found[: len(cases)]
         asked, at_points, along = parts
         return asked, at_points, along
@@ -169,28 +181,37 @@ class Contacts:
 
 def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[str]:
     """Tell which assumptions do not hold well, each with the number of contacts that it concerns."""
-    pairs = [pair for part in parts for pair in zip(part.of_records, part.records, strict=True)]
+    found = [
+        (part, number, outcome)
+        for part in parts
+        for number, outcome in enumerate(part.outcomes)
+        if isinstance(outcome, Record)
+    ]
     sentences = []
-    wide = [(case, record) for case, record in pairs if record.warnings]
+    wide = [one for one in found if one[2].warnings]
     if wide:
-        worst, record = max(wide, key=lambda pair: _extent(pair[1]))
+        part, number, record = max(wide, key=lambda one: _relative_reach(one[0].cases[one[1]], one[2]))
         said = " ".join(record.warnings)
-        sentences.append(f"In {len(wide)} of all {len(pairs)} contacts, most of all at {place(worst)}: {said}")
-    beyond = [case for case, record in pairs if not rubbers[case.material].is_within(case, record)]
+        sentences.append(f"In {len(wide)} of all {len(found)} contacts, most of all at {part.place(number)}: {said}")
+    beyond = [one for one in found if not _is_within(rubbers, one[0].cases[one[1]], one[2])]
     if beyond:
-        what = "the contact's frequency v/a lies" if isinstance(beyond[0], Case) else _OF_SURFACES
+        part, number, _ = beyond[0]
+        what = "the contact's frequency v/a lies" if isinstance(part.cases[number], Case) else _OF_SURFACES
         sentences.append(
-            f"In {len(beyond)} of all {len(pairs)} contacts, such as {place(beyond[0])}, {what} beyond the reduced "
+            f"In {len(beyond)} of all {len(found)} contacts, such as {part.place(number)}, {what} beyond the reduced "
             "frequencies at which the rubber is known: their friction rests on the extrapolated spectrum."
         )
     return sentences
 
 
-def _extent(record: Record) -> float:
-    """Tell which of several contacts is the largest: its length, or the pressure on a rough surface."""
-    return record.front + record.rear if isinstance(record, CaseRecord) else record.max_pressure
+def _is_within(rubbers: Sequence[StudyRubber], case: AnyCase, record: Record) -> bool:
+    return rubbers[case.material].is_within(case, record)
 
 
-def place(case: AnyCase) -> str:
-    """Say where a case lies, for people."""
-    return f"{celsius(case.temperature):.4g} °C, {1e3 * case.speed:.4g} mm/s"
+def _relative_reach(case: AnyCase, record: Record) -> float:
+    """Tell which of several contacts is the largest: its reach over the indenter's size, or a rough one's pressure."""
+    if not isinstance(record, CaseRecord) or not isinstance(case, Case):
+        return float(record.max_pressure)
+    farthest = max(size for size in (record.front, record.rear, record.half_width) if np.isfinite(size))
+    size = case.indenter.reach
+    return float(farthest / size) if np.isfinite(size) else float(farthest)

@@ -87,7 +87,7 @@ def run_study(
     executor = choose_executor(workers, scheduler, study.cluster, finished_only)
     # Workers come to life while the inputs are read.
     with study_folder(folder, resume or finished_only) as store, executor:
-        hashes = input_hashes(study.inputs)
+        hashes = input_hashes(study.inputs, path.parent)
         rubbers, measured = _inputs(study, _staged(progress))
         contacts = Contacts(study, rubbers, measured)
         run_plan(contacts.plan, store, executor, progress)

@@ -163,7 +163,7 @@ def open_results(path: str | Path) -> StudyResults:
                 "--resume completes it; with --finished-only, it puts together what is there.",
             )
     if not file.is_file():
-        raise DataFileError(file, "no such results file; run the study first.")
+        raise DataFileError(file, f"no such results file; {_where_they_are(file.parent)}")
     try:
         with xarray.open_datatree(file, engine="h5netcdf") as stored:
             tree = stored.load()
@@ -172,9 +172,21 @@ def open_results(path: str | Path) -> StudyResults:
         raise DataFileError(file, what_is_wrong(file, error)) from error
     if "viscofric_version" not in tree.attrs:
         raise DataFileError(file, "is a netCDF file, but not one of results of viscofric.")
+    if not tree.children:
+        raise DataFileError(
+            file,
+            "holds the cases alone, as exported for other programs (xarray.open_dataset reads it); give the folder of "
+            "the study's results.",
+        )
     if tree.attrs.get(DIGEST, found) != found:
         raise DataFileError(file, f"is damaged: it does not hold what was written into it.{what_helps(file)}")
     return StudyResults(tree, file.parent)
+
+
+def _where_they_are(folder: Path) -> str:
+    """Say what to do where a folder holds no results."""
+    near = sorted(other.parent for other in folder.glob(f"*/{RESULTS_FILE}"))
+    return f"there are results in {near[0]}." if near else "run the study first."
 
 
 def save_results(tree: xarray.DataTree, folder: Path) -> Path:
@@ -196,15 +208,28 @@ def save_results(tree: xarray.DataTree, folder: Path) -> Path:
     return target
 
 
-def input_hashes(inputs: Iterable[Path]) -> str:
-    """Return the SHA-256 of each input file, as JSON keyed by its path."""
+def input_hashes(inputs: Iterable[Path], beside: Path | None = None) -> str:
+    """Return the SHA-256 of each input file, as JSON keyed by its path.
+
+    Parameters
+    ----------
+    inputs : iterable of Path
+    beside : Path, optional
+        Folder of the run file: paths below it are told from there, so that they say the same on another machine.
+    """
     hashes = {}
     for path in inputs:
         # What is not a plain file is told by its reader.
         if path.is_file():
             with path.open("rb") as file:
-                hashes[path.as_posix()] = hashlib.file_digest(file, "sha256").hexdigest()
+                hashes[_from(beside, path)] = hashlib.file_digest(file, "sha256").hexdigest()
     return json.dumps(hashes, ensure_ascii=False)
+
+
+def _from(folder: Path | None, path: Path) -> str:
+    if folder is not None and path.resolve().is_relative_to(folder.resolve()):
+        path = path.resolve().relative_to(folder.resolve())
+    return path.as_posix()
 
 
 def provenance() -> dict[str, str]:
