@@ -23,7 +23,21 @@ TITLE = "viscofric results"
 # Columns that are no numbers.
 _TEXTS = ("material",)
 #: Coordinates of cases in the order of a table's columns; others come after these.
-PLACES = ("material", "sample", "radius", "radius_x", "radius_y", "angle", "thickness", "load", "temperature", "speed")
+PLACES = (
+    "material",
+    "sample",
+    "radius",
+    "radius_x",
+    "radius_y",
+    "angle",
+    "seed",
+    "thickness",
+    "load",
+    "pressure",
+    "direction",
+    "temperature",
+    "speed",
+)
 # Of a temperature in degC: what is beyond comes from the sum with 273.15.
 _DECIMALS = 9
 # Attribute -> what the lines above a table call it.
