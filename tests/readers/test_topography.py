@@ -90,6 +90,14 @@ def test_points_without_headings_are_told_from_a_matrix_by_the_spacing(tmp_path)
     assert vf.read_topography(write(tmp_path, text), spacing="1 um").shape == (24, 3)
 
 
+def test_metres_are_taken_for_what_has_no_unit_and_that_is_told(tmp_path):
+    points = write(tmp_path, "0,1e-6\n1e-5,2e-6\n2e-5,0\n")
+    assert vf.read_topography(points).history[1:] == ("positions and heights taken to be in m",)
+    matrix = write(tmp_path, matrix_text())
+    assert vf.read_topography(matrix, spacing="1 um").history[1:] == ("heights taken to be in m",)
+    assert vf.read_topography(matrix, spacing="1 um", unit="nm").history[1:] == ()
+
+
 def test_a_line_scan_with_uneven_positions_is_interpolated_and_says_so(tmp_path):
     x = np.array([0.0, 1.0, 2.0, 4.0, 5.0])
     text = "x (um); z (um)\n" + "\n".join(f"{one};{3.0 * one}" for one in x)
@@ -119,6 +127,8 @@ def test_missing_heights_are_told_by_words_or_by_a_number(tmp_path):
         ("nan,nan\nnan,nan\n", {"spacing": "1 um"}, "no height at all"),
         ("x (um),z (um)\n1,2\n", {}, "one point only"),
         ("x (um),z (um)\n1,2\n2,3\n", {"spacing": "1 um"}, "leave the spacing out"),
+        ("1,2,3,4\n5,6,7,8\n", {"spacing": "1 um", "channel": "height"}, "leave channel = 'height' out"),
+        ("", {}, "is empty"),
     ],
 )
 def test_what_cannot_be_read_is_refused_in_one_sentence_with_the_files_name(tmp_path, text, arguments, words):
@@ -138,6 +148,7 @@ def test_what_cannot_be_read_is_refused_in_one_sentence_with_the_files_name(tmp_
         ({"lines": "z"}, "must be 'x' or 'y'"),
         ({"missing": "none"}, "the number that stands"),
         ({"channel": 1.5}, "name of a channel"),
+        ({"unit": 3}, "must be text"),
     ],
 )
 def test_arguments_that_make_no_sense_are_refused(tmp_path, arguments, words):
@@ -190,6 +201,13 @@ for size in (10, 100, len(data) // 2, len(data) - 30):
         assert "cut.x3p" in str(error) and "\\n" not in str(error)
     else:
         raise AssertionError(size)
+Path(folder, "noise.bin").write_bytes(np.random.default_rng(1).bytes(5000))  # as long as a square of two-byte numbers
+try:
+    read_topography(folder + "/noise.bin", unit="um", spacing="1 um")
+except DataFileError as error:
+    assert "none of the formats" in str(error), error
+else:
+    raise AssertionError("noise")
 print("read")
 """
 

@@ -178,6 +178,7 @@ def test_a_function_may_be_the_spectrum():
         ({"seed": 1.5}, "seed = 1.5"),
         ({"shape": (2, 2)}, "four at least"),
         ({"shape": (64,)}, "must be the points"),
+        ({"shape": (10**6, 10**6)}, r"1e\+12 points"),
         ({"longest": "9.1 um", "rolloff": "9.1 um"}, "no wave of the period"),
         ({"shape": 64, "aspect": 2.0}, "a profile has no lay"),
     ],
@@ -204,6 +205,12 @@ def test_spectra_that_are_none_are_refused():
         vf.surface_from_spectrum(line, shape=16, spacing=1e-3, seed=0)
     with pytest.raises(vf.InputError, match="not below zero"):
         vf.surface_from_spectrum(lambda q: -q, shape=16, spacing=1.0, seed=0)
+    for wrong in (lambda q: q[:3], lambda q: "none"):
+        with pytest.raises(vf.InputError, match="one density for each"):
+            vf.surface_from_spectrum(wrong, shape=16, spacing=1.0, seed=0)
+    for measure in (vf.power_spectrum, vf.line_spectrum):
+        with pytest.raises(vf.InputError, match="must be a Topography"):
+            measure(np.zeros((8, 8)))
     flat = vf.Topography(np.zeros((8, 8)), 1.0)
     with pytest.raises(vf.InputError, match="flat"):
         vf.power_spectrum(flat)

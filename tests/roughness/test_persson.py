@@ -198,6 +198,7 @@ def test_flash_temperature_lowers_the_friction_of_fast_sliding_and_not_that_of_s
     [
         ({"spectrum": 1.0}, "must be a PowerSpectrum"),
         ({"speeds": []}, "at least one value"),
+        ({"temperatures": []}, "at least one value"),
         ({"speeds": -1.0}, "none of them below zero"),
         ({"pressure": 0.0}, "above zero"),
         ({"gamma": 1.5}, "between 0 and 1"),

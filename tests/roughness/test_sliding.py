@@ -167,6 +167,14 @@ def test_what_cannot_be_predicted_is_refused_and_what_fails_is_named():
     for edges in (["1 mm"], [1e-3, 1e-3], [1e-3, -1.0]):
         with pytest.raises(vf.InputError, match="two wavelengths at least"):
             vf.friction_by_wavelength(solution, edges)
+    for edges, words in (
+        (0, "number of classes above zero"),
+        ("many", "number of classes, or"),
+        ([2.0, 1.0], "two pressures at least"),
+        ([1.0, math.nan], "two pressures at least"),
+    ):
+        with pytest.raises(vf.InputError, match=words):
+            vf.pressure_distribution(solution, edges)
 
 
 @pytest.mark.slow  # six contacts of 512² points

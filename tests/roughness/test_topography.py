@@ -224,11 +224,14 @@ def test_a_line_scan_is_roughness_on_a_cylinder_and_a_map_on_a_ball():
         ({"heights": [1.0, np.inf], "spacing": 1.0}, "1 are infinite"),
         ({"heights": [1.0, 2.0], "spacing": (1.0, 1.0, 1.0)}, "one length or two"),
         ({"heights": [1.0, 2.0], "spacing": 0.0}, "above zero"),
+        ({"heights": [1.0, 2.0j], "spacing": 1.0}, "array of numbers"),
     ],
 )
 def test_what_is_no_topography_is_refused(arguments, words):
     with pytest.raises(vf.InputError, match=words):
         vf.Topography(**arguments)
+    with pytest.raises(vf.InputError, match=r"1e\+18 points"):
+        vf.Topography(np.zeros((100, 100)), 1.0).resample(1e-7)
 
 
 def test_roughness_of_no_height_on_a_ball_rubs_as_the_ball_and_waves_rub_more():

@@ -13,6 +13,7 @@ from viscofric.contact.periodic.waves import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum, hurst_exponent, wanted_rms
 from viscofric.roughness.topography import Topography
+from viscofric.roughness.waves import insist_on_size
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
@@ -179,6 +180,7 @@ def _grid(
     points: tuple[int, ...] = shape if isinstance(shape, (tuple, list)) else (shape, 1)
     if len(points) != 2 or not all(_is_whole(n, 1) for n in points) or points[0] < 4:
         raise InputError(f"shape = {brief(shape)}: must be the points along x (four at least) and y, or of a profile.")
+    insist_on_size(points, "shape")
     steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
     if len(steps) != 2:
         raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
@@ -233,7 +235,10 @@ class _Waves:
         for axis, n in enumerate(self.points):
             if n % 2 == 0:
                 held[(slice(None),) * axis + (n // 2,)] = False
-        found[held] = self.cell * np.asarray(density(self.seen[held]), dtype=float)
+        try:
+            found[held] = self.cell * np.asarray(density(self.seen[held]), dtype=float)
+        except ValueError:  # another number of values, or text
+            raise InputError("the spectrum must return one density for each of the wave numbers it is given.") from None
         if not np.all(np.isfinite(found) & (found >= 0.0)):
             raise InputError("the spectrum's density must be finite and not below zero at all wave numbers.")
         return found

@@ -8,7 +8,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.periodic.waves import hermitian_factor, wave_number
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError, brief, check_choice
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
     By Parseval's theorem their sum over all waves is the mean square height; the curve through the points integrates to
     it within some per cent, most of which lies between the few longest waves.
     """
+    _insist(topography)
     if topography.is_line:
         raise InputError("power_spectrum needs a map of heights; line_spectrum takes line scans.")
     shape = topography.shape
@@ -76,6 +77,7 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     InputError
         If heights are missing, or there is one point only along the axis.
     """
+    _insist(topography)
     check_choice(axis, "axis", "x", "y")
     place = "xy".index(axis)
     points, step = topography.shape[place], topography.spacing[place]
@@ -87,6 +89,13 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     density = waves * (points * step / (2.0 * np.pi))
     limits = 0.5 * float(q[1]), float(q[1]), np.pi / step
     return LineSpectrum(*_rings(q, density, np.ones(len(q)), limits, per_decade))
+
+
+def _insist(topography: object) -> None:
+    from viscofric.roughness.topography import Topography
+
+    if not isinstance(topography, Topography):
+        raise InputError(f"topography = {brief(topography)}: must be a Topography; see read_topography.")
 
 
 def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:

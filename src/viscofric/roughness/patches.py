@@ -123,11 +123,21 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
     Raises
     ------
     InputError
-        If it is no solution of a periodic contact.
+        If it is no solution of a periodic contact, or the edges are no numbers that increase.
     """
     _insist(solution)
     loaded = solution.pressure[solution.pressure > 0.0]
-    limits = np.linspace(0.0, solution.max_pressure, edges + 1) if isinstance(edges, int) else np.asarray(edges, float)
+    if isinstance(edges, int):
+        if edges < 1:
+            raise InputError(f"edges = {edges}: must be a number of classes above zero, or their edges.")
+        limits = np.linspace(0.0, solution.max_pressure, edges + 1)
+    else:
+        try:
+            limits = np.asarray(edges, float)
+        except (TypeError, ValueError):
+            raise InputError(f"edges = {brief(edges)}: must be a number of classes, or their edges, Pa.") from None
+        if limits.ndim != 1 or len(limits) < 2 or not np.all(np.diff(limits) > 0.0):
+            raise InputError(f"edges = {brief(edges)}: must be two pressures at least, Pa, that increase.")
     counts, found = np.histogram(loaded, limits)
     return 0.5 * (found[1:] + found[:-1]), counts / (solution.pressure.size * np.diff(found))
 

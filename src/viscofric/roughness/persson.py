@@ -178,6 +178,8 @@ def persson_theory(
     kelvins: list[float | None] = [None]
     if temperatures is not None:
         kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
+        if not kelvins:
+            raise InputError("temperatures must hold at least one value.")
     sharing = to_si(gamma, "dimensionless", "gamma")
     if not 0.0 <= sharing <= 1.0:
         raise InputError(f"gamma = {sharing:g}: must lie between 0 and 1.")

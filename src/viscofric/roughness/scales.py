@@ -41,7 +41,7 @@ class FrictionByWavelength:
     @property
     def total(self) -> float:
         """Sum of the contributions: the friction coefficient, if the edges hold all waves."""
-        return float(self.contribution.sum())
+        return float(self.cumulative[-1])
 
     @property
     def cumulative(self) -> Array:

@@ -73,6 +73,8 @@ class Topography:
         history: tuple[str, ...] = (),
     ) -> None:
         try:
+            if np.iscomplexobj(heights):
+                raise TypeError
             z = np.array(heights, dtype=float)
         except (TypeError, ValueError):
             raise InputError("heights of a topography must be an array of numbers in m.") from None
@@ -268,6 +270,7 @@ class Topography:
         if len(steps) != 2:
             raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
         wanted = tuple(positive(step, "m", "spacing") for step in steps)
+        waves.insist_on_size(tuple(length / step for length, step in zip(self.size, wanted, strict=True)), "spacing")
         change = waves.resampled if self.periodic else preparation.resampled
         heights, found = change(self.complete(), self.spacing, (wanted[0], wanted[1]))
         told = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+#: Elevations of the globe without any header: whatever has the size of a square would pass for them.
+_BY_SIZE = ("hgt",)
+
 
 def read_with_package(source: Source, asked: Asked) -> Scan:
     """Read a file in whatever format the package recognises by its content.
@@ -56,6 +59,8 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
 
 
 def _scan(source: Source, reader: Any, asked: Asked) -> Scan:
+    if reader.format() in _BY_SIZE:
+        raise DataFileError(source.path, "is in none of the formats that are known for heights of a surface.")
     channel = _channel(source, reader, asked.channel)
     given: dict[str, Any] = {}
     if channel.unit is None:

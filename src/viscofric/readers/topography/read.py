@@ -35,18 +35,25 @@ def read_scan(path: object, asked: Asked) -> Scan:
         If what was asked makes no sense.
     """
     check_choice(asked.lines, "lines", "x", "y")
+    if not isinstance(asked.unit, str):
+        raise InputError(f"unit = {brief(asked.unit)}: must be text, such as 'um'.")
     if asked.unit:
         conversion(asked.unit, "m", "unit")
     if not (asked.channel is None or isinstance(asked.channel, (str, int))):
         raise InputError(f"channel = {brief(asked.channel)}: must be the name of a channel or its number.")
     file = str(file_path(path))
     source = Source(file, read_bytes(file))
+    if not source.data:
+        raise DataFileError(file, "is empty.")
     try:
+        plain = source.data.startswith(NUMPY) or is_table(source.text)
+        if plain and asked.channel not in (None, 0):
+            raise DataFileError(
+                file, f"holds one field of heights, without a name; leave channel = {asked.channel!r} out."
+            )
         if source.data.startswith(NUMPY):
             return read_array(source, asked)
-        if is_table(source.text):
-            return read_text_table(source, asked)
-        return read_with_package(source, asked)
+        return read_text_table(source, asked) if plain else read_with_package(source, asked)
     except DataFileError:
         raise
     except InputError as error:  # a unit that the file names, and that is none

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -86,7 +87,8 @@ def read_text_table(source: Source, asked: Asked) -> Scan:
         return scan_of_points(source, factors * table.rows, asked, table.lines)
     if asked.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
         factor, _ = conversion(asked.unit or "m", "m", "unit")
-        return scan_of_points(source, factor * table.rows, asked, table.lines)
+        found = scan_of_points(source, factor * table.rows, asked, table.lines)
+        return found if asked.unit else replace(found, notes=(*found.notes, "positions and heights taken to be in m"))
     return _matrix(source, table.rows, asked, table.remarks, "text matrix")
 
 
@@ -113,7 +115,8 @@ def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str],
         raise DataFileError(
             source.path, "does not say how far its points lie apart; give spacing='5 um', for instance."
         )
-    return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})")
+    notes = () if asked.unit or told_unit else ("heights taken to be in m",)
+    return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=notes)
 
 
 def _length(path: str, text: str) -> float:
