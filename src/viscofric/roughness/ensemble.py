@@ -54,7 +54,7 @@ class RoughFriction:
     Attributes
     ----------
     temperature : (m,) array
-        K; NaN for a material without a shift, which has no temperature.
+        K; NaN where none was given: a material with a shift is then at its reference.
     speed : (n,) array
         m/s.
     pressure : float

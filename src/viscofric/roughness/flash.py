@@ -14,7 +14,8 @@ P has fallen to a given share, and R = π/q_m half their wavelength.
 
 References
 ----------
-.. [1] B. N. J. Persson, J. Phys.: Condens. Matter 18 (2006) 7789, doi:10.1088/0953-8984/18/32/025
+.. [1] B. N. J. Persson, "Rubber friction: role of the flash temperature", J. Phys.: Condens. Matter 18 (2006) 7789,
+   doi:10.1088/0953-8984/18/32/025, arXiv:cond-mat/0605273
 """
 
 from __future__ import annotations

@@ -9,14 +9,18 @@ and the friction coefficient of all that the rubber dissipates ::
 
     μ = 1/2 ∫_{q0}^{q1} dq q³ C(q) S(q) P(q) ∫_0^{2π} dφ cos φ Im E(q v cos φ, T_q) / ((1−ν²) σ0)
 
-with S = 1 in [1]_.  Where contact is partial the rubber follows a wave only in part, for which later work takes
-S = γ + (1−γ) P², γ ≈ 1/2 [2]_.  In full contact (P = S = 1) the integral is exact.  At small loads P is
-√(8/π) σ0 (1−ν²)/(E h'), h' the rms slope, for an elastic solid.
+with S = 1 in [1]_. Where contact is partial the rubber follows a wave only in part, for which later work takes S = γ +
+(1−γ) P², γ ≈ 1/2 [2]_; [3]_ compares such theory with solved contacts. In full contact (P = S = 1) the integral is
+exact. At small loads P is √(8/π) σ0 (1−ν²)/(E h'), h' the rms slope, for an elastic solid.
 
 References
 ----------
-.. [1] B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626
-.. [2] B. Lorenz, Y. R. Oh, S. K. Nam, S. H. Jeon, B. N. J. Persson, J. Chem. Phys. 142 (2015) 194701
+.. [1] B. N. J. Persson, "Theory of rubber friction and contact mechanics", J. Chem. Phys. 115 (2001) 3840,
+   doi:10.1063/1.1388626
+.. [2] B. Lorenz, Y. R. Oh, S. K. Nam, S. H. Jeon, B. N. J. Persson, "Rubber friction on road surfaces: Experiment and
+   theory for low sliding speeds", J. Chem. Phys. 142 (2015) 194701
+.. [3] M. Scaraggi, B. N. J. Persson, "Viscoelastic contact mechanics between randomly rough surfaces" (2014),
+   arXiv:1406.7236
 """
 
 from __future__ import annotations
@@ -51,7 +55,8 @@ class PerssonTheory:
     Attributes
     ----------
     temperature : (m,) array
-        Of the rubber before it meets the surface, K; NaN for a material without a shift, which has no temperature.
+        Of the rubber before it meets the surface, K; NaN where none was given: a material with a shift is then at its
+        reference.
     speed : (n,) array
         m/s.
     pressure : float
