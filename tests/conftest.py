@@ -7,11 +7,16 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 # Tests run side by side, a process for each core: threads of BLAS within them only get in each other's way.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Nothing is written to the home folder, matplotlib's cache of fonts included.
 os.environ.setdefault("MPLCONFIGDIR", str(Path(sys.prefix) / "var" / "matplotlib"))
+
+# How long an example takes is not tested: the machine may be busy.
+settings.register_profile("viscofric", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("viscofric")
 
 ROOT = Path(__file__).resolve().parent.parent
 

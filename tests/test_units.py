@@ -76,7 +76,7 @@ def test_what_is_not_one_number_and_one_unit_is_refused_in_one_sentence(text, un
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.timeout(10)  # evaluated, each of these would take longer than the universe has
+@pytest.mark.timeout(60)  # evaluated, each of these would take longer than the universe has
 @pytest.mark.parametrize(
     "text", ["9**9**9 N", "5 (Pa**9**9**9)", "5 Pa**9**9**9", "5 ((Pa^9)^9)^9", "5 N^99", "9" * 10**5]
 )
@@ -85,7 +85,7 @@ def test_text_is_never_evaluated(text):
         to_si(text, "N")
 
 
-@pytest.mark.timeout(10)
+@pytest.mark.timeout(60)
 def test_units_of_headings_are_not_evaluated_either():
     assert conversion("°C", "K") == pytest.approx((1.0, 273.15))
     assert conversion("N/mm²", "Pa") == pytest.approx((1e6, 0.0))

@@ -216,23 +216,29 @@ def test_template_names_every_key_of_a_run_file() -> None:
             assert name in written[key], f"[{key}] {name}"
 
 
+@pytest.mark.timeout(600)
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
 @pytest.mark.parametrize(
     ("sent", "status", "word"), [(signal.SIGINT, 130, "Interrupted."), (signal.SIGTERM, 143, "Terminated.")]
 )
 def test_signals_end_a_run_with_one_sentence(tmp_path: Path, sent: signal.Signals, status: int, word: str) -> None:
     write(tmp_path)
-    program = subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, "-m", "viscofric", "run", "study.toml"],
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-    )
-    assert program.stderr is not None
-    program.stderr.readline()  # the first stage has begun
-    program.send_signal(sent)
-    _, errors = program.communicate(timeout=60)
+        # Where the tests run in the background of a shell, it has them ignore Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    ) as program:
+        try:
+            assert program.stderr is not None
+            program.stderr.readline()  # the first stage has begun
+            program.send_signal(sent)
+            _, errors = program.communicate(timeout=500)  # a second, but the machine may be busy
+        finally:
+            program.kill()
     assert program.returncode == status
     assert word in errors
     assert "Traceback" not in errors

@@ -376,6 +376,6 @@ def test_utf16_without_its_mark_is_read(tmp_path, encoding):
 def test_a_heading_of_thousands_of_blanks_takes_no_time(tmp_path):
     path = tmp_path / "blanks.csv"
     path.write_text(f"{HEADER},({' ' * 4000}x\n1,1,1,1,1\n", encoding="utf-8")
-    begin = time.perf_counter()
+    begin = time.process_time()
     assert len(read_dma(path)) == 1
-    assert time.perf_counter() - begin < 5.0  # a pattern that looks for a unit at every blank takes minutes
+    assert time.process_time() - begin < 5.0  # a pattern that looks for a unit at every blank takes minutes

@@ -251,7 +251,7 @@ def test_strain_amplitudes_that_differ_by_a_third_are_told():
 def test_a_step_for_every_point_takes_no_time():
     count = 30_000
     hertz = np.geomspace(0.1, 10.0, count)
-    begin = time.perf_counter()
+    begin = time.process_time()
     sweeps = isothermal_sweeps([readings(np.full(count, 20.0), hertz, step=np.arange(count))])
     assert [len(one) for one in sweeps.isotherms] == [count]
-    assert time.perf_counter() - begin < 10.0  # some 2 s; work that grows as the square takes more than 10 s
+    assert time.process_time() - begin < 10.0  # some 2 s; work that grows as the square takes more than 10 s

@@ -69,7 +69,7 @@ def test_a_name_that_no_file_can_have_is_refused():
         read_dma("sweeps\0.csv")
 
 
-@pytest.mark.timeout(10)  # read, they would never end
+@pytest.mark.timeout(60)  # read, they would never end
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such files")
 def test_devices_and_pipes_are_refused(tmp_path):
     os.mkfifo(tmp_path / "pipe")

@@ -165,7 +165,7 @@ def test_the_check_takes_no_time():
     check_superposition(fit)
     best = np.inf
     for _ in range(3):
-        start = time.perf_counter()
+        start = time.process_time()
         check_superposition(fit)
-        best = min(best, time.perf_counter() - start)
+        best = min(best, time.process_time() - start)
     assert best < 0.05  # about 0.01 s on one core

@@ -172,9 +172,9 @@ def test_acrylic_spectrum_is_as_good_as_the_best_peer_and_owns_to_its_missing_pl
     sweeps = vf.read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
     master = vf.superpose(sweeps, "20 degC").master_curve
     spectrum = fit_retardation_spectrum(master)
-    start = time.perf_counter()
+    start = time.process_time()
     spectrum = fit_retardation_spectrum(master)
-    elapsed = time.perf_counter() - start
+    elapsed = time.process_time() - start
     assert spectrum.fit.rms_storage <= 0.0105  # best peer: .0104
     assert spectrum.fit.rms_loss <= 0.0150  # best peer: .0147
     assert spectrum.fit.E0_extrapolated  # tan δ is 0.33 at 150 °C

@@ -236,9 +236,9 @@ def acrylic(real_data):
 def test_sixteen_modes_describe_the_acrylic_adhesive(real_data):
     master = acrylic(real_data)
     fit_retardation_spectrum(master, method="sparse", modes=16)
-    start = time.perf_counter()
+    start = time.process_time()
     spectrum = fit_retardation_spectrum(master, method="sparse", modes=16)
-    elapsed = time.perf_counter() - start
+    elapsed = time.process_time() - start
     assert len(spectrum) == 16
     assert spectrum.fit.rms_storage <= 0.012  # best peer with 16 modes: .0131
     assert spectrum.fit.rms_loss <= 0.018  # best peer with 16 modes: .0233

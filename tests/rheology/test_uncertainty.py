@@ -312,9 +312,9 @@ def test_what_a_fit_follows_is_missing_from_its_residuals():
 def test_two_hundred_samples_take_no_longer_than_two_seconds():
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
     sample_materials(fit, samples=20)
-    start = time.perf_counter()
+    start = time.process_time()
     sample_materials(fit)
-    assert time.perf_counter() - start < 4.0  # 0.4 s; a loaded machine may be slow
+    assert time.process_time() - start < 4.0  # 0.4 s; a loaded machine may be slow
 
 
 def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
