@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -121,6 +122,7 @@ def own_imports(module: str, text: str, is_package: bool = False) -> Iterator[Im
                 yield Import(module, name, getattr(node, "lineno", 0), at_run_time)
 
 
+@cache
 def all_imports() -> list[Import]:
     return [
         found

@@ -6,11 +6,16 @@ import re
 import shlex
 import subprocess
 import sys
+import traceback
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 import pytest
+from click.testing import CliRunner
+
+from viscofric.cli import main
+from viscofric.report import drawing
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted(path for path in [ROOT / "README.md", *ROOT.glob("docs/**/*.md")] if path.exists())
@@ -45,25 +50,17 @@ def commands(block: Block) -> list[list[str]]:
 
 
 def subcommands() -> set[str]:
-    from viscofric.cli import main
-
     return set(main.list_commands(click.Context(main)))
 
 
-def viscofric(arguments: list[str], folder: Path) -> str:
-    """Run the command line in the folder, as the installed script does; return what it prints."""
+def viscofric(arguments: list[str]) -> str:
+    """Run the command line in this process, which has loaded what it needs; return what it prints."""
     if arguments and arguments[0] in STAYS:
         arguments = [arguments[0], "--help"]
-    script = "import sys; sys.argv[0] = 'viscofric'; from viscofric.cli import main; main()"
-    done = subprocess.run(
-        [sys.executable, "-c", script, *arguments],
-        cwd=folder,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=False,
+    done = CliRunner().invoke(main, arguments, prog_name="viscofric")
+    assert done.exit_code == 0, f"viscofric {shlex.join(arguments)}\n{done.output}" + "".join(
+        traceback.format_exception(done.exception)
     )
-    assert done.returncode == 0, f"viscofric {shlex.join(arguments)}\n{done.stdout}\n{done.stderr}"
     return done.stdout + done.stderr
 
 
@@ -113,12 +110,24 @@ def run_command(words: list[str], folder: Path) -> str:
         known = subcommands() | {"test", "--help", "--help-all"}
         assert not arguments or arguments[0] in known, f"./run does not know {arguments[0]}"
         if arguments and arguments[0] not in ("demo", "test"):
-            return viscofric(arguments, folder)
+            return viscofric(arguments)
         return ""
     assert Path(program).name == "viscofric", f"a command that this test cannot run: {shlex.join(words)}"
     if arguments[:1] == ["run"]:
         thin_out(folder / arguments[1])
-    return viscofric(arguments, folder)
+    return viscofric(arguments)
+
+
+def draw_less(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Turn figures of reports into images, most of the time of a quick study, for the README only, and once each.
+
+    Tests of the report look at the others.
+    """
+    image = drawing._image
+    wanted = {"svg"} if page.name == "README.md" else set()
+    monkeypatch.setattr(
+        drawing, "_image", lambda figure, form: image(figure, form) if form in wanted else form.encode()
+    )
 
 
 def check_study(block: Block, folder: Path) -> None:
@@ -139,6 +148,7 @@ def check_study(block: Block, folder: Path) -> None:
 def test_what_the_page_shows_works(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
+    draw_less(page, monkeypatch)
     namespace: dict[str, Any] = {"__name__": "__main__"}
     printed = ""
     for block in blocks(page.read_text(encoding="utf-8")):

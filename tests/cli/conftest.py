@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def unrendered() -> Iterator[None]:
     """Let figures be drawn, but not turned into images, most of the time of a quick study.
 
-    Tests of the report look at the images; programs of their own, such as those of the README's commands, write them.
+    Tests of the report look at the images, and the commands of README.md write them.
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("viscofric.report.drawing._image", lambda figure, form: form.encode())

@@ -12,12 +12,14 @@ from matplotlib.collections import PathCollection
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
+from viscofric import report
 from viscofric.report import drawing
 from viscofric.rheology.cards.native import plain
 from viscofric.rheology.shifts.laws import WLF
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from matplotlib.figure import Figure
 
@@ -212,7 +214,7 @@ def _measured() -> dict[str, xr.Dataset]:
     return {"measurement": measurement, "agreement": agreement}
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def make_tree() -> Callable[..., xr.DataTree]:
     """Return a maker of results: with or without measurement, of any size, with any root attributes."""
 
@@ -254,6 +256,21 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> None:
         return f"{form} {texts} {[array.tolist() for array in points]}".encode()
 
     monkeypatch.setattr(drawing, "_image", words)
+
+
+@pytest.fixture(scope="session")
+def rendered(
+    make_tree: Callable[..., xr.DataTree], tmp_path_factory: pytest.TempPathFactory
+) -> tuple[list[Path], Path]:
+    """Return the files of all figures of the usual results, and their report, as users get them; drawn once for all."""
+    return report.write_figures_and_report(make_tree(), tmp_path_factory.mktemp("rendered") / "new")
+
+
+@pytest.fixture
+def few_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw one figure of friction and one of the rubber, where it does not matter which."""
+    for name in ("FRICTION_FIGURES", "RUBBER_FIGURES"):
+        monkeypatch.setattr(drawing, name, dict(list(getattr(drawing, name).items())[:1]))
 
 
 @pytest.fixture

@@ -41,8 +41,8 @@ def png_size(content: bytes) -> tuple[int, int]:
     return width, height
 
 
-def test_every_figure_is_written_as_png_and_svg(tree: xr.DataTree, tmp_path: Path) -> None:
-    paths = report.draw_figures(tree, tmp_path / "new" / "figures")
+def test_every_figure_is_written_as_png_and_svg(rendered: tuple[list[Path], Path]) -> None:
+    paths, _ = rendered
     assert [path.name for path in paths] == [f"{name}.{form}" for name in NAMES for form in ("png", "svg")]
     for path in paths:
         if path.suffix == ".png":

@@ -40,17 +40,17 @@ def measured(law, temperatures, seed, step=0.01, scatter=0.0):
 def test_the_planted_law_is_chosen(kind, scatter):
     law, temperatures = PLANTED[kind]
     chosen = Counter(
-        measured(law, temperatures, seed, scatter=scatter).compare_laws().chosen.kind for seed in range(20)
+        measured(law, temperatures, seed, scatter=scatter).compare_laws().chosen.kind for seed in range(10)
     )
-    assert chosen[kind] >= 18  # nine in ten; 99 in 100 were counted over a hundred seeds
+    assert chosen[kind] >= 9  # nine in ten; 99 in 100 were counted over a hundred seeds
 
 
 @pytest.mark.parametrize("kind", ["wlf", "arrhenius"])
 def test_few_temperatures_do_not_hide_a_curve_that_the_errors_show(kind):
     """Six of them; a straight line misses WLF by up to 0.13 decades, thirteen standard errors of 0.01."""
     law, temperatures = PLANTED[kind][0], np.arange(30.0, 71.0, 8.0) + 273.15
-    found = [measured(law, temperatures, seed).compare_laws() for seed in range(20)]
-    assert Counter(one.chosen.kind for one in found)[kind] >= 18  # nine in ten
+    found = [measured(law, temperatures, seed).compare_laws() for seed in range(10)]
+    assert Counter(one.chosen.kind for one in found)[kind] >= 9  # nine in ten
 
 
 def test_a_fitted_law_is_as_uncertain_as_it_says():
