@@ -262,7 +262,7 @@ def test_every_line_of_a_study_reaches_the_answer(tmp_path: Path) -> None:
             "speed": 'speed = "50 mm/s"',
             "temperature": 'temperature = "80 degC"',
             "indenter": '[indenter]\nradius = "7 mm"',
-            "accuracy": "[solver]\naccuracy = 1e-3",
+            "accuracy": "[solver]\naccuracy = 1e-4",
             "tau_ratio": "tau_ratio = 10.0",
             "shift": 'shift = "wlf"',
             "poisson_ratio": "poisson_ratio = 0.4",
