@@ -338,7 +338,7 @@ def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
 def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent(material, reference, noise):
     truth = vf.synthetic_fluoroelastomer() if material is None else synthetic_polymer()
     shares = []
-    for seed in range(36):
+    for seed in range(24):
         fit = vf.superpose(planted_sweeps(seed, noise, material=truth).sweeps, reference)
         samples = sample_materials(fit, samples=100, seed=seed)
         omega = np.geomspace(*samples.frequency_range, 60)
@@ -348,7 +348,7 @@ def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent(material, reference,
         shares.append((storage.mean(), loss.mean()))
     storage, loss = np.mean(shares, axis=0)
     # Points of one curve err together: the share of one seed scatters by 13 % in E', 6 % in E'' and 7 % in both,
-    # that of 36 by 2.2, 1.0 and 1.2 %; three of these about 95 %, and 0.5 % for limits from 100 samples.
-    assert storage > 0.88
-    assert 0.915 < loss < 0.985
-    assert 0.91 < 0.5 * (storage + loss) < 0.985
+    # that of 24 by 2.7, 1.2 and 1.4 %; three of these about 95 %, and 0.5 % for limits from 100 samples.
+    assert storage > 0.865
+    assert 0.91 < loss < 0.99
+    assert 0.905 < 0.5 * (storage + loss) < 0.99
