@@ -123,6 +123,26 @@ def test_accelerated_splitting_is_the_same_with_any_arrays_and_ffts(precision: t
     np.testing.assert_allclose(pressures(backend), expected, rtol=0.0, atol=tolerance * expected.max())
 
 
+@pytest.mark.parametrize("precision", [np.float32, np.float64])
+@pytest.mark.parametrize("shape", [(37, 23), (40, 1), (5, 64)])
+def test_convolutions_in_blocks_are_those_of_whole_arrays(
+    precision: type, shape: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Blocks of a few rows and columns, the last ones smaller, do the same operations."""
+    rng = np.random.default_rng(8)
+    padded = (2 * shape[0], 2 * shape[1])
+    values = rng.standard_normal(shape).astype(precision)
+    transforms = Backend().transforms
+    factor = transforms.forward(rng.standard_normal(padded).astype(precision))
+    whole = transforms.convolved(values, factor, padded)
+    monkeypatch.setattr("viscofric.contact.arrays.transforms._LARGE", 0)
+    monkeypatch.setattr("viscofric.contact.arrays.transforms._BLOCK", 3000)
+    found = transforms.convolved(values, factor, padded)
+    assert found.dtype == precision
+    # FFTs of several lines at once may add in another order.
+    np.testing.assert_allclose(found, whole, rtol=0.0, atol=10.0 * np.finfo(precision).eps * np.abs(whole).max())
+
+
 def test_padded_transforms_are_plain_convolutions(backend: Backend) -> None:
     rng = np.random.default_rng(5)
     influence, values = rng.standard_normal((13, 9)), rng.standard_normal((7, 5))

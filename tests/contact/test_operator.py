@@ -201,6 +201,19 @@ def test_dissipated_energy_of_short_memories_is_proportional_to_them() -> None:
     np.testing.assert_allclose(forces / lengths, forces[0] / lengths[0], rtol=1e-3)
 
 
+def test_dissipated_force_is_the_work_on_the_slopes() -> None:
+    """From overlaps of the pressure, as from a product: a quadratic form is half of its gradient times its argument."""
+    operator = HalfSpaceOperator(WINDOW, SIX_MODES)
+    pressure = np.random.default_rng(6).random(WINDOW.shape)
+    overlaps = operator.overlaps(pressure)
+    for bent, found in (
+        (False, operator.dissipated_force(pressure, overlaps)),
+        (True, operator.bent_dissipated_force(pressure, overlaps)),
+    ):
+        by_product = 0.5 * float(np.vdot(operator.dissipated_force_gradient(pressure, bent=bent), pressure))
+        assert found == pytest.approx(by_product, rel=1e-12)
+
+
 def test_products_are_counted() -> None:
     operator = HalfSpaceOperator(WINDOW, ONE_MODE)
     operator.dissipated_force(operator(np.ones(WINDOW.shape)))

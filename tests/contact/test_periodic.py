@@ -597,3 +597,14 @@ def test_solution_becomes_a_labelled_data_set() -> None:
     data = solution.to_dataset()
     assert data["pressure"].attrs["units"] == "Pa"
     assert data["gap"].shape == (16, 16)
+
+
+def test_coarser_surfaces_keep_the_waves_that_they_can_hold() -> None:
+    """On half the points the same surface, on a third of them without its short wave."""
+    x, y = np.meshgrid(np.arange(24) / 24, np.arange(12) / 12, indexing="ij")
+    long, short = np.cos(2.0 * np.pi * (2.0 * x + y)), np.sin(2.0 * np.pi * 5.0 * x)
+    half, third = PeriodicSurface(long + short, 0.5).coarser([(12, 6), (8, 4)])
+    np.testing.assert_allclose(half.z, (long + short)[::2, ::2], rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(third.z, long[::3, ::3], rtol=0.0, atol=1e-14)
+    assert half.spacing == (1.0, 1.0)
+    assert third.spacing == (1.5, 1.5)

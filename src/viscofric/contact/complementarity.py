@@ -190,12 +190,12 @@ def solve_complementarity(
             fixed_load=load is not None, extension=extension,
         )  # fmt: skip
         linear_iterations += steps
-        pressure = contact.added(pressure, correction)
-        negative = pressure < 0.0
-        pressure[negative] = 0.0
-        wrong, cells = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(negative)), len(contact)
-        pressure = _loaded_to(xp, pressure, load)
-        del state_now, gap, overlapping, contact, correction, negative  # large, and no longer needed
+        values = contact.gathered(pressure) + correction
+        wrong, cells = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(values < 0.0)), len(contact)
+        values = _loaded_to(xp, backend.positive_part(values), load)
+        # Not into the old pressure, which may be the best so far.
+        pressure = contact.inserted(xp.zeros_like(pressure), values)
+        del state_now, gap, overlapping, contact, correction, values  # large, and no longer needed
         displacement = operator(pressure)
         if near_end:
             reduction = next(each for part, each in _REDUCTIONS if wrong > part * cells or part == 0.0)

@@ -216,13 +216,6 @@ class Cells:
         """Values (n,) of a field at the cells."""
         return self.backend.xp.reshape(field, (-1,))[self.indices]
 
-    def added(self, field: AnyArray, values: AnyArray) -> AnyArray:
-        """Return a field with values added at the cells."""
-        xp = self.backend.xp
-        found = xp.asarray(field, copy=True)
-        xp.reshape(found, (-1,))[self.indices] += values
-        return found
-
     def inserted(self, field: AnyArray, values: AnyArray) -> AnyArray:
         """Return a field with values put in at the cells; the field may be overwritten."""
         self.backend.xp.reshape(field, (-1,))[self.indices] = values
@@ -244,10 +237,6 @@ class MaskedCells(Cells):
         """Values (n,) of a field at the cells."""
         xp = self.backend.xp
         return xp.take(xp.reshape(field, (-1,)), self.indices)
-
-    def added(self, field: AnyArray, values: AnyArray) -> AnyArray:
-        """Return a field with values added at the cells."""
-        return field + self.scattered(values)
 
     def inserted(self, field: AnyArray, values: AnyArray) -> AnyArray:
         """Return a field with values put in at the cells."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,37 @@ if TYPE_CHECKING:
 Shape: TypeAlias = tuple[int, int]
 
 
-class StandardTransforms:
+# Bytes of a spectrum from which on it is worked through in blocks, and bytes of a block: about a half of the cache
+# that a core has to itself.
+_LARGE, _BLOCK = 2**22, 2**19
+
+
+class Transforms(Protocol):
+    """Real FFTs of a library.
+
+    Spectra are (nx, ny//2 + 1).  What is transformed back may be overwritten.
+    """
+
+    def forward(self, values: Any) -> Any:
+        """Spectrum of real values."""
+
+    def inverse(self, spectrum: Any, shape: Shape) -> Any:
+        """Real values of the given shape."""
+
+    def forward_padded(self, values: Any, padded: Shape) -> Any:
+        """Spectrum of real values with zeros behind them up to a shape; zeros are not transformed along y."""
+
+    def inverse_cropped(self, spectrum: Any, padded: Shape, shape: Shape) -> Any:
+        """First `shape` of the real values whose spectrum, of the padded shape, is given."""
+
+    def convolved(self, values: Any, factor: Any, padded: Shape) -> Any:
+        """First of the real values, as many as are given, whose spectrum is the factor times that of those given."""
+        waves = self.forward_padded(values, padded)
+        waves *= factor
+        return self.inverse_cropped(waves, padded, values.shape)
+
+
+class StandardTransforms(Transforms):
     """FFTs of the array standard's ``fft`` namespace: PyTorch, CuPy and whatever else has one.
 
     Spectra are (nx, ny//2 + 1).  What is transformed back may be overwritten.
@@ -45,7 +75,7 @@ class StandardTransforms:
         return self._fft.irfft(lines, n=padded[1], axis=1)[:, : shape[1]]
 
 
-class ScipyTransforms:
+class ScipyTransforms(Transforms):
     """SciPy's FFTs.
 
     Parameters
@@ -76,8 +106,35 @@ class ScipyTransforms:
         lines = self._fft.ifft(spectrum, axis=0, overwrite_x=True, workers=self._threads)[: shape[0]]
         return self._fft.irfft(lines, padded[1], axis=1, workers=self._threads)[:, : shape[1]]  # type: ignore[no-any-return]
 
+    def convolved(self, values: AnyArray, factor: AnyArray, padded: Shape) -> AnyArray:
+        """First of the real values, as many as are given, whose spectrum is the factor times that of those given.
 
-class DuccTransforms:
+        Of large arrays the padded spectrum is never there as a whole: all that happens along x is done with some
+        columns at a time, which stay in the processor's cache.
+        """
+        if factor.nbytes < _LARGE:
+            return super().convolved(values, factor, padded)  # type: ignore[no-any-return]
+        (nx, ny), (px, py), waves = values.shape, padded, factor.shape[1]
+        rows = max(1, _BLOCK // (py * values.itemsize))
+        columns = max(4, _BLOCK // (px * factor.itemsize))
+        lines = np.empty((nx, waves), factor.dtype)
+        for i in range(0, nx, rows):
+            lines[i : i + rows] = self._fft.rfft(values[i : i + rows], py, axis=1, workers=self._threads)
+        block = np.empty((px, columns), factor.dtype)
+        for j in range(0, waves, columns):
+            part = lines[:, j : j + columns]
+            some = block[:, : part.shape[1]]
+            some[:nx], some[nx:] = part, 0.0
+            some = self._fft.fft(some, axis=0, overwrite_x=True, workers=self._threads)
+            some *= factor[:, j : j + columns]
+            part[...] = self._fft.ifft(some, axis=0, overwrite_x=True, workers=self._threads)[:nx]
+        found = np.empty_like(values)
+        for i in range(0, nx, rows):
+            found[i : i + rows] = self._fft.irfft(lines[i : i + rows], py, axis=1, workers=self._threads)[:, :ny]
+        return found
+
+
+class DuccTransforms(Transforms):
     """FFTs of ducc0, which pad nothing by themselves but write wherever they are told to.
 
     Parameters
@@ -122,7 +179,7 @@ class DuccTransforms:
 _MOST_PLANS = 64
 
 
-class FftwTransforms:
+class FftwTransforms(Transforms):
     """FFTs of FFTW by its estimated plans, made once for each size: measured ones would take longer than they save.
 
     Parameters

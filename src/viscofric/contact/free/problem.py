@@ -125,10 +125,18 @@ class Stage:
         slope = self.problem.shape.slope_across(self.window.x[:, None], self.window.y)
         return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / self.load
 
-    @cached_property
+    @property
     def energy_friction(self) -> float:
         """Friction coefficient from the dissipated energy."""
-        return self.operator.dissipated_force(self.result.pressure) / self.load
+        return self._dissipated[0]
+
+    @cached_property
+    def _dissipated(self) -> tuple[float, float]:
+        """Friction coefficient from the dissipated energy, as slopes and as bends tell it."""
+        pressure = self.result.pressure
+        overlaps = self.operator.overlaps(pressure)
+        straight = self.operator.dissipated_force(pressure, overlaps)
+        return straight / self.load, self.operator.bent_dissipated_force(pressure, overlaps) / self.load
 
     @cached_property
     def balanced_friction(self) -> Estimate:
@@ -139,7 +147,7 @@ class Stage:
         """
         if self.problem.shape.has_walls:
             return Estimate(self.energy_friction, 0.0)
-        force = self.operator.bent_dissipated_force(self.result.pressure) / self.load
+        force = self._dissipated[1]
         lags = [lag(self.operator.material, self.window.spacing, cut) for cut in CUTS]
         return Estimate(force + lags[1] * self.opening, (lags[0] - lags[2]) * self.opening)
 

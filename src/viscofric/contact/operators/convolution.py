@@ -96,8 +96,11 @@ class Influence(NamedTuple):
     bent_dissipation: Array
 
     def times(self, unit: float, length: float) -> Influence:
-        """Return displacements in a unit times a length, their slopes in that unit."""
-        return Influence(unit * length * self.displacement, unit * self.dissipation, unit * self.bent_dissipation)
+        """Return displacements in a unit times a length, their slopes in that unit; in place, since they are large."""
+        self.displacement[...] *= unit * length
+        self.dissipation[...] *= unit
+        self.bent_dissipation[...] *= unit
+        return self
 
 
 @dataclass
@@ -190,9 +193,7 @@ class ConvolutionOperator(ABC):
         return self._convolve(self._transfer, self.backend.asarray(pressure))
 
     def _convolve(self, spectrum: AnyArray, values: AnyArray) -> AnyArray:
-        waves = self.backend.transforms.forward_padded(values, self._padded)
-        waves *= spectrum
-        return self.backend.transforms.inverse_cropped(waves, self._padded, self.window.shape)
+        return self.backend.transforms.convolved(values, spectrum, self._padded)
 
     def precondition(self, residual: AnyArray) -> AnyArray:
         """Pressure that would cause a displacement, nearly: the inverse of the nearest periodic operator."""
@@ -200,15 +201,29 @@ class ConvolutionOperator(ABC):
         waves *= self._inverse_symbol
         return self.backend.transforms.inverse(waves, self.window.shape)
 
-    def dissipated_force(self, pressure: Array) -> float:
+    def overlaps(self, pressure: Array) -> Array:
+        """Return Σ_j p_j p_(j+d) for each distance d at which influence coefficients stand, (2 nx − 1, ny).
+
+        Those on either side of y = 0 are added up, and so are, since d and −d belong to the same pairs, those before
+        and behind.  The energy that a pressure dissipates is the sum of their products with the coefficients.
+        """
+        nx, ny = self.window.shape
+        waves = self.backend.transforms.forward_padded(self.backend.asarray(pressure), self._padded)
+        waves *= self.backend.xp.conj(waves)
+        found = self.backend.to_numpy(self.backend.transforms.inverse(waves, self._padded))
+        folded: Array = np.concatenate([found[self._padded[0] - nx + 1 :, :ny], found[:nx, :ny]])
+        folded[:, 1:] += folded[::-1, 1:]
+        return folded
+
+    def dissipated_force(self, pressure: Array, overlaps: Array | None = None) -> float:
         """Friction force from the energy that the material dissipates, per unit of distance slid.
 
         F_t = −∫ p ∂u/∂x dA, in which only the memory does work; in Fourier space the integral over q of
-        2 q_x |p̂|² (−Im S)/|q| (see docs/contact_numerics.md).
+        2 q_x |p̂|² (−Im S)/|q| (see docs/contact_numerics.md).  `overlaps` of the pressure are found if not given.
         """
-        return self._resistance(self._dissipation, pressure)
+        return self._resistance(self._dissipation, pressure, overlaps)
 
-    def bent_dissipated_force(self, pressure: Array) -> float:
+    def bent_dissipated_force(self, pressure: Array, overlaps: Array | None = None) -> float:
         """Friction force from the dissipated energy, that of short memories from the bends of the surface.
 
         The displacement of one mode, y_k − l_k ∂y_k/∂x = c_k L p, dissipates −∫ p ∂y_k/∂x dA = −l_k ∫ p ∂²y_k/∂x² dA,
@@ -217,11 +232,11 @@ class ConvolutionOperator(ABC):
         gap; see `viscofric.contact.free.balance`.  Modes whose memory is long against the cell keep the slope, which is
         more accurate for them; `bent_share` says how much of each mode.
         """
-        return self._resistance(self._bent_dissipation, pressure)
+        return self._resistance(self._bent_dissipation, pressure, overlaps)
 
-    def _resistance(self, influence: Array, pressure: Array) -> float:
-        slope = self._convolve(self._spectrum(influence), self.backend.asarray(pressure))
-        return -self.window.cell_area * float(np.vdot(pressure, self.backend.to_numpy(slope)))
+    def _resistance(self, influence: Array, pressure: Array, overlaps: Array | None) -> float:
+        overlaps = self.overlaps(pressure) if overlaps is None else overlaps
+        return -self.window.cell_area * float(np.vdot(influence, overlaps))
 
     def dissipated_force_gradient(self, pressure: Array, *, bent: bool = False) -> Array:
         """Change of `dissipated_force`, or of `bent_dissipated_force`, with the pressure of each cell, (nx, ny)."""
@@ -323,7 +338,10 @@ def bent_share(memory_lengths: Array) -> Array:
 
 def second_difference(values: Array) -> Array:
     """Second difference along the first axis, which it shortens by two."""
-    return np.asarray(values[2:] - 2.0 * values[1:-1] + values[:-2])
+    found = -2.0 * values[1:-1]
+    found += values[2:]
+    found += values[:-2]
+    return np.asarray(found)
 
 
 def collocation_shift(material: SteadyMaterial, spacing: float) -> float:

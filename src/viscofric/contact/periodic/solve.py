@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.levels import Work
-    from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.contact.periodic.surface import Coarser, PeriodicSurface
     from viscofric.rheology.material import Material
 
     Array: TypeAlias = NDArray[np.float64]
@@ -146,23 +146,25 @@ def solve_periodic(
     # The unit of compliance, m/Pa: that of the wave which yields most.
     unit = float(np.abs(finest).max())
     finest /= unit
+    coarser = surface.coarser(coarser_shapes(surface.shape))
     result, work = solve_on_levels(
-        _stages(surface, solid, depth, unit, finest),
+        _stages(surface, coarser, solid, _Units(depth, unit), finest),
         mean_pressure=None if given.pressure is None else given.pressure * unit / depth,
         offset=None if given.gap is None else given.gap / depth,
         tolerance=tolerance,
         most_products=most_products,
         backend=where,
     )
-    solution = _assemble(surface, solid, result, work, given, _Units(depth, unit), (velocity, toward, kelvin), finest)
-    return replace(solution, warnings=_doubts(solution, surface, layer))
+    # The friction on the next coarser grid tells something where that has all the waves of the surface.
+    same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
+    motion = velocity, toward, kelvin
+    solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
+    return replace(solution, warnings=_doubts(solution, steepness, layer))
 
 
-def _doubts(solution: PeriodicSolution, surface: PeriodicSurface, layer: Layer | None) -> tuple[str, ...]:
+def _doubts(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[str, ...]:
     """Return what is doubtful about small strain; of many spots the rms slope says more than the steepest place."""
-    loaded = solution.pressure > 0.0
-    square = sum(float(np.square(surface.slope(axis)[loaded]).mean()) for axis in ((1.0, 0.0), (0.0, 1.0)))
-    doubts = [too_steep(math.sqrt(square))]
+    doubts = [too_steep(steepness)]
     if layer is not None:
         doubts.append(layer.doubt(solution.indentation))
     return tuple(doubt for doubt in doubts if doubt)
@@ -205,19 +207,28 @@ def _component(velocity: float, part: float) -> float:
 
 
 def _stages(
-    surface: PeriodicSurface, solid: SlidingSolid, depth: float, unit: float, finest: NDArray[Any]
+    surface: PeriodicSurface, coarser: list[Coarser], solid: SlidingSolid, units: _Units, finest: NDArray[Any]
 ) -> Iterator[Stage]:
     """Yield the contact on each grid, coarsest first, given the transfer function of the finest."""
-    for shape in reversed(coarser_shapes(surface.shape)):
-        z, spacing = surface.coarser(shape)
-        relaxed = functools.partial(solid.relaxed_shape, shape, spacing)
-        yield Stage((z.max() - z) / depth, solid.transfer(shape, spacing) / unit, relaxed)
+    for z, spacing in reversed(coarser):
+        relaxed = functools.partial(solid.relaxed_shape, z.shape, spacing)
+        transfer = solid.transfer(z.shape, spacing)
+        transfer /= units.compliance
+        yield Stage(_heights(z, units), transfer, relaxed)
     relaxed = functools.partial(solid.relaxed_shape, surface.shape, surface.spacing)
-    yield Stage((surface.z.max() - surface.z) / depth, finest, relaxed)
+    yield Stage(_heights(surface.z, units), finest, relaxed)
+
+
+def _heights(z: Array, units: _Units) -> Array:
+    """Heights above the lowest point of the indenter, which are z downwards, in units of the depth."""
+    found = z.max() - z
+    found /= units.depth
+    return np.asarray(found)
 
 
 def _assemble(
     surface: PeriodicSurface,
+    coarser: Coarser | None,
     solid: SlidingSolid,
     result: ComplementaritySolution,
     work: Work,
@@ -225,30 +236,27 @@ def _assemble(
     units: _Units,
     motion: tuple[float, tuple[float, float], float | None],
     transfer: NDArray[np.complex128] | Array,
-) -> PeriodicSolution:
-    """Return to SI units, and balance the energy."""
+) -> tuple[PeriodicSolution, float]:
+    """Return to SI units, and balance the energy; also return the rms slope under pressure."""
     velocity, toward, kelvin = motion
     pressure = (units.depth / units.compliance) * result.pressure
     mean_pressure = float(pressure.mean())
     compression = solid.mean_compression() * mean_pressure
     gap = result.displacement + (surface.z.max() - surface.z) / units.depth - result.indentation
     gap *= units.depth
-    # Heights fall where the indenter's surface rises towards the rubber: ∂h/∂x = −∂z/∂x.
-    slope = surface.slope(toward)
-    slope *= -1.0
-    by_pressure = float(np.vdot(pressure, slope)) / pressure.size
-    del slope
+    by_pressure, steepness = _on_slopes(surface, pressure, toward)
     transfer *= units.compliance
     waves = scipy.fft.rfft2(pressure)
     by_energy = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
     lateral = dissipation(transfer, surface.shape, surface.spacing, (-toward[1], toward[0]), waves)
     del waves
-    coarser = _coarser_friction(surface, solid, work, units, toward)
-    error = max(abs(by_pressure - by_energy), 0.0 if coarser is None else abs(coarser - by_energy))
+    error = abs(by_pressure - by_energy)
+    if coarser is not None and work.coarser_pressure is not None:
+        error = max(error, abs(_friction_on(coarser, work.coarser_pressure, solid, units, toward) - by_energy))
     floor = FRICTION_FLOOR * mean_pressure * 2.0 * math.pi * units.depth / max(surface.period)
     mean_gap = float(gap.mean())
     asked, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
-    return PeriodicSolution(
+    solution = PeriodicSolution(
         speed=velocity,
         direction=toward,
         temperature=kelvin,
@@ -281,17 +289,26 @@ def _assemble(
             grids=work.grids,
         ),
     )
+    return solution, steepness
 
 
-def _coarser_friction(
-    surface: PeriodicSurface, solid: SlidingSolid, work: Work, units: _Units, toward: tuple[float, float]
-) -> float | None:
-    """Return the friction force per area on the next coarser grid, if that has all the waves of the surface."""
-    if work.coarser_pressure is None:
-        return None
-    shape = work.coarser_pressure.shape
-    z, spacing = surface.coarser(shape)
-    if float(z.std()) < (1.0 - LIKENESS) * surface.rms_height:
-        return None
-    waves = scipy.fft.rfft2((units.depth / units.compliance) * work.coarser_pressure)
+def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, float]) -> tuple[float, float]:
+    """Return the friction force per area from the pressure on the slopes, and the rms slope under pressure."""
+    loaded = pressure > 0.0
+    force = square = 0.0
+    for part, axis in zip(toward, ((1.0, 0.0), (0.0, 1.0)), strict=True):
+        slope = surface.slope(axis)
+        # Heights fall where the indenter's surface rises towards the rubber: ∂h/∂x = −∂z/∂x.
+        force -= part * float(np.vdot(pressure, slope)) / pressure.size
+        under = slope[loaded]
+        square += float(under @ under) / under.size
+    return force, math.sqrt(square)
+
+
+def _friction_on(
+    coarser: Coarser, pressure: Array, solid: SlidingSolid, units: _Units, toward: tuple[float, float]
+) -> float:
+    """Return the friction force per area on the next coarser grid."""
+    waves = scipy.fft.rfft2((units.depth / units.compliance) * pressure)
+    shape, spacing = pressure.shape, coarser.spacing
     return dissipation(solid.transfer(shape, spacing), shape, spacing, toward, waves)

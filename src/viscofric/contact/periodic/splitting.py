@@ -62,32 +62,34 @@ def split_steps(
     """
     backend, xp = operator.backend, operator.backend.xp
     height = backend.asarray(height)
-    resolvent = backend.reciprocal(operator.transfer + rho)
+    # y and p are multiplied by ρ throughout, so that most of a step is done in place.
+    resolvent = backend.reciprocal(operator.transfer / rho + 1.0)
     pressure = xp.astype(backend.asarray(guess), operator.dtype)
     offset = float(xp.mean(height)) if indentation is None else indentation
     surface = xp.astype(height - offset, operator.dtype, copy=False)
     gap = operator(pressure) + surface
     if indentation is None:
         gap -= xp.mean(gap[pressure > 0.0])
-    state = pressure + backend.positive_part(gap) / rho
+    state = rho * pressure + backend.positive_part(gap)
     acceleration = Acceleration(backend) if accelerated else None
-    result = pressure
+    result = rho * pressure
     for _ in range(steps):
-        waves = backend.transforms.forward(rho * state - surface)
+        waves = backend.transforms.forward(state - surface)
         waves *= resolvent
         if load is not None:
-            waves[0, 0] = load
+            waves[0, 0] = rho * load
         flat = backend.transforms.inverse(waves, operator.shape)
-        result = 2.0 * flat
-        result -= state
-        result = backend.positive_part(result)
         if acceleration is None:
-            state += result
             state -= flat
+            flat -= state
+            result = backend.positive_part(flat)
+            state += result
         else:
+            result = backend.positive_part(2.0 * flat - state)
             state = acceleration.next(state, result - flat)
     operator.ffts += 2 * steps
     operator.products += steps
+    result /= rho
     return xp.astype(result, xp.float64, copy=False)
 
 

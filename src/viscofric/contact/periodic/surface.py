@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 import scipy.fft
@@ -13,9 +13,18 @@ from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     Array: TypeAlias = NDArray[np.float64]
+
+
+class Coarser(NamedTuple):
+    """Heights of a surface on fewer points, (mx, my), m, and the distances between these along x and y, m."""
+
+    z: Array
+    spacing: tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,18 +115,24 @@ class PeriodicSurface:
                 found += scipy.fft.irfft(waves, points, axis=axis, overwrite_x=True)
         return found
 
-    def coarser(self, shape: tuple[int, int]) -> tuple[Array, tuple[float, float]]:
-        """Return heights of the same period on fewer points, their shortest waves left out, and their spacing."""
-        (nx, ny), (mx, my) = self.shape, shape
+    def coarser(self, shapes: Sequence[tuple[int, int]]) -> list[Coarser]:
+        """Return likenesses of the same period on fewer points, their shortest waves left out."""
+        if not shapes:
+            return []
         fine = scipy.fft.rfft2(self.z)
+        fine /= self.z.size
+        return [self._likeness(fine, shape) for shape in shapes]
+
+    def _likeness(self, fine: NDArray[np.complex128], shape: tuple[int, int]) -> Coarser:
+        mx, my = shape
         coarse = np.zeros((mx, my // 2 + 1), complex)
         # The Nyquist waves of the coarse grid, which have no direction, are left out as well.
         ahead, behind, across = (mx + 1) // 2, (mx - 1) // 2, (my + 1) // 2
         coarse[:ahead, :across] = fine[:ahead, :across]
         if behind:
             coarse[-behind:, :across] = fine[-behind:, :across]
-        z = scipy.fft.irfft2(coarse * (mx * my / (nx * ny)), shape)
-        return z, (self.period[0] / mx, self.period[1] / my)
+        coarse *= mx * my
+        return Coarser(scipy.fft.irfft2(coarse, shape, overwrite_x=True), (self.period[0] / mx, self.period[1] / my))
 
 
 def interpolated(values: Array, shape: tuple[int, int]) -> Array:
@@ -126,9 +141,29 @@ def interpolated(values: Array, shape: tuple[int, int]) -> Array:
         given = values.shape[axis]
         if given == points:
             continue
+        if points == 2 * given:
+            values = _doubled(values, axis)
+            continue
         place = np.arange(points) * (given / points)
         before = np.floor(place).astype(int)
         part = (place - before).reshape((-1, 1) if axis == 0 else (1, -1))
         after = np.take(values, (before + 1) % given, axis)
         values = (1.0 - part) * np.take(values, before, axis) + part * after
     return values
+
+
+def _doubled(values: Array, axis: int) -> Array:
+    """Put the mean of each two neighbours between them, along one axis."""
+    nx, ny = values.shape
+    found = np.empty((nx, 2, ny) if axis == 0 else (nx, ny, 2))
+    between = found[:, 1, :] if axis == 0 else found[:, :, 1]
+    if axis == 0:
+        found[:, 0, :] = values
+        np.add(values[:-1], values[1:], out=between[:-1])
+        np.add(values[-1], values[0], out=between[-1])
+    else:
+        found[:, :, 0] = values
+        np.add(values[:, :-1], values[:, 1:], out=between[:, :-1])
+        np.add(values[:, -1], values[:, 0], out=between[:, -1])
+    between *= 0.5
+    return found.reshape((2 * nx, ny) if axis == 0 else (nx, 2 * ny))
