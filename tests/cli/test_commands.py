@@ -210,7 +210,8 @@ def test_template_names_every_key_of_a_run_file() -> None:
         line.removeprefix("# ") if line.startswith(commented) else line for line in text.splitlines()
     )
     written = tomllib.loads(behind_comments)
-    for key in keys(Study):
+    # A surface stands in the place of an indenter, and has a starter file of its own; the README names all its keys.
+    for key in set(keys(Study)) - {"surface"}:
         assert key in written
         for name in keys(TABLES[key]) if key in TABLES else ():
             assert name in written[key], f"[{key}] {name}"

@@ -25,7 +25,7 @@ from viscofric.friction.identification.solving import Contacts
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-SETTINGS = {"indenter": BALL, "accuracy": 1e-3, "samples": 40, "modes": 15}
+SETTINGS = {"indenter": BALL, "accuracy": 1e-2, "samples": 40, "modes": 15}
 WARM = (REFERENCE, REFERENCE + 4.0, REFERENCE + 9.0)
 
 
@@ -47,13 +47,13 @@ def error_of(found: vf.IdentifiedMaterial, omega: NDArray[np.float64]) -> NDArra
 
 def test_modulus_and_shifts_come_back(found: vf.IdentifiedMaterial) -> None:
     omega = np.geomspace(*found.frequency_range, 12)
-    # Both sides of the planted friction are solved to some 1e-4.
-    np.testing.assert_allclose(error_of(found, omega), 0.0, atol=0.01)
+    # The planted friction is solved to some 1e-4, that of the fit, to 1 % as asked for, to a few of it.
+    np.testing.assert_allclose(error_of(found, omega), 0.0, atol=2e-3)
     assert found.shift_found
     factors = found.shift_factors
     np.testing.assert_allclose(factors.temperatures, WARM)
-    np.testing.assert_allclose(factors.log10_values, RUBBER.shift.log10(np.array(WARM)), atol=0.01)
-    assert found.rms < 2e-3
+    np.testing.assert_allclose(factors.log10_values, RUBBER.shift.log10(np.array(WARM)), atol=1e-3)
+    assert found.rms < 1e-3
     assert found.identified.decades > 1.5  # the contacts' own 1.8 decades, about
     assert not found.identified.relative
     assert found.family == ()
@@ -117,8 +117,7 @@ def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
     speed = 0.05
     contact = vf.solve_steady(RUBBER, BALL, speed=speed, load=LOAD, temperature=REFERENCE)
     anchor = vf.ContactAnchor(speed, REFERENCE, LOAD, error=2e-3, **{size: getattr(contact, size)})
-    settings = SETTINGS | {"accuracy": 1e-2, "samples": 20}
-    found = vf.identify_material(planted_curves(REFERENCE), anchor=anchor, **settings)
+    found = vf.identify_material(planted_curves(REFERENCE), anchor=anchor, **(SETTINGS | {"samples": 20}))
     assert found.anchored
     assert found.material.shift is None
     # δ and area go as E^(−2/3), the half width as E^(−1/3); sizes are solved to 0.5 %, and meant to 0.2 %.
