@@ -149,7 +149,7 @@ def _named(name: str) -> NamedRubber:
             rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic, rubber
         )
     from viscofric.cli.material.rubbers import find_rubber
-    from viscofric.rheology import catalogue
+    from viscofric.rheology.catalogue import catalogue
 
     material = find_rubber(name)
     synthetic = any(entry.kind == "SYNTHETIC" and entry.make().name == material.name for entry in catalogue())

@@ -10,7 +10,7 @@ from viscofric.cli.errors import told
 @click.command(name="list")
 def command() -> None:
     """List the rubbers of the catalogue, with their source."""
-    from viscofric.rheology import catalogue
+    from viscofric.rheology.catalogue import catalogue
 
     with told():
         for entry in catalogue():
