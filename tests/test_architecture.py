@@ -6,6 +6,7 @@ import ast
 import importlib
 import inspect
 import os
+import pkgutil
 import re
 import shutil
 import subprocess
@@ -230,6 +231,13 @@ def test_public_names_resolve_and_say_what_they_are() -> None:
             if not told or told.startswith(f"{name}("):  # what dataclasses write by themselves
                 silent.append(name)
     assert not silent, f"public, but without a docstring: {silent}"
+
+
+@pytest.mark.parametrize("package", ["viscofric", "viscofric.rheology", "viscofric.study"])
+def test_name_that_is_loaded_when_used_is_no_module_too(package: str) -> None:
+    """Which of the two an import would find would depend on what was imported before."""
+    room = importlib.import_module(package)
+    assert not set(room._HOME) & {module.name for module in pkgutil.iter_modules(room.__path__)}
 
 
 def test_unknown_public_name_is_an_attribute_error() -> None:

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.cards import read_card as read_card
     from viscofric.rheology.cards import write_card as write_card
     from viscofric.rheology.catalogue import CatalogueEntry as CatalogueEntry
-    from viscofric.rheology.catalogue import catalogue as catalogue
     from viscofric.rheology.catalogue import catalogue_material as catalogue_material
     from viscofric.rheology.catalogue import synthetic_fluoroelastomer as synthetic_fluoroelastomer
     from viscofric.rheology.material import Material as Material
@@ -48,7 +47,6 @@ _HOME = {
     "read_card": "viscofric.rheology.cards",
     "write_card": "viscofric.rheology.cards",
     "CatalogueEntry": "viscofric.rheology.catalogue",
-    "catalogue": "viscofric.rheology.catalogue",
     "catalogue_material": "viscofric.rheology.catalogue",
     "synthetic_fluoroelastomer": "viscofric.rheology.catalogue",
     "Material": "viscofric.rheology.material",
