@@ -18,7 +18,7 @@ catalogue = "synthetic fluoroelastomer"
 [indenter]
 radius = "9.525 mm"
 [conditions]
-load = "25 N"
+load = ["25 N", "10 N"]
 speed = "100 mm/s"
 temperature = "35 degC"
 thickness = "5 mm"
@@ -84,7 +84,8 @@ def test_points_of_the_master_curve_are_at_its_load(results: StudyResults) -> No
     given = curves()
     reduced = np.sort(law(given.temperature) * given.speed)
     np.testing.assert_allclose(master["reduced_speed"].values, reduced, rtol=1e-12)
-    assert master.attrs["load"] == 25.0
+    assert master.attrs["load"] == 25.0  # the first of those that are asked for
+    assert results.dataset["load"].values.tolist() == [25.0, 10.0]
 
 
 def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:

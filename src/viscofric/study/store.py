@@ -64,6 +64,11 @@ class CaseStore:
         write_atomically(probe, b"")
         probe.unlink(missing_ok=True)
 
+    def sweep(self) -> None:
+        """Remove what a run that was killed had begun to write; for who has the folder for themselves."""
+        for path in self.folder.glob(".*"):
+            path.unlink(missing_ok=True)
+
     def put(self, key: str, outcome: Record | Failure) -> None:
         """Store what became of a case; it is either there whole or not at all.
 

@@ -116,7 +116,9 @@ class Runs:
         raise AssertionError("the process that starts the runs ended")
 
 
-def killed_and_resumed(study: Path, folder: Path, kills: int, workers: int, seed: int, contacts: int) -> Account:
+def killed_and_resumed(
+    runs: Runs, study: Path, folder: Path, kills: int, workers: int, seed: int, contacts: int
+) -> Account:
     """Kill runs at random moments, a few of them after the last contact, until one comes to its end.
 
     Parameters
@@ -125,17 +127,16 @@ def killed_and_resumed(study: Path, folder: Path, kills: int, workers: int, seed
         Of the study, which are spread over the kills.
     """
     chance, account = random.Random(seed), Account()
-    # Half a dozen events come before the first contact, two for each; on an average, a third of the contacts is left.
-    most = 6 + 2 * contacts // kills
-    with Runs() as runs:
-        for _ in range(kills):
-            after, wait = chance.randint(0, most), chance.uniform(0.0, 0.05)
-            status, events = runs.run(study, folder, workers, after, wait)
-            assert status == -signal.SIGKILL, "there was nothing left to kill: give it more to solve"
-            account.read(events)
-        status, events = runs.run(study, folder, workers, None, 0.0)
-        assert status == 0
+    # Half a dozen events come before the first contact, two for each; half of the contacts are left for the last run.
+    most = 6 + contacts // kills
+    for _ in range(kills):
+        after, wait = chance.randint(0, most), chance.uniform(0.0, 0.05)
+        status, events = runs.run(study, folder, workers, after, wait)
+        assert status == -signal.SIGKILL, "there was nothing left to kill: give it more to solve"
         account.read(events)
+    status, events = runs.run(study, folder, workers, None, 0.0)
+    assert status == 0
+    account.read(events)
     return account
 
 

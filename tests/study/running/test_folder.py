@@ -92,3 +92,14 @@ def test_folder_that_cannot_be_written_is_one_sentence(tmp_path: Path, monkeypat
     refused = pytest.raises(DataFileError, match=r"cannot be written \(Read-only file system\)")
     with refused, study_folder(tmp_path / "new", resume=False):
         pass
+
+
+def test_what_a_killed_run_had_begun_to_write_is_removed(tmp_path: Path) -> None:
+    (tmp_path / "cases").mkdir()
+    for name in (".abc.json.x1y2", "abc.json"):
+        (tmp_path / "cases" / name).write_text("{")
+    (tmp_path / ".results.3z4").mkdir()
+    (tmp_path / ".results.3z4" / "results.nc").touch()
+    with study_folder(tmp_path, resume=True) as store:
+        assert [path.name for path in store.folder.iterdir()] == ["abc.json"]
+        assert {path.name for path in tmp_path.iterdir()} == {".lock", "cases"}

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import platform
+import shutil
 import sys
 from datetime import UTC, datetime
 from typing import IO, TYPE_CHECKING
@@ -47,6 +48,10 @@ def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
     store = CaseStore(folder / CASES_FOLDER)
     store.prepare()
     with _locked(folder):
+        with _writing(folder):
+            store.sweep()
+        for left in folder.glob(".results.*"):  # a results file that was not finished
+            shutil.rmtree(left, ignore_errors=True)
         yield store
 
 
