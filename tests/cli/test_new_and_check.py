@@ -105,7 +105,7 @@ def test_schema_is_printed_or_written_beside_the_run_file(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("seconds", "words"),
     [
-        (0.2, "about 1 seconds"),
+        (0.2, "about a second"),
         (97.0, "about 97 seconds"),
         (130.0, "about 2 minutes"),
         (7100.0, "about 120 minutes"),

@@ -13,6 +13,8 @@ from viscofric.report import drawing, html
 from viscofric.report.captions import captions
 from viscofric.report.checks import all_checks, counted
 from viscofric.report.drawing import figure_images
+from viscofric.report.friction_checks import friction_checks
+from viscofric.report.friction_drawing import contacts
 from viscofric.report.friction_tables import friction_at_a_glance
 from viscofric.report.html import write_report
 from viscofric.report.question import inputs, what_was_asked
@@ -162,3 +164,36 @@ def test_long_tables_are_folded_behind_their_first_rows(
     first, folded = page.index('id="first-of-prediction"'), page.index('id="table-prediction"')
     assert first < page.index("<details", first) < folded
     assert "All 84 rows" in page
+
+
+def rough(make_sweep: Callable[..., xr.Dataset], tree: xr.DataTree, error: float) -> xr.DataTree:
+    """Results of rough surfaces: no axis, no edges, but a share of the area and a gap."""
+    cases = make_sweep({"seed": [1, 2], "temperature": [303.15, 333.15], "speed": [0.01, 0.1, 1.0]})
+    friction = cases["friction_coefficient"]
+    cases = cases[["friction_coefficient"]].assign(
+        friction_error=error * friction, contact_area_fraction=0.0 * friction + 0.02, mean_gap=0.0 * friction + 8e-6
+    )
+    found = tree.copy()
+    found["prediction"] = xr.DataTree(
+        cases.assign_coords(pressure=((), 5e4, {"units": "Pa", "long_name": "mean pressure"}))
+    )
+    for name in ("prediction_master", "measurement", "measurement_master", "agreement", "friction_shift_factors"):
+        if name in found.children:
+            del found[name]
+    found.attrs = {**tree.attrs, "accuracy": 0.01, "indenter": "self-affine rough surface"}
+    return found
+
+
+@pytest.mark.parametrize(("error", "verdict"), [(0.005, "passed"), (0.16, "look at this")])
+def test_a_rough_surface_is_not_called_a_ball(
+    tree: xr.DataTree, make_sweep: Callable[..., xr.Dataset], tmp_path: Path, error: float, verdict: str
+) -> None:
+    found = rough(make_sweep, tree, error)
+    checks = {check.name: check for check in friction_checks(found)}
+    assert checks["All cases solved"].verdict == verdict
+    assert "Small strain" not in checks
+    page = write_report(found, tmp_path, images={"friction_sweep": {"svg": b"<svg></svg>"}}).read_text("utf-8")
+    assert "under a mean pressure of 50 kPa" in page.replace("\N{NO-BREAK SPACE}", " ")
+    assert "area (share)" in page
+    assert "from the ball" not in page
+    assert contacts(found) is None

@@ -12,7 +12,7 @@ from viscofric.report.check import Check
 from viscofric.report.doubts import interpolated, is_extrapolated, knows_range, reach
 from viscofric.report.friction_summary import CONSISTENT_WITHIN, consistency_words
 from viscofric.report.numbers import percent, several, significant
-from viscofric.report.results import group, is_from_friction, number, numbers, sentences, values
+from viscofric.report.results import group, is_from_friction, is_rough, number, numbers, sentences, values
 from viscofric.report.sweeps import solved_cases
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
 
 def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
     parts = [part for name in ("prediction", "prediction_master") if (part := solved_cases(tree, name)) is not None]
-    if not parts:
+    if not parts or is_rough(tree):
         return
     reaches = np.concatenate([reach(tree, part) for part in parts])
     reaches = reaches[np.isfinite(reaches)]
@@ -172,12 +172,10 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
         yield Check("All cases solved", "failed", f"{many} could not be solved: see above.")
+    elif is_rough(tree):  # its grid is given, and with it the error
+        yield _rough_cases(tree)
     else:
-        yield Check(
-            "All cases solved",
-            "passed",
-            "Every case was solved to the accuracy asked for.",
-        )
+        yield Check("All cases solved", "passed", "Every case was solved to the accuracy asked for.")
     cases = solved_cases(tree)
     if cases is None or not (between := interpolated(cases)).any():
         return
@@ -190,4 +188,22 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
         f"{int(between.sum())} of {between.size} friction coefficients lie on a curve through solved contacts, "
         "since cases of one rubber under one load share it; the tables mark them. Their error, with that of the "
         f"interpolation, is estimated at {percent(largest)} at most; {percent(accuracy)} was asked for.",
+    )
+
+
+def _rough_cases(tree: xr.DataTree) -> Check:
+    """Say how many contacts of a rough surface reach the accuracy asked for, which their given grid limits."""
+    cases, accuracy = solved_cases(tree), number(tree.attrs, "accuracy")
+    if cases is None:
+        return Check("All cases solved", "noted", "Every case was solved.")
+    friction, error = (np.abs(values(cases, name)) for name in ("friction_coefficient", "friction_error"))
+    beyond = int(np.sum(error > accuracy * friction * (1.0 + 1e-9)))
+    if not beyond:
+        return Check("All cases solved", "passed", "Every case was solved to the accuracy asked for.")
+    worst = percent(float(np.nanmax(error / friction)))
+    return Check(
+        "All cases solved",
+        "look at this",
+        f"Every case was solved, but in {beyond} of {friction.size} the estimated error of friction, {worst} at most, "
+        f"is above the {percent(accuracy)} asked for: the points of the surface are too far apart for it.",
     )

@@ -20,6 +20,7 @@ from viscofric.report.house_style import new_figure
 from viscofric.report.map_figures import map_figure
 from viscofric.report.results import (
     group,
+    is_rough,
     nearest,
     nominal_temperatures,
     number,
@@ -119,14 +120,14 @@ def coulomb_friction(tree: xr.DataTree) -> Figure | None:
 
 
 def contacts(tree: xr.DataTree) -> Figure | None:
-    """Pressure of the slowest contact, of that with the most friction and of the fastest."""
-    shown = shown_contacts(tree)
+    """Pressure of the slowest contact, of that with the most friction and of the fastest; of an indenter only."""
+    shown = [] if is_rough(tree) else shown_contacts(tree)
     return contacts_figure([contact for contact, _ in shown]) if shown else None
 
 
 def recovery_trail(tree: xr.DataTree) -> Figure | None:
     """Draw the surface behind those contacts."""
-    shown = shown_contacts(tree)
+    shown = [] if is_rough(tree) else shown_contacts(tree)
     found = trails(tree, shown)
     return trail_figure([contact for contact, _ in shown], found) if found and len(found) == len(shown) else None
 

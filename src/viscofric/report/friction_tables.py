@@ -39,6 +39,13 @@ _MEANINGS = (
 )
 
 
+_ROUGH_MEANINGS = (
+    "95 %: the band that the uncertainty of the rubber leaves; energy balance: friction from the pressure less "
+    "friction from the dissipation, relative; complementarity: largest violation of the contact conditions; cells: "
+    "points along the longer edge of the surface; products: the solver's work."
+)
+
+
 def _with_remarks(table: Table, doubts: list[str]) -> Table:
     """Add a column that says what is doubtful about a row, if anything is about any."""
     if not any(doubts):
@@ -189,6 +196,8 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
             Column("energy balance", "energy_balance", percent),
             Column("indentation (mm)", "indentation", times(1e3)),
             Column("width (mm)" if is_line else "area (mm²)", "contact_area", times(1e3 if is_line else 1e6, 3)),
+            Column("area (share)", "contact_area_fraction", percent),
+            Column("mean gap (µm)", "mean_gap", times(1e6)),
             Column("front (mm)", "front", times(1e3)),
             Column("rear (mm)", "rear", times(1e3)),
             Column("half-width (mm)", "half_width", times(1e3)),
@@ -198,7 +207,7 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
             Column("products", "products", whole),
         ],
         is_open,
-        _MEANINGS,
+        _MEANINGS if "contact_area_fraction" not in full else _ROUGH_MEANINGS,
     )
     return _with_remarks(table, [_state(*told) for told in zip(*_states(full), remarks(tree, full), strict=True)])
 

@@ -159,7 +159,8 @@ def map_figure(
     speed, temperature = mu["speed"].values, mu["temperature"].values
     for axes, place in zip(grid, chosen, strict=True):
         part = mu.isel(place).transpose("temperature", "speed").values
-        shift = shifts[place.get("material", 0)] if shifts else None
+        rubber = place.get("material", 0)
+        shift = shifts[rubber] if rubber < len(shifts) else None
         filled = plot_friction_map(axes, speed, temperature, part, levels=levels, shift=shift)
         axes.set_title(panel_title(panels, place), fontsize=9.5)
         speed_ticks(axes.xaxis, narrow=len(chosen) > 1)

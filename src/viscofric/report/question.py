@@ -13,6 +13,7 @@ from viscofric.report.numbers import ABSENT, several, short, speed
 from viscofric.report.results import (
     group,
     is_from_friction,
+    is_rough,
     is_synthetic,
     nominal_temperatures,
     number,
@@ -57,7 +58,7 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
             f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} "
             f"and {at}" + (f", to an accuracy of {short(100 * accuracy)} %." if math.isfinite(accuracy) else ".")
         )
-        also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load")]
+        also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
         if also:
             said.append(f"Varied as well: {'; '.join(f'{axis.title} ({_points(axis)})' for axis in also)}.")
     if sweeps is not None:
@@ -100,13 +101,13 @@ def inputs(tree: xr.DataTree) -> list[Input]:
     listed.append(Input("Poisson's ratio", short(number(attrs, "poisson_ratio"))))
     reference = reference_temperature(tree)
     listed.append(Input("reference temperature", "" if reference is None else degrees(reference)))
-    listed.append(Input("indenter", str(attrs.get("indenter", ""))))
+    listed.append(Input("surface" if is_rough(tree) else "indenter", str(attrs.get("indenter", ""))))
     friction = labelled(tree)
     if friction is not None:
         along = {axis.name: axis for axis in _axes(tree)}
         told = {column for axis in along.values() for column in axis.columns}
         listed += [Input(axis.title, _points(axis)) for axis in along.values()]
-        for name in ("load", "temperature", "speed", "thickness"):
+        for name in ("load", "pressure", "direction", "temperature", "speed", "thickness"):
             if name in friction.coords and name not in told and friction[name].ndim == 0:
                 listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
         listed.append(Input("cases", str(math.prod(friction.sizes.values()))))
@@ -132,6 +133,8 @@ def _under(prediction: xr.Dataset, load: float) -> str:
     loads = values(prediction, "load")
     loads = loads[np.isfinite(loads)] if np.isfinite(loads).any() else np.array([load])
     unit = str(prediction["load"].attrs.get("units", "N")) if "load" in prediction else "N"
+    if "pressure" in prediction:
+        return f" under a mean pressure of {_range(values(prediction, 'pressure') / 1e3, 4)} kPa"
     return f" under {_range(loads, 4)} {unit}" if np.isfinite(loads).all() else ""
 
 

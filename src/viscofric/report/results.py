@@ -99,6 +99,12 @@ def is_synthetic(tree: xr.DataTree) -> bool:
     return str(tree.attrs.get("data_origin", "synthetic")) != "measured"
 
 
+def is_rough(tree: xr.DataTree) -> bool:
+    """Whether the contacts are those of a rough surface, which have no axis, no edges and no indentation."""
+    prediction = tree.children.get("prediction")
+    return prediction is not None and "contact_area_fraction" in prediction.data_vars
+
+
 def is_from_friction(tree: xr.DataTree) -> bool:
     """Whether the rubber was identified from friction, and not from a modulus that was measured."""
     return int(tree.attrs.get("identified_from_friction", 0)) == 1

@@ -26,7 +26,20 @@ SAMPLE = "sample"
 MOST_LINES, MOST_PANELS = 8, 9
 
 #: What else than speed and temperature may vary, in the order in which it is told.
-VARIED = ("material", "sample", "radius", "radius_x", "radius_y", "angle", "thickness", "indenter_modulus", "load")
+VARIED = (
+    "material",
+    "sample",
+    "radius",
+    "radius_x",
+    "radius_y",
+    "angle",
+    "thickness",
+    "indenter_modulus",
+    "seed",
+    "pressure",
+    "direction",
+    "load",
+)
 _SPEED, _TEMPERATURE = "speed", "temperature"
 # coordinate -> its unit on a figure's axis, and what an SI number is divided by (temperatures: less 273.15)
 _UNITS = {
@@ -37,6 +50,8 @@ _UNITS = {
     "radius_x": ("mm", 1e-3),
     "radius_y": ("mm", 1e-3),
     "angle": ("°", math.pi / 180.0),
+    "direction": ("°", math.pi / 180.0),
+    "pressure": ("kPa", 1e3),
     "indenter_modulus": ("MPa", 1e6),
 }
 _SYMBOLS = {"speed": "$v$", "load": "$F$", "radius": "$R$", "thickness": "$h$"}
@@ -151,6 +166,8 @@ def value_label(dataset: xr.Dataset, name: str, value: object) -> str:
         return degrees(number)
     if name == _SPEED:
         return speed(number)
+    if name == "pressure":
+        return f"{short(number / 1e3)} kPa"
     if unit == "Pa":
         return megapascals(number)
     if unit == "rad":
