@@ -40,9 +40,16 @@ class GivenLoad:
         self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
     ) -> ComplementaritySolution:
         """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
-        load = self.load / operator.window.cell_area
+        load, inner = self.load / operator.window.cell_area, operator.for_corrections()
         found = solve_complementarity(
-            operator, height, load, guess, tolerance=tolerance, patience=patience, inner=operator.for_corrections()
+            operator,
+            height,
+            load,
+            guess,
+            tolerance=tolerance,
+            patience=patience,
+            inner=inner,
+            extension=operator.extension(inner.dtype),
         )
         return found.on_numpy(operator.backend)
 
@@ -62,6 +69,7 @@ class GivenIndentation:
         self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
     ) -> ComplementaritySolution:
         """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
+        inner = operator.for_corrections()
         found = solve_complementarity(
             operator,
             height,
@@ -70,6 +78,7 @@ class GivenIndentation:
             indentation=self.indentation,
             tolerance=tolerance,
             patience=patience,
-            inner=operator.for_corrections(),
+            inner=inner,
+            extension=operator.extension(inner.dtype),
         )
         return found.on_numpy(operator.backend)

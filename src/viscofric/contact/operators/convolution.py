@@ -11,6 +11,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.extension import Extension
 from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
 
@@ -31,10 +32,12 @@ if TYPE_CHECKING:
 SHORT_MEMORY = 1e-3
 # Memory length, in cells, from which on a mode's dissipation is rather found from slopes than from bends.
 _BEND_MEMORY = 10.0
-# Cells whose curvature is found in one go: few enough for the cache.
+# Cells of which something is found in one go: few enough for the cache.
 _CELLS_AT_ONCE = 20_000
 # Cells from which on corrections are in single precision.
 _FEWEST_SINGLE = 2**18
+# Cells along an edge from which on residuals are extended.
+_FEWEST_EXTENDED = 128
 _SINGLE = {"f": np.float32, "c": np.complex64}
 # Loss angle of waves four cells long from which displacements are looked at behind the cell centres.
 _TOLERATED_ANGLE = np.pi / 4.0
@@ -137,6 +140,7 @@ class ConvolutionOperator(ABC):
     _bent_dissipation: Array = field(init=False, repr=False)
     _inverse_symbol: AnyArray = field(init=False, repr=False)
     _padded: tuple[int, int] = field(init=False, repr=False)
+    _is_damped: bool = field(default=False, init=False, repr=False)
 
     def __post_init__(self) -> None:
         nx, ny = self.window.shape
@@ -209,7 +213,10 @@ class ConvolutionOperator(ABC):
         """
         nx, ny = self.window.shape
         waves = self.backend.transforms.forward_padded(self.backend.asarray(pressure), self._padded)
-        waves *= self.backend.xp.conj(waves)
+        at_once = max(1, _CELLS_AT_ONCE // waves.shape[1])
+        for start in range(0, waves.shape[0], at_once):
+            rows = slice(start, min(start + at_once, waves.shape[0]))
+            waves[rows, :] *= self.backend.xp.conj(waves[rows, :])
         found = self.backend.to_numpy(self.backend.transforms.inverse(waves, self._padded))
         folded: Array = np.concatenate([found[self._padded[0] - nx + 1 :, :ny], found[:nx, :ny]])
         folded[:, 1:] += folded[::-1, 1:]
@@ -246,6 +253,16 @@ class ConvolutionOperator(ABC):
         slope = self._convolve(symmetric, self.backend.asarray(pressure))
         return -self.window.cell_area * self.backend.to_numpy(slope)
 
+    def extension(self, dtype: Any) -> Extension | None:
+        """Return what extends residuals before they are preconditioned, in some precision.
+
+        None in small windows, where it would save nothing, in line contacts, and where cells yield by themselves: their
+        displacement does break off at the edge of a contact.
+        """
+        if min(self.window.shape) < _FEWEST_EXTENDED or self._is_damped:
+            return None
+        return Extension(self.backend, self.window.shape, dtype)
+
     def transposed(self) -> Self:
         """Return the operator with the transposed matrix: the same influence, mirrored along the motion."""
         mirrored = copy.copy(self)
@@ -258,6 +275,7 @@ class ConvolutionOperator(ABC):
         """Return the operator with a compliance of each cell by itself added: a multiple of its pressure."""
         damped = copy.copy(self)
         damped.products = 0
+        damped._is_damped = True
         damped._transfer = self._transfer + compliance
         damped._inverse_symbol = self._inverse_symbol / (1.0 + compliance * self._inverse_symbol)
         return damped
