@@ -75,6 +75,9 @@ def test_measured_spectrum_is_the_one_the_surface_was_made_of():
     np.testing.assert_allclose(found.density[inner], spectrum(found.wave_number[inner]), rtol=0.05)
     assert found.rms_slope() == pytest.approx(surface.rms_slope, rel=0.02)
     assert found.rms_height() == pytest.approx(surface.rms_height, rel=0.03)
+    # The last of wide rings goes on falling to the shortest wave, where it is a third of what it is in its middle.
+    wide = vf.power_spectrum(surface, per_decade=4)
+    assert wide.density[-1] == pytest.approx(float(spectrum(wide.wave_number[-1])), rel=0.2)
 
 
 def test_a_windowed_scan_shows_the_spectrum_of_the_surface_it_was_cut_from():
@@ -138,6 +141,18 @@ def test_the_lay_stretches_waves_along_itself():
     across, along = (np.square(np.gradient(surface.heights, axis=axis)).mean() for axis in (0, 1))
     # Wave numbers are four times larger across the lay than along it; differences are a little flatter.
     assert across / along == pytest.approx(16.0, rel=0.15)
+
+
+def test_the_lay_turns_from_x_towards_y():
+    surface = vf.self_affine(
+        0.8, shape=(128, 128), spacing=1.0, shortest=16.0, rms_slope=1.0, seed=4, aspect=3.0, angle="30 deg"
+    )
+    slopes = np.stack([part.ravel() for part in np.gradient(surface.heights)])
+    variances, directions = np.linalg.eigh(slopes @ slopes.T)
+    flattest = np.degrees(np.arctan2(directions[1, 0], directions[0, 0])) % 180.0
+    # A sum over some hundred waves on a square grid is turned by less than a degree, differences add as much.
+    assert flattest == pytest.approx(30.0, abs=2.0)
+    assert math.sqrt(variances[1] / variances[0]) == pytest.approx(3.0, rel=0.1)
 
 
 def test_power_laws_between_points_are_integrated_in_closed_form():

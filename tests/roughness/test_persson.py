@@ -175,6 +175,21 @@ def test_long_contacts_warm_the_surface_as_a_flux_of_heat_does():
     assert found[-1] == pytest.approx(wanted, rel=0.02)
 
 
+def test_a_rubber_that_hardly_warms_rubs_as_one_of_one_temperature_with_its_vertical_shift():
+    shifted = vf.Material(
+        FLUOROELASTOMER.spectrum, shift=FLUOROELASTOMER.shift, vertical_shift=vf.DensityShift(reference="30 degC")
+    )
+    asked = {"speeds": 0.1, "pressure": "0.1 MPa", "temperatures": "90 degC"}
+    cold = vf.persson_theory(shifted, ROAD, **asked)
+    sink = vf.ThermalProperties(1e6, 1e6, 1e6, "sink")
+    warm = vf.persson_theory(shifted, ROAD, **asked, thermal=sink)
+    assert warm.flash_temperature[0, 0] < 1e-6
+    np.testing.assert_allclose(warm.friction_coefficient, cold.friction_coefficient, rtol=1e-6)
+    plain = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked)
+    # b = 363/303, but for the expansion, makes E larger, and the contact area smaller.
+    assert cold.contact_area_fraction[0, 0] < 0.95 * plain.contact_area_fraction[0, 0]
+
+
 def test_flash_temperature_lowers_the_friction_of_fast_sliding_and_not_that_of_slow():
     road = vf.PowerSpectrum.self_affine(0.8, longest="5 mm", rolloff="3 mm", shortest="5 um", rms_slope=1.0)
     asked = {"speeds": [1e-6, 1.0], "pressure": "0.1 MPa", "temperatures": "30 degC"}

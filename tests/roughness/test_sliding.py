@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -64,6 +65,19 @@ def test_contact_patches_are_counted_across_the_edges_of_the_period():
     diameter = math.sqrt(0.5 * found.corrected_area_fraction * 4.0 / math.pi) * 1e-3
     assert found.chord_along == pytest.approx(0.25 * math.pi * diameter, rel=0.12)
     assert found.pressure_in_contact == pytest.approx(5e3 / found.area_fraction, rel=1e-6)
+
+
+def test_points_that_touch_at_corners_are_one_patch_and_borders_are_counted_point_by_point(solutions):
+    solution = solutions[0.0]
+    points = np.zeros((8, 8))
+    for place in [(1, 1), (2, 2), (0, 4), (7, 5), (4, 7), (5, 0)]:  # three pairs, two of them across the period's edges
+        points[place] = 1e5
+    axis = solution.x[:8]
+    found = vf.contact_statistics(replace(solution, x=axis, y=axis, pressure=points, gap=(points == 0.0) * 1e-6))
+    assert found.patches == 3
+    # Six points with four borders each; (π − 1 + ln 2)/24 = 0.118114.
+    assert found.corrected_area_fraction == pytest.approx((6.0 - 0.118114 * 24.0) / 64.0, rel=1e-5)
+    assert found.gap_outside == pytest.approx(1e-6)
 
 
 def test_ridges_across_the_motion_make_patches_that_are_short_along_it():

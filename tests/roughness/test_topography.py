@@ -124,6 +124,14 @@ def test_a_periodic_surface_comes_back_from_a_finer_grid(shape, nx, ny):
     np.testing.assert_allclose(back.heights, heights, atol=1e-12)
 
 
+@pytest.mark.parametrize(("shape", "times"), [((8, 9), (2, 3)), ((7, 6), (3, 2)), ((10, 1), (4, 1))])
+def test_a_finer_grid_keeps_the_heights_of_all_old_points(shape, times):
+    heights = np.random.default_rng(4).normal(size=shape)
+    steps = 1.0 / shape[0], 1.0 / shape[1]
+    fine = vf.Topography(heights, steps, periodic=True).resample((steps[0] / times[0], steps[1] / times[1]))
+    np.testing.assert_allclose(fine.heights[:: times[0], :: times[1]], heights, atol=1e-13)
+
+
 def test_resampling_an_open_scan_follows_smooth_heights_and_averages_away_what_is_too_short():
     smooth = vf.Topography(np.sin(3.0 * X) * np.cos(2.0 * Y), (1.0 / N, 1.0 / M))
     finer = smooth.resample((0.5 / N, 0.4 / M))
