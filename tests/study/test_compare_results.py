@@ -177,7 +177,7 @@ def test_what_cannot_be_paired_is_told(tmp_path: Path) -> None:
         vf.compare_results(one, several)
     with pytest.raises(InputError, match="tolerance"):
         vf.compare_results(one, one, tolerance=-1.0)
-    with pytest.raises(DataFileError, match="run the study first"):
+    with pytest.raises(DataFileError, match="there are results in"):
         vf.compare_results(one, tmp_path)
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -103,6 +104,17 @@ def test_a_place_tells_all_that_varies(tmp_path: Path) -> None:
     assert grouped_failures([str(one) for one in solved.failures], 5) == [
         "90 °C, 20 m/s, NBR, 10 N, radius 5 mm: accuracy not reached."
     ]
+
+
+@pytest.mark.parametrize("wrong", [1.5, None, [], {}, b"x", object(), True])
+def test_what_is_no_name_of_a_file_is_told(tmp_path: Path, wrong: Any) -> None:
+    made = made_results(tmp_path)
+    for verb in (vf.open_results, vf.load_study, vf.run_study, partial(vf.compare_results, made)):
+        with pytest.raises(InputError, match="is not the name of a file"):
+            verb(wrong)
+    if wrong not in (None, 1.5):
+        with pytest.raises(InputError, match=r"tolerance = .*: must be a number"):
+            vf.compare_results(made, made, tolerance=wrong)
 
 
 def test_missing_results_are_told_and_what_helps(tmp_path: Path) -> None:

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import read_text
+from viscofric.files import file_path, read_text
 from viscofric.study.columns import PLACES, TITLE, over_all_dimensions, read_table_text
 from viscofric.study.results import StudyResults, open_results
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
     from viscofric.friction.curves import FrictionCurves
@@ -69,7 +70,7 @@ class CaseTable:
 
         if isinstance(given, FrictionCurves):
             return cls._of_curves(given)
-        if Path(given).suffix.lower() in _TABLES:
+        if file_path(given).suffix.lower() in _TABLES:
             return cls._of_table(given)
         return cls._of_results(open_results(given))
 

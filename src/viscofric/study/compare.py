@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.study.cases_in_common import CaseTable, common_cases
 from viscofric.study.provenance_differences import provenance_differences
 
@@ -137,8 +137,8 @@ def compare_results(
     InputError
         If they have no case or no variable in common, or the tolerance is none.
     """
-    if tolerance is not None and not 0.0 <= tolerance < math.inf:
-        raise InputError(f"tolerance = {tolerance!r}: must be a number from 0 on, such as 1e-3.")
+    if tolerance is not None and not (_is_number(tolerance) and 0.0 <= tolerance < math.inf):
+        raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.")
     one, other = CaseTable.of(first), CaseTable.of(second)
     pairs = common_cases(one, other)
     accuracy = max(table.accuracy or 0.0 for table in (one, other)) or _USUAL_ACCURACY
@@ -158,6 +158,10 @@ def compare_results(
         else (),
         tolerance=tolerance,
     )
+
+
+def _is_number(given: object) -> bool:
+    return isinstance(given, (int, float, np.floating, np.integer)) and not isinstance(given, bool)
 
 
 def _difference(

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import StudyError
+from viscofric.files import file_path
 from viscofric.study import labels
 from viscofric.study.assumptions import assumptions
 from viscofric.study.contacts import Contacts, Solved, doubts
@@ -24,6 +24,7 @@ from viscofric.study.sweep_labels import field_groups, material_groups, predicti
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
+    from pathlib import Path
 
     import xarray
 
@@ -80,10 +81,10 @@ def run_study(
     ViscofricError
         If there are no workers of use.
     """
-    path = Path(path)
+    path = file_path(path)
     text = read_study_text(path)
     study = parse_study(text, path)
-    folder = path.with_suffix(".results") if output is None else Path(output)
+    folder = path.with_suffix(".results") if output is None else file_path(output)
     executor = choose_executor(workers, scheduler, study.cluster, finished_only)
     # Workers come to life while the inputs are read.
     with study_folder(folder, resume or finished_only) as store, executor:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import functools
 import re
 import tomllib
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
 from viscofric.errors import StudyError
+from viscofric.files import file_path
 from viscofric.study.axis_values import RANGE, SEED_RANGE, SeedRange, SpeedRange
 from viscofric.study.contact_tables import (
     SHAPES,
@@ -29,6 +29,7 @@ from viscofric.study.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from viscofric.study.contact_tables import AnyIndenterTable
     from viscofric.study.table import Problem
@@ -155,7 +156,7 @@ def load_study(path: str | Path) -> Study:
     StudyError
         If the file is missing or is not TOML, or with every wrong key, unit and range in it.
     """
-    path = Path(path)
+    path = file_path(path)
     return parse_study(read_study_text(path), path)
 
 
