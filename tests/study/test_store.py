@@ -7,38 +7,17 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from study import sweeps
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
-from viscofric.study.record import CaseRecord
 from viscofric.study.solving import _sources, case_key
 from viscofric.study.store import CaseStore
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-RECORD = CaseRecord(
-    speed=0.1,
-    temperature=303.15,
-    load=25.0,
-    friction_coefficient=0.1 + 0.2,  # not a short decimal: it must come back to the last bit
-    friction_error=1e-6,
-    indentation=1e-4,
-    indentation_error=1e-8,
-    contact_area=1e-6,
-    contact_area_error=1e-9,
-    front=1e-3,
-    rear=0.9e-3,
-    half_width=1e-3,
-    edge_error=1e-6,
-    max_pressure=1e6,
-    max_pressure_error=1e3,
-    centre_of_pressure=1e-5,
-    energy_balance=1e-4,
-    complementarity=1e-9,
-    cells=256,
-    products=90,
-    warnings=("a sentence",),
-)
+# Friction is no short decimal: it must come back to the last bit.
+RECORD = replace(sweeps.RECORD, friction_coefficient=0.1 + 0.2, warnings=("a sentence",))
 
 
 def test_a_stored_case_comes_back_to_the_last_bit(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import click
 from viscofric.cli.contact_bar import contact_bar
 from viscofric.cli.contact_options import contact_options, contact_settings, inputs_of
 from viscofric.cli.errors import tell_notes, told
-from viscofric.cli.files import CSV, DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, to_be_written
+from viscofric.cli.files import CSV, DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, write_curves
 from viscofric.cli.indenter_options import chosen_indenter, indenter_options
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
@@ -115,7 +115,7 @@ def command(
         elif out != DASH:
             _tell(name, rubber, curves)
         tell_notes(curves.notes)
-        for written in _write(curves, out, picture, rubber.synthetic):
+        for written in write_curves(curves, out, picture, predicted=True, synthetic=rubber.synthetic):
             click.echo(written, err=as_json or out == DASH)
 
 
@@ -207,20 +207,3 @@ def _tell(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
         click.echo(line)
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")
-
-
-def _write(curves: FrictionCurves, out: Path | None, picture: Path | None, synthetic: bool) -> list[str]:
-    """Write the files that were asked for, and return what to say of them."""
-    said = []
-    if out is not None:
-        from viscofric.friction.curve_files import write_friction_curves
-
-        with to_be_written(out) as path:
-            write_friction_curves(curves, path)
-        said += [] if out == DASH else [f"curves   {out}"]
-    if picture is not None:
-        from viscofric.report.friction_pictures import draw_predicted
-
-        draw_predicted(picture, curves, synthetic=synthetic)
-        said.append(f"picture  {picture}")
-    return said

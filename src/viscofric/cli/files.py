@@ -13,6 +13,8 @@ import click
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from viscofric.friction.curves import FrictionCurves
+
 PICTURES, CSV, JSON = (".png", ".svg", ".pdf"), (".csv",), (".json",)
 #: What the command line calls standard input and standard output.
 DASH = Path("-")
@@ -74,3 +76,22 @@ def to_be_written(path: Path) -> Iterator[Path]:
         target = Path(folder) / "standard output.csv"
         yield target
         click.echo(target.read_bytes(), nl=False)
+
+
+def write_curves(
+    curves: FrictionCurves, out: Path | None, picture: Path | None, *, predicted: bool, synthetic: bool
+) -> list[str]:
+    """Write the table and the picture of friction curves that were asked for, and return what to say of them."""
+    said = []
+    if out is not None:
+        from viscofric.friction.curve_files import write_friction_curves
+
+        with to_be_written(out) as path:
+            write_friction_curves(curves, path)
+        said += [] if out == DASH else [f"curves   {out}"]
+    if picture is not None:
+        from viscofric.report.friction_pictures import draw_friction, draw_predicted
+
+        (draw_predicted if predicted else draw_friction)(picture, curves, synthetic=synthetic)
+        said.append(f"picture  {picture}")
+    return said

@@ -18,7 +18,7 @@ from viscofric.cli.files import (
     check_ending,
     plainly,
     refuse_to_overwrite,
-    to_be_written,
+    write_curves,
 )
 from viscofric.cli.separation_options import separation_options, settings_of
 
@@ -69,7 +69,7 @@ def command(
         elif out != DASH:
             _tell(curves)
         tell_notes(curves.notes)
-        for written in _write(curves, out, picture, synthetic):
+        for written in write_curves(curves, out, picture, predicted=False, synthetic=synthetic):
             click.echo(written, err=as_json or out == DASH)
 
 
@@ -84,20 +84,3 @@ def _tell(curves: FrictionCurves) -> None:
     width = max((len(name) for name, _ in said), default=0)
     for name, value in said:
         click.echo(f"{name:<{width}}  {value}")
-
-
-def _write(curves: FrictionCurves, out: Path | None, picture: Path | None, synthetic: bool) -> list[str]:
-    """Write the files that were asked for, and return what to say of them."""
-    said = []
-    if out is not None:
-        from viscofric.friction.curve_files import write_friction_curves
-
-        with to_be_written(out) as path:
-            write_friction_curves(curves, path)
-        said += [] if out == DASH else [f"curves   {out}"]
-    if picture is not None:
-        from viscofric.report.friction_pictures import draw_friction
-
-        draw_friction(picture, curves, synthetic=synthetic)
-        said.append(f"picture  {picture}")
-    return said
