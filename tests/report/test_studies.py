@@ -14,7 +14,7 @@ from viscofric.report.captions import captions
 from viscofric.report.checks import all_checks, counted
 from viscofric.report.drawing import figure_images
 from viscofric.report.friction_checks import friction_checks
-from viscofric.report.friction_drawing import contacts
+from viscofric.report.friction_drawing import contacts, recovery_trail
 from viscofric.report.friction_tables import friction_at_a_glance
 from viscofric.report.html import write_report
 from viscofric.report.question import inputs, what_was_asked
@@ -197,3 +197,34 @@ def test_a_rough_surface_is_not_called_a_ball(
     assert "area (share)" in page
     assert "from the ball" not in page
     assert contacts(found) is None
+
+
+@pytest.mark.parametrize("points", [(16, 8), (16, 1)])
+def test_kept_fields_of_a_rough_surface_are_drawn_on_a_whole_period(
+    tree: xr.DataTree, make_sweep: Callable[..., xr.Dataset], points: tuple[int, int]
+) -> None:
+    found = rough(make_sweep, tree, 0.01)
+    pressure = np.zeros(points)
+    pressure[3:5, 0], pressure[12, -1] = 2e6, 1e6
+    if "fields" in found.children:
+        del found["fields"]
+    places = {name: (name, 1e-5 * np.arange(count)) for name, count in zip("xy", points, strict=True)}
+    told = {"seed": 2, "mean_pressure": 5e4, "temperature": 333.15, "speed": 0.1}
+    found["fields/1"] = xr.DataTree(xr.Dataset({"pressure": (("x", "y"), pressure)}, places | told))
+    figure = contacts(found)
+    assert figure is not None
+    axes = figure.axes[0]
+    title = axes.get_title() + axes.get_title("left")
+    friction = found["prediction"].to_dataset()["friction_coefficient"].sel(seed=2, temperature=333.15, speed=0.1)
+    assert f"{float(friction):.3g}"[:5] in title
+    assert "seed 2" in title
+    assert f"{100 * np.count_nonzero(pressure) / pressure.size:.3g} % in contact" in title
+    if points[1] > 1:
+        (mesh,) = axes.collections
+        assert mesh.get_array().count() == 3
+        assert len(figure.axes) == 2  # with its colour bar, without a profile
+    else:
+        np.testing.assert_allclose(axes.lines[0].get_ydata(), pressure[:, 0] / 1e6)
+    assert recovery_trail(found) is None
+    assert "whole period" in captions(found)["contacts"]
+    assert "2 seeds" in captions(found)["friction_sweep"]

@@ -61,6 +61,40 @@ def test_samples_are_a_band_about_the_best_estimate(axes: Axes, make_sweep: Make
     np.testing.assert_allclose([at_first[0], at_first[-1]], best[0] * np.array([1.005, 1.195]), rtol=1e-9)
 
 
+def test_seeds_of_a_surface_are_thin_lines_behind_their_mean_and_its_interval(axes: Axes, make_sweep: Make) -> None:
+    friction = make_sweep({"seed": [1, 2, 3, 4], "speed": SPEEDS})
+    each = friction["friction_coefficient"].values * np.array([0.9, 1.0, 1.2, 1.3])[:, None]
+    each[2, 5] = np.nan
+    friction["friction_coefficient"] = (("seed", "speed"), each)
+    layout = layout_of(friction)
+    assert layout is not None
+    assert (layout.along.name, layout.lines, layout.panels) == ("speed", None, ())
+    plot_sweep(axes, friction, layout)
+    mean, *seeds, missing = axes.lines
+    assert all(seed.get_linewidth() < 0.5 * mean.get_linewidth() for seed in seeds)
+    np.testing.assert_allclose([seed.get_ydata() for seed in seeds], each)
+    # By hand: the mean of the factors is 1.1, their squared deviations add up to 0.04 + 0.01 + 0.01 + 0.04 = 0.1;
+    # Student's t of three degrees of freedom at 97.5 % is 3.182446 (tables).
+    at_first = make_sweep({"speed": SPEEDS})["friction_coefficient"].values[0]
+    assert mean.get_ydata()[0] == pytest.approx(1.1 * at_first)
+    reach = 3.182446 * (0.1 / 3.0 / 4.0) ** 0.5
+    corners = axes.collections[0].get_paths()[0].vertices
+    band = np.unique(corners[np.isclose(corners[:, 0], 1.0), 1])
+    np.testing.assert_allclose([band[0], band[-1]], at_first * np.array([1.1 - reach, 1.1 + reach]), rtol=1e-6)
+    # Without one of its seeds a mean would be of other surfaces than its neighbours.
+    assert np.flatnonzero(np.isnan(mean.get_ydata())).tolist() == [5]
+    np.testing.assert_allclose(missing.get_xdata(), 1e3 * SPEEDS[5])
+
+
+def test_maps_of_several_seeds_are_one_of_their_mean(make_sweep: Make) -> None:
+    whole = make_sweep({"seed": [1, 2], **CURVES})
+    figure, single = map_figure(whole), map_figure(whole.isel(seed=0))
+    assert figure is not None
+    assert single is not None
+    assert len(figure.axes) == len(single.axes)
+    assert figure.axes[0].get_title() == ""
+
+
 @pytest.mark.parametrize(
     ("points", "panels", "lines"),
     [
@@ -68,6 +102,9 @@ def test_samples_are_a_band_about_the_best_estimate(axes: Axes, make_sweep: Make
         ({"load": [1.0, 2.0, 3.0, 4.0, 5.0], "radius": [0.01, 0.02, 0.05], **CURVES}, 9, 4),
         ({"temperature": np.linspace(273.15, 373.15, 30), "speed": SPEEDS}, 1, 8),
         ({"load": [5.0, 25.0]}, 1, 0),
+        ({"seed": [1, 2, 3], **CURVES}, 1, 6),
+        ({"seed": [1, 2, 3], "pressure": [1e4, 5e4], **CURVES}, 2, 6),
+        ({"seed": [1, 2, 3]}, 1, 0),
         ({"material": ["NBR 70", "FKM 75"], "speed": SPEEDS}, 1, 2),
     ],
 )

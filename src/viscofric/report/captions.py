@@ -13,8 +13,17 @@ from viscofric.report.house_style import degrees
 from viscofric.report.map_figures import MARKED_TEMPERATURES
 from viscofric.report.messages import readable
 from viscofric.report.panels import panel_count
-from viscofric.report.results import group, is_synthetic, reference_temperature, rubbers, sentences
-from viscofric.report.sweeps import MOST_LINES, MOST_PANELS, labelled, layout_of, solved_cases, sweep_axes
+from viscofric.report.results import group, is_rough, is_synthetic, reference_temperature, rubbers, sentences
+from viscofric.report.sweeps import (
+    MOST_LINES,
+    MOST_PANELS,
+    SEED,
+    labelled,
+    layout_of,
+    seeds_averaged,
+    solved_cases,
+    sweep_axes,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,18 +91,27 @@ def _of_sweep(tree: xr.DataTree) -> str:
         shown, count = panel_count(layout.panels, MOST_PANELS)
         said += f", one panel for each {' and each '.join(axis.title for axis in layout.panels)}"
         said += f" ({shown} of {count} are drawn)" if shown < count else ""
-    if "sample" in friction["friction_coefficient"].dims:
+    if seeds := seeds_averaged(friction):
+        said += (
+            f". Mean over {seeds} seeds of the surface, which are the thin lines; bands: the 95 % interval of the "
+            "mean, by Student's t over the seeds"
+        )
+    elif "sample" in friction["friction_coefficient"].dims:
         said += "; the bands hold 95 % of the rubbers that were drawn from the uncertainty of the material"
     elif "friction_lower" in friction:
         said += "; bands: 95 %, as the uncertainty of the rubber leaves it"
-    missing = "" if np.isfinite(friction["friction_coefficient"].values).all() else " Crosses: not solved."
+    solved = np.isfinite(friction["friction_coefficient"].values).all()
+    missing = "" if solved else f" Crosses: not solved{', for one seed or more' if seeds else ''}."
     return f"{said}.{missing}"
 
 
 def _of_map(tree: xr.DataTree) -> str:
     friction = labelled(tree)
-    others = [] if friction is None else [axis for axis in sweep_axes(friction) if axis.name not in _MAPPED]
+    seeds = 0 if friction is None else seeds_averaged(friction)
+    mapped = {*_MAPPED, SEED} if seeds else set(_MAPPED)
+    others = [] if friction is None else [axis for axis in sweep_axes(friction) if axis.name not in mapped]
     said = "Predicted viscoelastic friction over speed and temperature"
+    said += f", mean over {seeds} seeds of the surface" if seeds else ""
     said += f", one panel for each {' and each '.join(axis.title for axis in others)}" if others else ""
     said += ". Diamonds: the speed of the highest friction at each temperature, where it lies inside the range. "
     said += "Between the speeds and temperatures that were asked for, the colours are interpolated"
@@ -114,6 +132,8 @@ def _of_contacts(tree: xr.DataTree) -> str:
     shown = shown_contacts(tree)
     if not shown:
         return ""
+    if is_rough(tree):
+        return _of_rough_contacts(shown[0].contact.is_line)
     above = "" if shown[0].contact.is_line else "Contact pressure seen from above, and on the centre line below. "
     if shown[0].contact.is_line:
         above = "Contact pressure along the motion. "
@@ -124,6 +144,13 @@ def _of_contacts(tree: xr.DataTree) -> str:
         f"{above}The indenter moves to the right{marks}. The pressure leans to the leading edge: its centre lies "
         "ahead of the indenter's axis, and that is the friction. Dotted: the profile's mirror image."
     )
+
+
+def _of_rough_contacts(is_line: bool) -> str:
+    seen = "along a whole period of the profile" if is_line else "on a whole period of the surface, seen from above"
+    blank = "Where nothing is drawn the rubber does not touch" if not is_line else "Where it is zero nothing touches"
+    arrow = "" if is_line else "; the arrow shows where the surface goes"
+    return f"Contact pressure {seen}. {blank}{arrow}."
 
 
 def _of_convergence(tree: xr.DataTree) -> str:

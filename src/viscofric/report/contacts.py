@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.report.field_figures import Contact
 from viscofric.report.results import group, number, values
-from viscofric.report.sweeps import VARIED, solved_cases, value_label
+from viscofric.report.sweeps import SEED, VARIED, solved_cases, value_label
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,8 +67,11 @@ def shown_contacts(tree: xr.DataTree) -> list[Shown]:
                 chosen[index] = f"{chosen[index]}, {title}" if index in chosen else title
     order = sorted(chosen, key=lambda index: speed[index])
     is_line = found[order[0]][0]["y"].size == 1
+    prediction, named = group(tree, "prediction"), _varied(found)
+    if prediction is not None and SEED in prediction.dims:  # also where all kept fields are of one seed
+        named.add(SEED)
     return [
-        Shown(_contact(*found[index], chosen[index] if len(found) > 1 else "", _varied(found)), found[index][1])
+        Shown(_contact(*found[index], chosen[index] if len(found) > 1 else "", named), found[index][1])
         for index in order
         if (found[index][0]["y"].size == 1) == is_line
     ]
@@ -92,6 +95,8 @@ def _kept(tree: xr.DataTree) -> list[tuple[xr.Dataset, dict[str, Any]]]:
             continue
         told = {name: _told(fields, name) for name in (*_CONDITIONS, "friction_coefficient")}
         told = {name: value for name, value in told.items() if value is not None}
+        if "mean_pressure" in fields.variables:  # of a rough surface: `pressure` is the field
+            told["pressure"] = _told(fields, "mean_pressure")
         if "friction_coefficient" not in told and cases is not None:
             told["friction_coefficient"] = _friction_of(cases, told)
         kept.append((fields, told))

@@ -193,7 +193,7 @@ def contacts_figure(contacts: Sequence[Contact]) -> Figure:
         axes.set_xlabel(_ALONG)
     for axes, contact in zip(maps or profiles, contacts, strict=True):
         mean = f"mean pressure {megapascals(contact.mean_pressure)}" if label != _PRESSURE else ""
-        axes.set_title("\n".join(line for line in (_title(contact), mean) if line), fontsize=9.5)
+        axes.set_title("\n".join(line for line in (contact_title(contact), mean) if line), fontsize=9.5)
     profiles[0].set_ylabel(label)
     if maps:
         maps[0].set_ylabel("across $y$ (mm)")
@@ -225,7 +225,8 @@ def _panels(count: int, is_line: bool) -> tuple[list[Axes], list[Axes], Figure]:
     return list(grid[0]), list(grid[1]), figure
 
 
-def _title(contact: Contact) -> str:
+def contact_title(contact: Contact) -> str:
+    """Return what a contact is called, its conditions and its friction, each in a line of its own."""
     friction = rf"$\mu$ = {significant(contact.friction)}" if math.isfinite(contact.friction) else ""
     lines = (contact.title, contact.conditions, friction)
     return "\n".join(line for line in lines if line)
@@ -285,7 +286,7 @@ def trail_figure(contacts: Sequence[Contact], trails: Sequence[tuple[Array, Arra
     panels = figure.subplots(len(contacts), 1, squeeze=False, sharex=True)[:, 0]
     for axes, contact, trail in zip(panels, contacts, trails, strict=True):
         plot_trail(axes, contact, *trail)
-        axes.set_title(_title(contact).replace("\n", ", "), fontsize=9.5, loc="left")
+        axes.set_title(contact_title(contact).replace("\n", ", "), fontsize=9.5, loc="left")
     panels[-1].set_xlabel(_ALONG)
     figure.supylabel("height of the surface (µm)", fontsize=10.5)
     handles, labels = panels[0].get_legend_handles_labels()

@@ -28,6 +28,7 @@ from viscofric.report.results import (
     rubbers,
     values,
 )
+from viscofric.report.rough_contacts import rough_contacts_figure
 from viscofric.report.sweep_figures import sweep_figure
 from viscofric.report.sweeps import MOST_LINES, SAMPLE, labelled, solved_cases, sweep_axes, thinned
 
@@ -120,13 +121,18 @@ def coulomb_friction(tree: xr.DataTree) -> Figure | None:
 
 
 def contacts(tree: xr.DataTree) -> Figure | None:
-    """Pressure of the slowest contact, of that with the most friction and of the fastest; of an indenter only."""
-    shown = [] if is_rough(tree) else shown_contacts(tree)
-    return contacts_figure([contact for contact, _ in shown]) if shown else None
+    """Pressure of the slowest contact, of that with the most friction and of the fastest."""
+    shown = shown_contacts(tree)
+    if not shown:
+        return None
+    each = [contact for contact, _ in shown]
+    if is_rough(tree):
+        return rough_contacts_figure(each, [float(told.get("direction", 0.0)) for _, told in shown])
+    return contacts_figure(each)
 
 
 def recovery_trail(tree: xr.DataTree) -> Figure | None:
-    """Draw the surface behind those contacts."""
+    """Draw the surface behind those contacts; a rough surface has no behind."""
     shown = [] if is_rough(tree) else shown_contacts(tree)
     found = trails(tree, shown)
     return trail_figure([contact for contact, _ in shown], found) if found and len(found) == len(shown) else None

@@ -14,7 +14,7 @@ from viscofric.report.between_temperatures import filled_in
 from viscofric.report.house_style import INK, VERMILION, WHITE, slender_bar, speed_ticks
 from viscofric.report.panels import panel_points, panel_title, small_multiples
 from viscofric.report.sweep_figures import FRICTION
-from viscofric.report.sweeps import best_estimate, sweep_axes
+from viscofric.report.sweeps import SEED, best_estimate, seeds_averaged, sweep_axes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -131,6 +131,8 @@ def map_figure(
 ) -> Figure | None:
     """Return friction as a map over speed and temperature, one for each point of the other axes, on one scale.
 
+    Of several seeds of a surface the mean is drawn.
+
     Parameters
     ----------
     friction : xarray.Dataset
@@ -148,6 +150,8 @@ def map_figure(
     sizes = friction.sizes
     if sizes.get("speed", 0) < LEAST_SPEEDS or sizes.get("temperature", 0) < LEAST_TEMPERATURES:
         return None
+    if seeds_averaged(friction):
+        friction = friction[[_COEFFICIENT]].mean(SEED, skipna=False)
     mu = best_estimate(friction)[_COEFFICIENT].sortby(["temperature", "speed"])
     if np.isfinite(mu.values).sum() < LEAST_SPEEDS * LEAST_TEMPERATURES:
         return None

@@ -116,38 +116,72 @@ def plot_contact_map(axes: Axes, solution: PeriodicSolution) -> tuple[QuadMesh, 
     str
         Label of that bar.
     """
-    every = math.ceil(max(solution.pressure.shape) / _MOST_POINTS)
+    mesh, label = plot_pressure_of_period(axes, solution.x, solution.y, solution.pressure)
+    if solution.speed != 0.0:
+        sense = math.copysign(1.0, solution.speed)
+        mark_motion(axes, (sense * solution.direction[0], sense * solution.direction[1]))
+    return mesh, label
+
+
+def plot_pressure_of_period(
+    axes: Axes, x: Array, y: Array, pressure: Array, *, highest: float | None = None
+) -> tuple[QuadMesh, str]:
+    """Draw the pressure on one period of a rough surface seen from above, where there is any.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    x, y : (nx,) and (ny,) array
+        m.
+    pressure : (nx, ny) array
+        Pa.
+    highest : float, optional
+        Pressure at the end of the colours, Pa; 99.5 % of the loaded points are below if it is not given.
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh
+        For a colour bar.
+    str
+        Label of that bar.
+    """
+    every = math.ceil(max(pressure.shape) / _MOST_POINTS)
     # Contact patches are small: of n² points the highest pressure is drawn.
-    shape = tuple(n // every for n in solution.pressure.shape)
-    pressure = solution.pressure[: shape[0] * every, : shape[1] * every]
-    pressure = pressure.reshape(shape[0], every, shape[1], every).max(axis=(1, 3))
-    unit = _unit(float(solution.x[-1]))
-    size = _unit(solution.max_pressure, "Pa")
-    shown = np.ma.masked_equal(pressure.T, 0.0) / size.size
+    shape = tuple(n // every for n in pressure.shape)
+    merged = pressure[: shape[0] * every, : shape[1] * every]
+    merged = merged.reshape(shape[0], every, shape[1], every).max(axis=(1, 3))
+    unit, ends = _unit(float(x[-1])), highest_shown(merged) if highest is None else highest
+    size = _unit(float(pressure.max()) if highest is None else highest, "Pa")
     mesh = axes.pcolormesh(
-        solution.x[: shape[0] * every : every] / unit.size,
-        solution.y[: shape[1] * every : every] / unit.size,
-        shown,
+        x[: shape[0] * every : every] / unit.size,
+        y[: shape[1] * every : every] / unit.size,
+        np.ma.masked_equal(merged.T, 0.0) / size.size,
         cmap=matplotlib.colormaps["viridis"],
         vmin=0.0,
-        # One point at a sharp edge would leave all others dark.
-        vmax=float(np.quantile(shown.compressed(), _SHARE_SHOWN)),
+        vmax=ends / size.size,
         shading="nearest",
         rasterized=True,
     )
     _axes_of_map(axes, unit)
-    if solution.speed != 0.0:
-        sense = math.copysign(0.06, solution.speed)
-        reach = sense * solution.direction[0], sense * solution.direction[1]
-        axes.annotate(
-            "",
-            (0.1 + reach[0], 0.92 + reach[1]),
-            (0.1 - reach[0], 0.92 - reach[1]),
-            "axes fraction",
-            "axes fraction",
-            arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4},
-        )
     return mesh, f"pressure ({size.name})"
+
+
+def highest_shown(*pressures: Array) -> float:
+    """Return where the colours of pressures should end: one point at a sharp edge would leave all others dark."""
+    return float(np.quantile(np.concatenate([each[each > 0.0] for each in pressures]), _SHARE_SHOWN))
+
+
+def mark_motion(axes: Axes, direction: tuple[float, float]) -> None:
+    """Draw an arrow in the upper left corner along a unit vector."""
+    reach = 0.06 * direction[0], 0.06 * direction[1]
+    axes.annotate(
+        "",
+        (0.1 + reach[0], 0.92 + reach[1]),
+        (0.1 - reach[0], 0.92 - reach[1]),
+        "axes fraction",
+        "axes fraction",
+        arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4},
+    )
 
 
 def plot_power_spectra(axes: Axes, spectra: Mapping[str, PowerSpectrum]) -> None:

@@ -19,7 +19,16 @@ from viscofric.report.house_style import (
     speed_ticks,
 )
 from viscofric.report.panels import columns_of, panel_points, panel_title, small_multiples
-from viscofric.report.sweeps import MOST_LINES, MOST_PANELS, SAMPLE, best_estimate, layout_of, thinned
+from viscofric.report.sweeps import (
+    MOST_LINES,
+    MOST_PANELS,
+    SAMPLE,
+    SEED,
+    best_estimate,
+    layout_of,
+    seeds_averaged,
+    thinned,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,6 +45,7 @@ if TYPE_CHECKING:
 FRICTION = r"viscoelastic friction coefficient $\mu$"
 _COEFFICIENT = "friction_coefficient"
 _BAND = 0.18
+_THIN: dict[str, Any] = {"linewidth": 0.7, "alpha": 0.45, "zorder": 1.5}  # of one surface among several
 _HEADROOM = 1.06
 
 
@@ -43,14 +53,15 @@ def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence
     """Draw friction along one axis of a study, a line for each point of another.
 
     Where there are members of the rubber's posterior (`sample`), the line is the best estimate, and the band holds 95 %
-    of them.
+    of them.  Where there are surfaces that differ by chance (`seed`), each is a thin line behind their mean, and the
+    band is the mean's 95 % interval; points at which one of them was not solved have no mean.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     friction : xarray.Dataset
         `friction_coefficient`, and perhaps `friction_lower` and `friction_upper`, over the axes of the layout (and
-        `sample`) only.
+        `sample` and `seed`) only.
     layout : Layout
     shown : sequence of int
         Which points of the layout's lines are drawn.
@@ -68,12 +79,19 @@ def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence
         if np.isfinite(lower).any():
             axes.fill_between(x, lower, upper, color=look.colour, alpha=_BAND, linewidth=0.0, zorder=1)
         axes.plot(x, mu, **style)
+        if (each := _of_seeds(part, along.name)) is not None:
+            axes.plot(x, each, **(style | {"markersize": 2}), **_THIN)
         missing = x[~np.isfinite(mu)]
         axes.plot(missing, np.full(missing.size, 0.03), "x", color=VERMILION, transform=axes.get_xaxis_transform())
 
 
 def _middle_and_band(part: xr.Dataset, along: str) -> tuple[Array, Array, Array]:
     """Return friction along an axis and the limits of its band, NaN where there is none."""
+    each = _of_seeds(part, along)
+    if each is not None:
+        from viscofric.roughness.ensemble import interval_of_mean
+
+        return each.mean(axis=-1), *interval_of_mean(each)
     mu = np.asarray(best_estimate(part)[_COEFFICIENT].values, dtype=float)
     if SAMPLE in part[_COEFFICIENT].dims:
         members = part[_COEFFICIENT].transpose(SAMPLE, along).values
@@ -85,6 +103,14 @@ def _middle_and_band(part: xr.Dataset, along: str) -> tuple[Array, Array, Array]
     names = ("friction_lower", "friction_upper")
     lower, upper = (np.asarray(part[name].values, dtype=float) if name in part else none for name in names)
     return mu, lower, upper
+
+
+def _of_seeds(part: xr.Dataset, along: str) -> Array | None:
+    """Return friction along an axis on each of several surfaces, best estimate of the rubber; None without them."""
+    best = best_estimate(part)[_COEFFICIENT]
+    if SEED not in best.dims or along == SEED:
+        return None
+    return np.asarray(best.transpose(along, SEED).values, dtype=float)
 
 
 def line_looks(lines: SweepAxis | None, shown: Sequence[int]) -> list[Look]:
@@ -162,7 +188,10 @@ def _legend_beside(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequ
             handles.append(Line2D([], [], label=layout.lines.labels[index], **style))
         if layout.lines.is_ordered:
             handles.reverse()
-    if SAMPLE in friction[_COEFFICIENT].dims:
+    if seeds := seeds_averaged(friction):
+        handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="95 % interval\nof the mean"))
+        handles.append(Line2D([], [], color=GREY, label=f"{seeds} seeds", **_THIN))
+    elif SAMPLE in friction[_COEFFICIENT].dims:
         handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="95 % of samples"))
     elif "friction_lower" in friction and np.isfinite(friction["friction_lower"].values).any():
         handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="95 % band"))

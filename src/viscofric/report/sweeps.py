@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 CASE = "case"
 #: Dimension of the members of a material's posterior.
 SAMPLE = "sample"
+#: Dimension of the made surfaces that differ by chance alone.
+SEED = "seed"
 #: Most lines in one panel, and most panels in one figure: more are not read.
 MOST_LINES, MOST_PANELS = 8, 9
 
@@ -237,6 +239,12 @@ def labelled(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:
     return grid.assign_coords({column: single[column] for column in fixed})
 
 
+def seeds_averaged(dataset: xr.Dataset) -> int:
+    """Return over how many seeds of a surface figures show the mean: none where nothing else varies."""
+    count = dataset.sizes.get(SEED, 1)
+    return count if count > 1 and len(sweep_axes(dataset)) > 1 else 0
+
+
 @dataclass(frozen=True, eq=False)
 class Layout:
     """How a sweep is drawn: what runs along the axis, what becomes lines, what becomes panels."""
@@ -250,9 +258,12 @@ def layout_of(dataset: xr.Dataset) -> Layout | None:
     """Return how a sweep is drawn, or None where nothing varies.
 
     Speed runs along the axis, temperature becomes lines, all else panels; without a speed or a temperature that varies
-    others take their places, the one with the most points first.
+    others take their places, the one with the most points first.  Seeds of a surface have no place where anything else
+    varies: the mean over them is drawn.
     """
     left = {axis.name: axis for axis in sweep_axes(dataset)}
+    if len(left) > 1:
+        left.pop(SEED, None)
     if not left:
         return None
     ordered = sorted((axis for axis in left.values() if axis.is_ordered), key=len, reverse=True)

@@ -112,14 +112,7 @@ class RoughFriction:
         InputError
             If there is one surface only, or the probability is out of range.
         """
-        from scipy.special import stdtrit
-
-        wanted, count = share(probability, "probability", example=0.95), len(self.surfaces)
-        if count < 2:
-            raise InputError("interval: one surface does not show how friction scatters from surface to surface.")
-        error = self.friction_coefficient.std(axis=-1, ddof=1) / math.sqrt(count)
-        reach = float(stdtrit(count - 1, 0.5 + 0.5 * wanted)) * error
-        return self.mean_friction - reach, self.mean_friction + reach
+        return interval_of_mean(self.friction_coefficient, probability)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return everything as labelled data with units in its attributes."""
@@ -142,6 +135,37 @@ class RoughFriction:
             },
             attrs={"pressure": self.pressure},
         )
+
+
+def interval_of_mean(found: Array, probability: float = 0.95) -> tuple[Array, Array]:
+    """Return the limits between which the mean over all surfaces of a kind lies, as some of them tell it.
+
+    By Student's t, as if what was found scattered normally from surface to surface.
+
+    Parameters
+    ----------
+    found : (..., k) array
+        Friction, or something else, on each of k surfaces.
+    probability : float
+        Between 0 and 1.
+
+    Returns
+    -------
+    lower, upper : (...) array
+
+    Raises
+    ------
+    InputError
+        If there is one surface only, or the probability is out of range.
+    """
+    from scipy.special import stdtrit
+
+    wanted, count = share(probability, "probability", example=0.95), found.shape[-1]
+    if count < 2:
+        raise InputError("interval: one surface does not show how friction scatters from surface to surface.")
+    mean = found.mean(axis=-1)
+    reach = float(stdtrit(count - 1, 0.5 + 0.5 * wanted)) * found.std(axis=-1, ddof=1) / math.sqrt(count)
+    return mean - reach, mean + reach
 
 
 def predict_rough_friction(
