@@ -52,6 +52,9 @@ class _Range(_Span):
     first: float
     last: float
     points: Count = Field(ge=2, le=MOST_POINTS, description="How many values, both ends included.")
+    spacing: Literal["log", "linear"] = Field(
+        "log", description="Between the values: equal ratios (log) or equal steps (linear)."
+    )
 
     def problems(self) -> Iterator[Problem]:
         """Yield what does not fit together within the table."""
@@ -62,14 +65,18 @@ class _Range(_Span):
 
     def values(self) -> tuple[float, ...]:
         """Return all values; the ends are exactly those given."""
-        logarithmic = getattr(self, "spacing", "linear") == "log"
-        spread = (np.geomspace if logarithmic else np.linspace)(self.first, self.last, self.points)
+        spread = (np.geomspace if self.spacing == "log" else np.linspace)(self.first, self.last, self.points)
         kind = type(self.first)
         return (self.first, *(kind(value) for value in spread[1:-1]), self.last)
 
 
+class _EvenRange(_Range):
+    """From one value to another in equal steps."""
+
+    spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
+
+
 _FROM, _TO = "First value.", "Last value."
-_SPACING = "Between the values: equal ratios (log) or equal steps (linear)."
 
 
 class SpeedRange(_Range):
@@ -77,7 +84,6 @@ class SpeedRange(_Range):
 
     first: Speed = Field(alias="from", description=_FROM)
     last: Speed = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
 
 
 class LengthRange(_Range):
@@ -85,7 +91,6 @@ class LengthRange(_Range):
 
     first: Length = Field(alias="from", description=_FROM)
     last: Length = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
 
 
 class AngleRange(_Range):
@@ -93,7 +98,6 @@ class AngleRange(_Range):
 
     first: Angle = Field(alias="from", description=_FROM)
     last: Angle = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
 
 
 class LoadRange(_Range):
@@ -101,7 +105,6 @@ class LoadRange(_Range):
 
     first: Load = Field(alias="from", description=_FROM)
     last: Load = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
 
 
 class PressureRange(_Range):
@@ -109,15 +112,13 @@ class PressureRange(_Range):
 
     first: Pressure = Field(alias="from", description=_FROM)
     last: Pressure = Field(alias="to", description=_TO)
-    spacing: Literal["log", "linear"] = Field("log", description=_SPACING)
 
 
-class DirectionRange(_Range):
+class DirectionRange(_EvenRange):
     """Directions from one to another, in equal steps."""
 
     first: Direction = Field(alias="from", description=_FROM)
     last: Direction = Field(alias="to", description=_TO)
-    spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
 
 
 class SeedRange(_Span):
@@ -136,12 +137,11 @@ class SeedRange(_Span):
         return tuple(range(self.first, self.last + 1))
 
 
-class TemperatureRange(_Range):
+class TemperatureRange(_EvenRange):
     """Temperatures from one to another, in equal steps."""
 
     first: Temperature = Field(alias="from", description=_FROM)
     last: Temperature = Field(alias="to", description=_TO)
-    spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
 
 
 @dataclass(frozen=True)
