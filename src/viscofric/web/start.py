@@ -1,0 +1,66 @@
+"""What a fresh page shows: a study of the synthetic rubber, the catalogue, and how much may be asked for."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+#: What the page opens with, as a run file would say it; a curve that is there in a second or two.
+FIRST_STUDY: dict[str, Any] = {
+    "title": "Friction of a synthetic fluoroelastomer",
+    "data_origin": "synthetic",
+    "material": {"catalogue": "synthetic fluoroelastomer"},
+    "indenter": {"shape": "ball", "radius": "9.525 mm"},
+    "conditions": {
+        "load": "25 N",
+        "speed": {"from": "1 mm/s", "to": "10 m/s", "points": 25, "spacing": "log"},
+        "temperature": ["30 degC", "60 degC", "90 degC"],
+    },
+    "solver": {"accuracy": 1e-2},
+}
+
+
+def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
+    """Return what the page asks for before anything else.
+
+    Parameters
+    ----------
+    study : dict, optional
+        The tables of a run file that the page is to open with; the first study if not given.
+
+    Returns
+    -------
+    dict
+        ``version``; ``study``, the tables of a run file; ``catalogue``, rubbers with ``name``, ``synthetic`` and
+        ``description``; ``limits``, ``upload`` in bytes and ``files`` of one page.
+    """
+    from importlib.metadata import version
+
+    from viscofric.web.workspace import LARGEST_UPLOAD, MOST_FILES
+
+    return {
+        "version": version("viscofric"),
+        "study": copy.deepcopy(FIRST_STUDY if study is None else study),
+        "catalogue": rubbers(),
+        "limits": {"upload": LARGEST_UPLOAD, "files": MOST_FILES},
+    }
+
+
+def rubbers() -> list[dict[str, Any]]:
+    """Return the rubbers of the catalogue.
+
+    Returns
+    -------
+    list of dict
+        ``name``, ``synthetic`` (whether it was made up) and ``description`` (what is known of it, and from where).
+    """
+    from viscofric.rheology.catalogue import catalogue
+
+    return [
+        {
+            "name": entry.name,
+            "synthetic": entry.kind == "SYNTHETIC",
+            "description": f"{entry.holds} {entry.citation}",
+        }
+        for entry in catalogue()
+    ]

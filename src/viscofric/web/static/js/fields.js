@@ -1,0 +1,333 @@
+// Fields, notes, progress bars and other parts of a form; each returns an element to put into a step's section.
+//
+// Every field edits one path of the study's document (state.js) and shows, beside itself, the error whose `field` is that
+// path. showErrors([{field, message}]) shows what the check of the document found; showError(error) adds that of a job.
+
+import { state } from "./state.js";
+import * as units from "./units.js";
+
+let made = 0;
+const fields = new Map(); // path -> fields that show its errors
+
+/** An element: h("p", {class: "quiet", onclick}, "text", child). */
+export function h(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties ?? {})) {
+    if (value === undefined || value === null || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (name in element && typeof value !== "string") element[name] = value;
+    else element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+/** An icon of the page's own set, hidden from screen readers. */
+export function icon(name) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("class", "icon");
+  svg.setAttribute("aria-hidden", "true");
+  svg.setAttribute("viewBox", "0 0 20 20");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  path.setAttribute("d", ICONS[name]);
+  svg.append(path);
+  return svg;
+}
+
+const ICONS = {
+  undo: "M7.5 4 3.5 8l4 4M4 8h8a4.5 4.5 0 0 1 0 9H9",
+  redo: "m12.5 4 4 4-4 4M16 8H8a4.5 4.5 0 0 0 0 9h3",
+  theme: "M10 2.5a7.5 7.5 0 1 0 0 15zM10 2.5a7.5 7.5 0 0 1 0 15",
+  down: "M10 3v9m-4-3.5 4 4 4-4M4 16.5h12",
+  table: "M3 4.5h14v11H3zM3 8.5h14M8 8.5v7",
+  copy: "M7 7h9v9H7zM4 13V4h9",
+  file: "M5 2.5h6.5L15 6v11.5H5zM11.5 2.5V6H15",
+  units: "M3 13 13 3l4 4L7 17zM6 10l2 2M8.5 7.5l2 2M11 5l2 2",
+  close: "m5 5 10 10M15 5 5 15",
+};
+
+/** A button; `kind` is "main", "quiet" or nothing. */
+export function button({ label, onClick, kind, symbol, title, disabled }) {
+  const classes = ["button", kind].filter(Boolean).join(" ");
+  return h("button", { type: "button", class: classes, onclick: onClick, title, disabled }, symbol ? icon(symbol) : null, label);
+}
+
+/** A card with a heading, for figures and forms that belong together. */
+export function card(title, ...children) {
+  const heading = `heading-${(made += 1)}`;
+  return h("section", { class: "card", "aria-labelledby": heading }, h("h3", { id: heading }, title), ...children);
+}
+
+/** Label, control, help and error of one path. */
+function field({ path, label, help, classes = "" }, control, controls = [control]) {
+  const id = `field-${(made += 1)}`;
+  const single = controls.length === 1;
+  controls[0].id ||= id;
+  const labelled = single
+    ? h("label", { for: controls[0].id, class: "field-label" }, label)
+    : h("span", { id: `${id}-label`, class: "field-label" }, label);
+  const helped = help ? h("p", { class: "help", id: `${id}-help` }, help) : null;
+  const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
+  const described = [helped && `${id}-help`, `${id}-error`].filter(Boolean).join(" ");
+  for (const one of controls) one.setAttribute("aria-describedby", described);
+  const element = h("div", { class: `field ${classes}`.trim() }, labelled, control, helped, error);
+  if (!single) {
+    element.setAttribute("role", "group");
+    element.setAttribute("aria-labelledby", `${id}-label`);
+  }
+  element.setError = (message) => {
+    error.textContent = message ?? "";
+    error.hidden = !message;
+    for (const one of controls) one.toggleAttribute("aria-invalid", Boolean(message));
+    for (const one of controls) if (message) one.setAttribute("aria-invalid", "true");
+    element.classList.toggle("wrong", Boolean(message));
+  };
+  if (path) {
+    if (!fields.has(path)) fields.set(path, new Set());
+    fields.get(path).add(element);
+  }
+  return element;
+}
+
+/** What people type, as a run file wants it: a bare number gets the user's unit. */
+function withUnit(text, kind) {
+  const trimmed = text.trim().replace("−", "-").replace(/µ|μ/, "u").replace("°C", "degC").replace("°F", "degF");
+  if (kind === "plain") return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(trimmed) ? Number(trimmed) : trimmed;
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(trimmed) ? `${trimmed} ${units.unitWords(kind)}` : trimmed;
+}
+
+const readable = (words) => String(words ?? "").replace("degC", "°C").replace("degF", "°F");
+const listed = (value) => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
+
+/** Text box whose value follows a path; `read` turns text into a document's value, `write` the reverse. */
+function box(path, { read, write, placeholder, type = "text", label, ...rest }) {
+  const input = h("input", { type, placeholder, autocomplete: "off", spellcheck: "false", "aria-label": label, ...rest });
+  const refresh = () => {
+    if (document.activeElement !== input || !input.dataset.typing) input.value = write(state.get(path));
+  };
+  input.addEventListener("input", () => (input.dataset.typing = "yes"));
+  input.addEventListener("change", () => {
+    delete input.dataset.typing;
+    state.set(path, input.value.trim() === "" ? undefined : read(input.value));
+    refresh();
+  });
+  state.subscribe(path, refresh);
+  refresh();
+  return input;
+}
+
+/** One quantity with its unit: quantityField({path: "conditions.load", label: "Load", kind: "load"}). */
+export function quantityField({ path, label, kind = "plain", help, placeholder }) {
+  const input = box(path, { read: (text) => withUnit(text, kind), write: readable, placeholder, inputmode: "text" });
+  return field({ path, label, help }, input);
+}
+
+/** Free text, such as a title or a name. */
+export function textField({ path, label, help, placeholder }) {
+  return field({ path, label, help }, box(path, { read: (text) => text.trim(), write: (value) => value ?? "", placeholder }));
+}
+
+/** A plain number: numberField({path: "solver.accuracy", label: "Accuracy", min, max, step}). */
+export function numberField({ path, label, help, min, max, step = "any", placeholder }) {
+  const read = (text) => (text === "" || Number.isNaN(Number(text)) ? text : Number(text));
+  const input = box(path, { read, write: (value) => value ?? "", type: "number", min, max, step, placeholder });
+  return field({ path, label, help }, input);
+}
+
+/** A choice: choiceField({path, label, options: [[value, label], …], otherwise, onChange}); an undefined value removes the key. */
+export function choiceField({ path, label, options, help, otherwise, onChange }) {
+  const select = h("select", {}, options.map(([value, text], index) => h("option", { value: String(index) }, text ?? value)));
+  const refresh = () => {
+    const value = state.get(path) ?? otherwise;
+    const index = options.findIndex(([one]) => JSON.stringify(one) === JSON.stringify(value));
+    select.selectedIndex = index;
+  };
+  select.addEventListener("change", () => {
+    const value = options[Number(select.value)][0];
+    if (onChange) onChange(value);
+    else state.set(path, value);
+  });
+  state.subscribe(path, refresh);
+  refresh();
+  return field({ path, label, help }, select);
+}
+
+/** A switch that stands for a table or a key: toggleField({path: "layer", label: "Layer", value: {thickness: "2 mm"}}). */
+export function toggleField({ path, label, value = true, help }) {
+  const input = h("input", { type: "checkbox", role: "switch" });
+  const refresh = () => (input.checked = state.get(path) !== undefined);
+  let last = value;
+  input.addEventListener("change", () => {
+    if (!input.checked) last = structuredClone(state.get(path));
+    state.set(path, input.checked ? last : undefined);
+  });
+  state.subscribe(path, refresh);
+  refresh();
+  return field({ path: "", label, help, classes: "switch" }, input);
+}
+
+/** One value, a list, or a range: rangeField({path: "conditions.speed", label: "Speed", kind: "speed"}). */
+export function rangeField({ path, label, kind = "plain", help, spacing = ["log", "linear"], otherwise = {} }) {
+  const form = () => {
+    const value = state.get(path);
+    if (value && typeof value === "object" && !Array.isArray(value)) return "range";
+    return Array.isArray(value) && value.length !== 1 ? "list" : "one";
+  };
+  const mode = h("select", { class: "mode", "aria-label": `${label}: how it is given` });
+  for (const [value, text] of [["one", "one value"], ["list", "list"], ["range", "range"]]) mode.append(h("option", { value }, text));
+  const read = (text) => withUnit(text, kind);
+  const one = box(path, { label, read, write: (value) => readable(listed(value)[0]) });
+  const list = box(path, {
+    label: `${label}: list, parted by commas`,
+    read: (text) => withUnits(text, kind),
+    write: (value) => listed(value).map(readable).join(", "),
+  });
+  const end = (key, text) => box(`${path}.${key}`, { label: `${label} ${text}`, read, write: readable });
+  const points = box(`${path}.points`, { label: `${label}: number of points`, type: "number", min: 2, step: 1, read: Number, write: (value) => value ?? "" });
+  const gap = h("select", { "aria-label": `${label}: spacing` }, spacing.map((value) => h("option", { value }, value)));
+  gap.addEventListener("change", () => state.set(`${path}.spacing`, gap.value));
+  const ends = [end("from", "from"), end("to", "to")];
+  const range = h("span", { class: "range" }, ends[0], h("span", {}, "to"), ends[1], points, h("span", {}, "points"), spacing.length > 1 ? gap : null);
+  const refresh = () => {
+    const now = form();
+    mode.value = now;
+    one.hidden = now !== "one";
+    list.hidden = now !== "list";
+    range.hidden = now !== "range";
+    gap.value = state.get(`${path}.spacing`) ?? spacing[0];
+  };
+  mode.addEventListener("change", () => state.set(path, inForm(mode.value, state.get(path), { spacing, otherwise })));
+  state.subscribe(path, refresh);
+  refresh();
+  return field({ path, label, help, classes: "wide" }, h("span", { class: "range-field" }, mode, one, list, range), [one, list, ...ends, points, mode, gap]);
+}
+
+/** A list that people typed; a unit at its end is that of all: "30, 60, 90 °C". */
+function withUnits(text, kind) {
+  const parts = text.split(/[,;]\s*/).filter((part) => part.trim() !== "");
+  const unit = /[\d.]\s*([^\d\s.].*)$/.exec(parts.at(-1) ?? "")?.[1];
+  return parts.map((part) => withUnit(unit && /^[\s\d.+−-]+$/.test(part) ? `${part.trim()} ${unit}` : part, kind));
+}
+
+/** The same quantity in another form: one value, list or range. */
+function inForm(form, value, { spacing, otherwise }) {
+  const isRange = value && typeof value === "object" && !Array.isArray(value);
+  const all = isRange ? [value.from, value.to] : listed(value);
+  if (form === "one") return all[0] ?? otherwise.one;
+  if (form === "list") return all.length > 1 ? all : [all[0], otherwise.to ?? all[0]].filter(Boolean);
+  return { from: all[0], to: all.length > 1 ? all.at(-1) : (otherwise.to ?? all[0]), points: otherwise.points ?? 10, spacing: spacing[0] };
+}
+
+/** A place to drop files, which is also a button: fileDrop({label, accept, multiple, onFiles: (files) => …}). */
+export function fileDrop({ label, help, accept, multiple = true, onFiles }) {
+  const input = h("input", { type: "file", accept, multiple, class: "hidden-input", id: `files-${(made += 1)}` });
+  const zone = h("label", { class: "drop", for: input.id }, icon("file"), h("strong", {}, label), help ? h("span", { class: "help" }, help) : null);
+  const take = (list) => list.length > 0 && onFiles([...list]);
+  input.addEventListener("change", () => {
+    take(input.files);
+    input.value = "";
+  });
+  for (const kind of ["dragenter", "dragover"]) {
+    zone.addEventListener(kind, (event) => {
+      event.preventDefault();
+      zone.classList.add("over");
+    });
+  }
+  for (const kind of ["dragleave", "drop"]) zone.addEventListener(kind, () => zone.classList.remove("over"));
+  zone.addEventListener("drop", (event) => {
+    event.preventDefault();
+    take(event.dataTransfer.files);
+  });
+  return h("div", { class: "drop-field" }, input, zone);
+}
+
+/** Sentences about the data: note(["…"], "warning"); kinds are "note", "warning", "error". note.set(list) changes them. */
+export function note(list = [], kind = "note") {
+  const element = h("ul", { class: `notes ${kind}` });
+  element.set = (sentences, other = kind) => {
+    element.className = `notes ${other}`;
+    element.replaceChildren(...listed(sentences ?? undefined).map((sentence) => h("li", {}, sentence)));
+    element.hidden = element.children.length === 0;
+  };
+  element.set(list);
+  return element;
+}
+
+/** Progress of one computation: bar.start("…"), bar.set(3, 39, "60 °C"), bar.finish("…"), bar.fail("…"), with a cancel button. */
+export function progressBar({ label = "Computing", onCancel } = {}) {
+  const bar = h("progress", { max: 1, "aria-label": label });
+  const text = h("span", { class: "progress-text" });
+  const cancel = button({ label: "Cancel", kind: "quiet small", onClick: () => onCancel?.() });
+  const element = h("div", { class: "progress", hidden: true }, bar, text, onCancel ? cancel : null);
+  const show = (words, running, kind = "") => {
+    element.hidden = words === "";
+    element.className = `progress ${kind}`.trim();
+    bar.hidden = cancel.hidden = !running;
+    text.textContent = words;
+  };
+  return Object.assign(element, {
+    start(words = label) {
+      bar.removeAttribute("value");
+      show(`${words} …`, true);
+    },
+    set(done, total, words = "") {
+      if (total > 0) bar.value = done / total;
+      show([total > 1 ? `${done} of ${total}` : "", words].filter(Boolean).join(" · ") || `${label} …`, true);
+    },
+    finish: (words = "") => show(words, false, "done"),
+    fail: (words = "") => show(words, false, "failed"),
+  });
+}
+
+/** Few numbers that answer the question: keyNumbers([{label, value, remark}]). */
+export function keyNumbers(list = []) {
+  const element = h("dl", { class: "key-numbers" });
+  element.set = (entries) => {
+    const one = ({ label, value, remark }) =>
+      h("div", {}, h("dt", {}, label), h("dd", { class: "value" }, value), remark ? h("dd", { class: "remark" }, remark) : null);
+    element.replaceChildren(...entries.map(one));
+  };
+  element.set(list);
+  return element;
+}
+
+/** A table of numbers: table(["speed (mm/s)", "μ"], [[20, 0.0078], …], "caption"). */
+export function table(head, rows, caption) {
+  const cell = (value) => h("td", {}, typeof value === "number" ? units.plainNumber(value, 5) : (value ?? "–"));
+  return h(
+    "div",
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": caption ?? "Table" },
+    h(
+      "table",
+      {},
+      caption ? h("caption", {}, caption) : null,
+      h("thead", {}, h("tr", {}, head.map((text) => h("th", { scope: "col" }, text)))),
+      h("tbody", {}, rows.map((row) => h("tr", {}, row.map(cell)))),
+    ),
+  );
+}
+
+const within = (place, path) => path !== "" && (place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`));
+
+/** Show each sentence beside its field and none beside the others; returns those that have no field on the page. */
+export function showErrors(problems) {
+  const homeless = [];
+  const told = new Map();
+  for (const problem of problems) {
+    const homes = [...fields.keys()].filter((path) => within(problem.field ?? "", path));
+    const home = homes.sort((one, other) => other.length - one.length)[0];
+    if (home === undefined) homeless.push(problem);
+    else told.set(home, [told.get(home), problem.message].filter(Boolean).join(" "));
+  }
+  for (const [path, elements] of fields) for (const element of elements) element.setError(told.get(path));
+  return homeless;
+}
+
+/** Show the error of a job beside its field; returns whether there is such a field. */
+export function showError(error) {
+  if (!error?.field) return false;
+  const home = [...fields.keys()].filter((path) => within(error.field, path)).sort((one, other) => other.length - one.length)[0];
+  if (home === undefined) return false;
+  for (const element of fields.get(home)) element.setError(error.message);
+  return true;
+}

@@ -1,0 +1,153 @@
+// The user's units: SI numbers in, text and numbers in the units chosen on the page out, and back.
+//
+// Kinds: length, speed, temperature, load, line_load, modulus, pressure, frequency (SI value in Hz), angular_frequency
+// (SI value in rad/s; shown in the same unit), time, area, angle, and plain (a number without unit).
+//
+// show(0.02, "speed") -> "20 mm/s"          number(0.02, "speed") -> 20         label("speed") -> "mm/s"
+// si(20, "speed") -> 0.02                   words(0.02, "speed") -> "20 mm/s", as run files write it ("30 degC")
+// parse("9.525 mm", "length") -> 0.009525   (null if it cannot be read; the run file's own check says why)
+// subscribe(callback)                       after the user chose other units
+
+const KEY = "viscofric.units";
+const HZ = 2 * Math.PI;
+
+// label: [factor to SI, offset, words in a run file]
+const UNITS = {
+  length: { mm: [1e-3], "µm": [1e-6, 0, "um"], m: [1], in: [0.0254] },
+  speed: { "mm/s": [1e-3], "m/s": [1], "µm/s": [1e-6, 0, "um/s"], "in/s": [0.0254] },
+  temperature: { "°C": [1, 273.15, "degC"], K: [1], "°F": [5 / 9, 459.67 * (5 / 9), "degF"] },
+  load: { N: [1], mN: [1e-3], kN: [1e3], lbf: [4.4482216152605] },
+  line_load: { "N/mm": [1e3], "N/m": [1], "lbf/in": [4.4482216152605 / 0.0254] },
+  modulus: { MPa: [1e6], kPa: [1e3], GPa: [1e9], Pa: [1], psi: [6894.757293168361] },
+  pressure: { MPa: [1e6], kPa: [1e3], Pa: [1], bar: [1e5], psi: [6894.757293168361] },
+  frequency: { Hz: [1], "rad/s": [1 / HZ] },
+  time: { s: [1], ms: [1e-3], "µs": [1e-6, 0, "us"] },
+  angle: { "°": [Math.PI / 180, 0, "deg"], rad: [1] },
+};
+const SYSTEMS = {
+  engineering: Object.fromEntries(Object.entries(UNITS).map(([kind, units]) => [kind, Object.keys(units)[0]])),
+  SI: {
+    length: "m", speed: "m/s", temperature: "K", load: "N", line_load: "N/m", modulus: "Pa", pressure: "Pa",
+    frequency: "rad/s", time: "s", angle: "rad",
+  },
+  imperial: {
+    length: "in", speed: "in/s", temperature: "°F", load: "lbf", line_load: "lbf/in", modulus: "psi", pressure: "psi",
+    frequency: "Hz", time: "s", angle: "°",
+  },
+};
+const TITLES = {
+  length: "Length", speed: "Speed", temperature: "Temperature", load: "Load", line_load: "Load per length",
+  modulus: "Modulus", pressure: "Pressure", frequency: "Frequency", time: "Time", angle: "Angle",
+};
+
+let chosen = { ...SYSTEMS.engineering, ...remembered() };
+const listeners = new Set();
+
+function remembered() {
+  try {
+    const found = JSON.parse(localStorage.getItem(KEY)) ?? {};
+    return Object.fromEntries(Object.entries(found).filter(([kind, unit]) => UNITS[kind]?.[unit]));
+  } catch {
+    return {};
+  }
+}
+
+/** Factor and offset of a kind in the unit that the user chose: SI = factor * number + offset. */
+function scale(kind) {
+  if (kind === "area") return [scale("length")[0] ** 2, 0];
+  if (kind === "angular_frequency") return [chosen.frequency === "Hz" ? HZ : 1, 0];
+  const [factor, offset = 0] = UNITS[kind]?.[chosen[kind]] ?? [1, 0];
+  return [factor, offset];
+}
+
+/** The unit's label; "" of a plain number. */
+export function label(kind) {
+  if (kind === "area") return `${chosen.length}²`;
+  if (kind === "angular_frequency") return chosen.frequency;
+  return chosen[kind] ?? "";
+}
+
+/** A number, or a list of numbers, in the user's unit; null stays null. */
+export function number(value, kind) {
+  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value, (one) => number(one, kind));
+  if (value === null || value === undefined) return null;
+  const [factor, offset] = scale(kind);
+  return factor === 1 && offset === 0 ? value : (value - offset) / factor;
+}
+
+/** The SI value of a number in the user's unit. */
+export function si(value, kind) {
+  const [factor, offset] = scale(kind);
+  return factor * value + offset;
+}
+
+const SUPER = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+
+/** A number as people read it: 0.0182, 25, 1.2×10⁻⁵. */
+export function plainNumber(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(Number(value.toPrecision(digits)));
+  if (size >= 1e-3 && size < 1e5) {
+    const text = size >= 10 ** digits ? String(Math.round(value)) : String(Number(value.toPrecision(digits)));
+    return text.replace("-", "−");
+  }
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+  const power = String(Number(exponent)).replace(/./g, (one) => SUPER[one]);
+  return `${String(Number(mantissa)).replace("-", "−")}×10${power}`;
+}
+
+/** A value with the user's unit: "20 mm/s"; of a temperature no more than its tenth of a degree. */
+export function show(value, kind = "plain", digits = 3) {
+  const inUnit = number(value, kind);
+  if (inUnit === null || !Number.isFinite(inUnit)) return "–";
+  const unit = label(kind);
+  const text = kind === "temperature" ? String(Math.round(10 * inUnit) / 10).replace("-", "−") : plainNumber(inUnit, digits);
+  if (!unit) return text;
+  return unit === "°" ? `${text}°` : `${text}\u00a0${unit}`;
+}
+
+/** A value as a run file writes it, in the user's unit. */
+export function words(value, kind, digits = 6) {
+  const rounded = Number(number(value, kind).toPrecision(digits));
+  return kind === "plain" ? rounded : `${rounded} ${unitWords(kind)}`;
+}
+
+/** The user's unit as a run file writes it: "degC" for °C. */
+export function unitWords(kind) {
+  return UNITS[kind]?.[chosen[kind]]?.[2] ?? label(kind);
+}
+
+/** The SI value of a quantity in a document's words; null where the words are others than the menu's. */
+export function parse(text, kind) {
+  if (typeof text === "number") return kind === "plain" ? text : null;
+  const found = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i.exec(String(text ?? "").replace("−", "-"));
+  if (!found) return null;
+  const unit = found[2].replace(/^u(?=m|s)/, "µ").replace("μ", "µ").replace("degC", "°C").replace("degF", "°F").replace(/^deg$/, "°");
+  const [factor, offset = 0] = (kind === "plain" && !unit ? [1] : UNITS[kind]?.[unit]) ?? [null];
+  return factor === null ? null : Number((factor * Number(found[1]) + offset).toPrecision(14));
+}
+
+/** Kinds that the menu offers: [{kind, title, units, chosen}]. */
+export function choices() {
+  return Object.entries(UNITS).map(([kind, units]) => ({ kind, title: TITLES[kind], units: Object.keys(units), chosen: chosen[kind] }));
+}
+
+/** Names of whole sets of units. */
+export const systems = Object.keys(SYSTEMS);
+
+/** Choose the unit of a kind, or a whole set: choose("speed", "m/s"), choose("SI"). */
+export function choose(kindOrSystem, unit) {
+  chosen = unit === undefined ? { ...SYSTEMS[kindOrSystem] } : { ...chosen, [kindOrSystem]: unit };
+  try {
+    localStorage.setItem(KEY, JSON.stringify(chosen));
+  } catch {
+    // Without storage the choice holds until the page is left.
+  }
+  for (const callback of [...listeners]) callback();
+}
+
+export function subscribe(callback) {
+  listeners.add(callback);
+  return () => listeners.delete(callback);
+}

@@ -1,0 +1,176 @@
+"""The document that the page edits, as the text of a run file, and checked as one."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from viscofric.errors import StudyError
+from viscofric.study.run_file import FIELDS, parse_study
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from viscofric.study.run_file import Study
+
+#: What the exported run file is called.
+RUN_FILE = "study.toml"
+_HEAD = (
+    "# Made on the local page of viscofric.  Paths are relative to this file; run it with: viscofric run study.toml\n"
+)
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_LONGEST_LINE = 100
+_DEEPEST = 10
+#: Keys of a run file, in its order.
+KEYS = tuple(field.alias or name for name, field in FIELDS.items())
+_PLACE = re.compile(rf"((?:{'|'.join(KEYS)})(?:\.[\w-]+|\.'[^']*'|\[\d+\])*): (.+)", re.DOTALL)
+
+
+class Problem(NamedTuple):
+    """What is wrong at one place of the document.
+
+    Parameters
+    ----------
+    field : str
+        Path in the document, such as ``conditions.load``; "" if it is about several.
+    message : str
+        A sentence that stands beside that field.
+    """
+
+    field: str
+    message: str
+
+
+class DocumentError(StudyError):
+    """What is wrong with a document, sentence by sentence.
+
+    Parameters
+    ----------
+    problems : tuple of Problem
+    """
+
+    def __init__(self, problems: tuple[Problem, ...]) -> None:
+        self.problems = problems
+        super().__init__(" ".join(f"{one.field}: {one.message}" if one.field else one.message for one in problems))
+
+    @property
+    def field(self) -> str:
+        """Path of the first place that is wrong."""
+        return self.problems[0].field
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.problems,)
+
+
+def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
+    """Write a document as a run file, and check it as one.
+
+    Parameters
+    ----------
+    document : mapping
+        Tables of a run file, with its keys and its words.
+    folder : Path
+        Of the data files that it names.
+
+    Returns
+    -------
+    text : str
+        Of the run file.
+    study : Study
+        Its paths lie in `folder`.
+
+    Raises
+    ------
+    DocumentError
+        With every wrong key, unit and range.
+    """
+    text = study_text(document)
+    path = folder / RUN_FILE
+    try:
+        return text, parse_study(text, path)
+    except StudyError as error:
+        raise DocumentError(_problems(str(error), f"{path}: ")) from None
+
+
+def _problems(said: str, start: str) -> tuple[Problem, ...]:
+    """Return the sentences of an error of a run file, each with its place."""
+    first, *others = said.removeprefix(start).split("\n  ")
+    return tuple(map(_problem, others or [first]))
+
+
+def _problem(sentence: str) -> Problem:
+    if found := _PLACE.fullmatch(sentence):
+        return Problem(found[1], found[2][0].upper() + found[2][1:])
+    return Problem("", sentence)
+
+
+def study_text(document: Mapping[str, Any]) -> str:
+    """Write a document as a run file.
+
+    Parameters
+    ----------
+    document : mapping
+        Tables of a run file.  Of those, what it holds nothing in is left out.
+
+    Returns
+    -------
+    str
+        TOML, tables in the order of the documentation.
+
+    Raises
+    ------
+    DocumentError
+        If it holds what no run file can: null, or text that is no Unicode.
+    """
+    known = [key for key in KEYS if key in document]
+    ordered = {key: document[key] for key in [*known, *(key for key in document if key not in known)]}
+    tables = {key: value for key, value in ordered.items() if _is_table(value)}
+    parts = [_HEAD + "".join(_line(key, value, key) for key, value in ordered.items() if key not in tables)]
+    for key, value in tables.items():
+        for at, one in enumerate(value if isinstance(value, list) else [value]):
+            path = f"{key}[{at}]" if isinstance(value, list) else key
+            head = f"[[{_key(key)}]]\n" if isinstance(value, list) else f"[{_key(key)}]\n"
+            parts.append(head + "".join(_line(name, entry, f"{path}.{name}") for name, entry in one.items()))
+    text = "\n".join(parts)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise DocumentError((Problem("", "The study holds half of a character, which no file can."),)) from None
+    return text
+
+
+def _is_table(value: object) -> bool:
+    return isinstance(value, dict) or (
+        isinstance(value, list) and bool(value) and all(isinstance(one, dict) for one in value)
+    )
+
+
+def _line(key: str, value: object, path: str) -> str:
+    return f"{_key(key)} = {_value(value, path)}\n"
+
+
+def _key(key: str) -> str:
+    return key if _BARE.fullmatch(key) else _scalar(key, "")
+
+
+def _value(value: object, path: str, depth: int = 0) -> str:
+    if depth > _DEEPEST:
+        raise DocumentError((Problem(path.partition("[")[0], "Lists or tables lie within each other too deeply."),))
+    if isinstance(value, dict):
+        inside = [f"{_key(str(key))} = {_value(one, f'{path}.{key}', depth + 1)}" for key, one in value.items()]
+        return f"{{ {', '.join(inside)} }}" if inside else "{}"
+    if isinstance(value, list | tuple):
+        entries = [_value(one, f"{path}[{at}]", depth + 1) for at, one in enumerate(value)]
+        line = f"[{', '.join(entries)}]"
+        # Within braces a line may not end, so that only lists right below a table are broken.
+        return line if len(line) <= _LONGEST_LINE or depth else "[\n" + "".join(f"  {one},\n" for one in entries) + "]"
+    return _scalar(value, path)
+
+
+def _scalar(value: object, path: str) -> str:
+    import tomli_w
+
+    if value is None:
+        raise DocumentError((Problem(path, "Is null; leave the key out, or give it a value."),))
+    return tomli_w.dumps({"value": value}).removeprefix("value = ").removesuffix("\n")
