@@ -30,6 +30,9 @@ GROUPS = {
         "measure": "Separate viscoelastic friction in tribometer files.",
         "master": "Shift friction curves onto one; shift factors of friction.",
     },
+    "Page": {
+        "web": "Open the page in the browser: all this without a line.",
+    },
     "Program": {
         "verify": "Check the contact engine on this machine, in a minute.",
         "completion": "Print what lets a shell complete commands and options.",

@@ -1,0 +1,1 @@
+"""The local page: a run file edited in the browser, computed by processes of this machine, private to its user."""

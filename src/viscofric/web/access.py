@@ -1,0 +1,274 @@
+"""Who may use the page: the user who started it, from the page itself, with requests of a bearable size and pace."""
+
+from __future__ import annotations
+
+import asyncio
+import ipaddress
+import json
+import secrets
+import socket
+from dataclasses import dataclass, field
+from http.cookies import CookieError, SimpleCookie
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qs
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, MutableMapping
+
+    Scope = MutableMapping[str, Any]
+    Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
+    Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
+    App = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+LARGEST_STUDY = 4_000_000  # bytes, of a job's body
+_BODY_PAUSE = 20.0  # s without a byte of a body that was announced
+_EVERYWHERE = {"0.0.0.0", "::", ""}
+_CONTENT = "; ".join(
+    [
+        "default-src 'none'",
+        "script-src 'self'",
+        "style-src 'self' 'unsafe-inline'",  # figures are styled by their library, element by element
+        "img-src 'self' data: blob:",
+        "font-src 'self'",
+        "connect-src 'self'",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'none'",
+    ]
+)
+HEADERS = [
+    (b"content-security-policy", _CONTENT.encode()),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+]
+_NO_TOKEN = (
+    "This page is for the person who started it: open the address that 'viscofric web' printed, which holds a token."
+)
+_FOREIGN = "This request comes from another page or names another host; open the address that 'viscofric web' printed."
+
+
+@dataclass(frozen=True)
+class Door:
+    """What a request must show to be let in.
+
+    Parameters
+    ----------
+    port : int
+    host : str
+        That the server is bound to.
+    token : str
+    """
+
+    port: int
+    host: str = "127.0.0.1"
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+
+    @property
+    def cookie(self) -> str:
+        """Name of the cookie: browsers keep one for all ports of a host."""
+        return f"viscofric-{self.port}"
+
+    @property
+    def address(self) -> str:
+        """What the user opens."""
+        host = "127.0.0.1" if self.host in _EVERYWHERE else self.host
+        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}/?token={self.token}"
+
+    def is_host(self, value: str) -> bool:
+        """Whether a Host header names this server, by an address that nobody else can have made a name for."""
+        name, _, port = value.rpartition(":") if not value.endswith("]") else (value, "", "80")
+        if port != str(self.port):
+            return False
+        name = name.strip("[]").lower()
+        if name in {"127.0.0.1", "localhost", self.host.lower()} - {""}:
+            return True
+        if self.host not in _EVERYWHERE:
+            return False
+        if name in {socket.gethostname().lower(), socket.getfqdn().lower()}:
+            return True
+        try:
+            ipaddress.ip_address(name)
+        except ValueError:
+            return False
+        return True
+
+    def is_origin(self, value: str) -> bool:
+        """Whether an Origin header names a page of this server."""
+        scheme, _, host = value.partition("://")
+        return scheme == "http" and self.is_host(host)
+
+    def is_token(self, value: str) -> bool:
+        """Whether this is the token, in a time that does not tell how much of it."""
+        return secrets.compare_digest(value.encode("utf-8", "replace"), self.token.encode())
+
+
+class Access:
+    """Lets in only requests of the user's own page, and gives every answer the headers that keep it private.
+
+    Parameters
+    ----------
+    app : ASGI application
+    door : Door
+    """
+
+    def __init__(self, app: App, door: Door) -> None:
+        self.app, self.door = app, door
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request."""
+        if scope["type"] == "lifespan":
+            await self.app(scope, receive, send)
+            return
+        if scope["type"] != "http":
+            return
+        headers = _headers(scope)
+        refusal = self._refusal(scope, headers)
+        if isinstance(refusal, str):
+            await _refuse(scope, send, 403, refusal)
+        elif refusal:
+            await self._welcome(headers, send)
+        else:
+            await self.app(scope, receive, _with_headers(send))
+
+    def _refusal(self, scope: Scope, headers: dict[str, str]) -> str | bool:
+        """Return why a request is refused; True if it brings the token in its address, False if it is let in."""
+        origin = headers.get("origin")
+        if not self.door.is_host(headers.get("host", "")) or (origin is not None and not self.door.is_origin(origin)):
+            return _FOREIGN
+        if scope["path"] == "/" and scope["method"] == "GET":
+            given = parse_qs(scope["query_string"].decode("latin-1")).get("token")
+            if given:
+                return True if self.door.is_token(given[0]) else _NO_TOKEN
+        scheme, _, bearer = headers.get("authorization", "").partition(" ")
+        if scheme.lower() == "bearer" and self.door.is_token(bearer.strip()):
+            return False
+        return False if self.door.is_token(_cookie(headers, self.door.cookie)) else _NO_TOKEN
+
+    async def _welcome(self, headers: dict[str, str], send: Send) -> None:
+        """Hand out the cookie and lead to the page.
+
+        A link on another page (a terminal in a browser) makes the browser hold back the cookie from a redirection,
+        but not from what this answer itself asks for.
+        """
+        cookie = f"{self.door.cookie}={self.door.token}; Path=/; HttpOnly; SameSite=Strict"
+        more = [(b"set-cookie", cookie.encode()), (b"content-type", b"text/html; charset=utf-8")]
+        if headers.get("sec-fetch-site") == "cross-site":
+            await _answer(
+                send,
+                200,
+                b'<!doctype html><title>viscofric</title><a href="/">viscofric</a>',
+                [*more, (b"refresh", b"0; url=/")],
+            )
+        else:
+            await _answer(send, 303, b"", [*more, (b"location", b"/")])
+
+
+class Limits:
+    """Refuses bodies that are too large, or that do not come.
+
+    Parameters
+    ----------
+    app : ASGI application
+    largest : callable
+        Path of a request -> how many bytes its body may have.
+    pause : float
+        Seconds that may pass without a byte of it.
+    """
+
+    def __init__(self, app: App, largest: Callable[[str], int], pause: float = _BODY_PAUSE) -> None:
+        self.app, self.largest, self.pause = app, largest, pause
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        most = self.largest(scope["path"])
+        words = f"The body has more than {most / 1e6:g} MB."
+        announced = _headers(scope).get("content-length", "0")
+        if announced.isdecimal() and int(announced[:20]) > most:
+            await _refuse(scope, send, 413, words)
+            return
+        body = _Body(receive, most, self.pause)
+        answered = _Answered(send)
+        try:
+            await self.app(scope, body.receive, answered.send)
+        except _TooLarge:
+            if not answered.begun:
+                await _refuse(scope, send, 413, words)
+        except _TooSlow:
+            if not answered.begun:
+                await _refuse(scope, send, 408, f"Nothing of the body came for {self.pause:g} s.")
+
+
+class _TooLarge(BaseException):
+    """More of a body came than may."""
+
+
+class _TooSlow(BaseException):
+    """A body does not come."""
+
+
+class _Body:
+    def __init__(self, receive: Receive, most: int, pause: float) -> None:
+        self._receive, self._left, self._pause, self._more = receive, most, pause, True
+
+    async def receive(self) -> MutableMapping[str, Any]:
+        if not self._more:
+            return await self._receive()
+        try:
+            async with asyncio.timeout(self._pause):
+                message = await self._receive()
+        except TimeoutError:
+            raise _TooSlow from None
+        if message["type"] == "http.request":
+            self._left -= len(message.get("body", b""))
+            self._more = message.get("more_body", False)
+            if self._left < 0:
+                raise _TooLarge
+        return message
+
+
+class _Answered:
+    def __init__(self, send: Send) -> None:
+        self._send, self.begun = send, False
+
+    async def send(self, message: MutableMapping[str, Any]) -> None:
+        self.begun = True
+        await self._send(message)
+
+
+def _headers(scope: Scope) -> dict[str, str]:
+    return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+
+
+def _cookie(headers: dict[str, str], name: str) -> str:
+    try:
+        found = SimpleCookie(headers.get("cookie", "")).get(name)
+    except CookieError:
+        return ""
+    return "" if found is None else found.value
+
+
+def _with_headers(send: Send) -> Send:
+    async def sending(message: MutableMapping[str, Any]) -> None:
+        if message["type"] == "http.response.start":
+            message["headers"] = [*message.get("headers", ()), *HEADERS]
+        await send(message)
+
+    return sending
+
+
+async def _refuse(scope: Scope, send: Send, status: int, words: str) -> None:
+    as_json = scope["path"].startswith("/api/")
+    body = json.dumps({"message": words}) if as_json else words + "\n"
+    kind = b"application/json" if as_json else b"text/plain; charset=utf-8"
+    await _answer(send, status, body.encode(), [(b"content-type", kind), (b"connection", b"close")])
+
+
+async def _answer(send: Send, status: int, body: bytes, headers: list[tuple[bytes, bytes]]) -> None:
+    more = [(b"content-length", str(len(body)).encode()), (b"cache-control", b"no-store"), *HEADERS]
+    await send({"type": "http.response.start", "status": status, "headers": [*headers, *more]})
+    await send({"type": "http.response.body", "body": body})

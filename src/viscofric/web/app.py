@@ -1,0 +1,262 @@
+"""The addresses of the page: its files, the user's files, jobs and what they made."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from contextlib import aclosing
+from typing import TYPE_CHECKING, Annotated, Any
+
+from fastapi import Depends, FastAPI, Header, HTTPException, Query, Request, Response
+from fastapi import Path as InAddress
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import FileResponse, JSONResponse
+from pydantic import BaseModel, ConfigDict, Field, JsonValue
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException as StarletteHTTPException
+
+from viscofric import __version__
+from viscofric.errors import InputError
+from viscofric.web.access import LARGEST_STUDY, Access, Door, Limits
+from viscofric.web.jobs import KINDS
+from viscofric.web.static_files import static_file
+from viscofric.web.workspace import KEY, LARGEST_UPLOAD, Workspace, Workspaces, checked_name
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+
+    from starlette.types import ASGIApp, Receive, Scope, Send
+
+    from viscofric.web.children import Children
+
+_NDJSON = "application/x-ndjson"
+_EXAMPLE = ("dma.csv", "mtm.csv")
+_ANY_NAME = Annotated[str, InAddress(min_length=1, max_length=1_000)]
+
+
+class Told(BaseModel):
+    """Why a request was not answered, in one sentence."""
+
+    message: str
+    field: str | None = None
+
+
+class Status(BaseModel):
+    """How the server fares."""
+
+    running: int = Field(description="Jobs at work or waiting.")
+    version: str
+
+
+class StoredFile(BaseModel):
+    """A file of the user."""
+
+    name: str
+    size: int = Field(description="Bytes.")
+
+
+class JobRequest(BaseModel):
+    """What is to be computed."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    study: dict[str, JsonValue] = Field({}, description="The tables of a run file.")
+    options: dict[str, JsonValue] = Field({}, description="Of this kind of job.")
+
+
+class PlainJSON(JSONResponse):
+    """JSON in ASCII: what came in as half a character goes out as it came."""
+
+    def render(self, content: Any) -> bytes:
+        """Return the body."""
+        return json.dumps(content, separators=(",", ":")).encode()
+
+
+class JobStream(Response):
+    """What is told of a job, a line each, for as long as somebody listens."""
+
+    media_type = _NDJSON
+
+    def __init__(self, lines: AsyncIterator[bytes]) -> None:
+        super().__init__()
+        del self.headers["content-length"]
+        self.headers["cache-control"] = "no-store"
+        self._lines = lines
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Send the lines; stop the job as soon as the other end is gone."""
+        await send({"type": "http.response.start", "status": 200, "headers": self.raw_headers})
+        tasks = [asyncio.create_task(self._send_all(send)), asyncio.create_task(_gone(receive))]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+        if not tasks[0].cancelled() and (error := tasks[0].exception()) is not None and not isinstance(error, OSError):
+            raise error
+
+    async def _send_all(self, send: Send) -> None:
+        async with aclosing(self._lines) as lines:  # type: ignore[type-var]
+            async for line in lines:
+                await send({"type": "http.response.body", "body": line, "more_body": True})
+        await send({"type": "http.response.body", "body": b""})
+
+
+async def _gone(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
+def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict[str, Any] | None = None) -> ASGIApp:
+    """Return the page as an ASGI application.
+
+    Parameters
+    ----------
+    door : Door
+    workspaces : Workspaces
+    children : Children
+    study : dict, optional
+        That the page opens with, instead of its own first one.
+    """
+    api = FastAPI(
+        title="viscofric",
+        version=__version__,
+        docs_url=None,
+        redoc_url=None,
+        openapi_url="/api/openapi.json",
+        default_response_class=PlainJSON,
+        responses={422: {"model": Told}, 413: {"model": Told}, 400: {"model": Told}},
+    )
+    _tell_plainly(api)
+    _page(api, study)
+    _files(api, workspaces)
+    _jobs(api, workspaces, children)
+
+    def largest(path: str) -> int:
+        return LARGEST_UPLOAD if path.startswith("/api/files/") else LARGEST_STUDY
+
+    return Access(Limits(api, largest), door)
+
+
+def _tell_plainly(api: FastAPI) -> None:
+    """Have every refusal be one sentence."""
+
+    @api.exception_handler(RequestValidationError)
+    async def wrong(request: Request, error: RequestValidationError) -> Response:
+        first = error.errors()[0]
+        place = ".".join(str(part) for part in first["loc"][1:])
+        return PlainJSON({"message": f"{place or 'body'}: {first['msg']}.", "field": place or None}, 422)
+
+    @api.exception_handler(InputError)
+    async def refused(request: Request, error: InputError) -> Response:
+        return PlainJSON({"message": str(error), "field": None}, 422)
+
+    @api.exception_handler(StarletteHTTPException)
+    async def other(request: Request, error: StarletteHTTPException) -> Response:
+        return PlainJSON({"message": str(error.detail), "field": None}, error.status_code, error.headers)
+
+
+def _page(api: FastAPI, study: dict[str, Any] | None) -> None:
+    @api.get("/", include_in_schema=False)
+    def index(request: Request) -> Response:
+        return _static(request, "index.html")
+
+    @api.get("/static/{name:path}", include_in_schema=False)
+    def static(request: Request, name: str) -> Response:
+        return _static(request, name)
+
+    @api.get("/api/start")
+    def start() -> dict[str, JsonValue]:
+        """Tell what a fresh page shows."""
+        from viscofric.web.start import start
+
+        return start(study)
+
+
+def _static(request: Request, name: str) -> Response:
+    file = static_file(name)
+    if file is None:
+        raise HTTPException(404, "There is no such file.")
+    # kept by the browser, but asked for each time: the answer is 304 unless another viscofric serves other files
+    headers = {"etag": file.tag, "cache-control": "no-cache", "vary": "accept-encoding"}
+    if file.tag in request.headers.get("if-none-match", ""):
+        return Response(status_code=304, headers=headers)
+    packed = file.packed and "gzip" in request.headers.get("accept-encoding", "")
+    if packed:
+        headers["content-encoding"] = "gzip"
+    return Response(file.packed if packed else file.content, media_type=file.media_type, headers=headers)
+
+
+def _files(api: FastAPI, workspaces: Workspaces) -> None:
+    def of_header(x_workspace: Annotated[str, Header(pattern=KEY)]) -> Workspace:
+        return workspaces.get(x_workspace)
+
+    def of_query(workspace: Annotated[str, Query(pattern=KEY)]) -> Workspace:
+        return workspaces.get(workspace)
+
+    def listed(workspace: Workspace) -> list[StoredFile]:
+        return [StoredFile(name=name, size=size) for name, size in workspace.listing()]
+
+    ByHeader = Annotated[Workspace, Depends(of_header)]
+
+    @api.get("/api/files")
+    def list_files(workspace: ByHeader) -> list[StoredFile]:
+        """List the files of the workspace."""
+        return listed(workspace)
+
+    @api.post("/api/files/example")
+    def use_example(workspace: ByHeader) -> list[StoredFile]:
+        """Put the synthetic example's measurements there."""
+        from importlib.resources import files
+
+        for name in _EXAMPLE:
+            workspace.store(name, (files("viscofric") / "example" / name).read_bytes())
+        return listed(workspace)
+
+    body = {"content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}
+
+    @api.put("/api/files/{name}", openapi_extra={"requestBody": body})
+    async def store_file(name: _ANY_NAME, workspace: ByHeader, request: Request) -> StoredFile:
+        """Keep a file."""
+        name = checked_name(name)
+        content = await request.body()
+        await run_in_threadpool(workspace.store, name, content)
+        return StoredFile(name=name, size=len(content))
+
+    @api.delete("/api/files/{name}", status_code=204, responses={404: {"model": Told}})
+    def remove_file(name: _ANY_NAME, workspace: ByHeader) -> None:
+        """Remove a file."""
+        if not workspace.remove(checked_name(name)):
+            raise HTTPException(404, f"There is no file {name}.")
+
+    @api.get(
+        "/api/downloads/{name}",
+        response_class=Response,
+        responses={404: {"model": Told}, 200: {"content": {"application/octet-stream": {}}}},
+    )
+    def download(name: _ANY_NAME, workspace: Annotated[Workspace, Depends(of_query)]) -> Response:
+        """Fetch what a job made."""
+        path = workspace.downloads / checked_name(name)
+        if not path.is_file():
+            raise HTTPException(404, f"There is no file {name}.")
+        return FileResponse(path, filename=path.name, headers={"cache-control": "no-store"})
+
+
+def _jobs(api: FastAPI, workspaces: Workspaces, children: Children) -> None:
+    @api.get("/api/status")
+    async def status() -> Status:
+        """Tell how the server fares."""
+        return Status(running=children.running, version=__version__)
+
+    @api.post(
+        "/api/jobs/{kind}",
+        response_class=Response,
+        responses={404: {"model": Told}, 200: {"content": {_NDJSON: {"schema": {"type": "string"}}}}},
+    )
+    async def run_job(kind: _ANY_NAME, job: JobRequest, x_workspace: Annotated[str, Header(pattern=KEY)]) -> Response:
+        """Have something computed; closing the connection cancels it."""
+        if kind not in KINDS:
+            raise HTTPException(404, f"There is no job {kind}; there are {', '.join(KINDS)}.")
+        folder = workspaces.get(x_workspace).folder
+        return JobStream(children.run(kind, job.study, job.options, key=x_workspace, folder=folder))

@@ -1,0 +1,227 @@
+"""A process that computes for the page: jobs come on its standard input, and it ends when that closes.
+
+Each line of the input is a JSON object: a job, or the wish to have one cancelled.  Each answer is a line with the job's
+number, the event and a number of bytes, and then as many bytes of JSON.  `viscofric.web.children` is the other end.
+"""
+
+from __future__ import annotations
+
+import _thread
+import contextlib
+import json
+import os
+import queue
+import re
+import signal
+import sys
+import threading
+import traceback
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from viscofric.errors import ViscofricError, brief
+from viscofric.web.jobs import KINDS, WARM
+from viscofric.web.jobs.context import Context, plain
+from viscofric.web.study_files import check_confined
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+#: What is sent at once may have this many bytes: a browser is not to be handed more.
+LARGEST_MESSAGE = 48_000_000
+_LARGEST_FILE = 500_000_000  # bytes, of one that a job writes
+_NO_MEMORY = "There was not enough memory for this; ask for less accuracy or fewer points."
+_DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
+_NICE = 5  # the server and the browser go first
+_TABLES = "title|data_origin|material|indenter|surface|layer|conditions|sweep|measurement|solver|uncertainty|outputs"
+_FIELD = re.compile(rf"(?:^|[:\s])((?:{_TABLES}|options)(?:\.[\w-]+|\[\d+\])*): ")
+
+
+def main(parent: int) -> None:
+    """Do jobs until the standard input closes; run in a process of its own.
+
+    Parameters
+    ----------
+    parent : int
+        Number of the process that hands out the jobs.
+    """
+    _end_with(parent)
+    orders, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    _keep_from_jobs()
+    desk = Desk(answers)
+    threading.Thread(target=desk.listen, args=(orders,), daemon=True).start()
+    for module in WARM:
+        import_module(module)
+    while True:
+        # an interrupt that came as its job ended reaches the loop; there is nothing left to interrupt then
+        with contextlib.suppress(KeyboardInterrupt):
+            desk.work(desk.jobs.get())
+
+
+def _end_with(parent: int) -> None:
+    """Have the system end this process with its parent, even where a long call keeps all threads waiting."""
+    if sys.platform == "win32":
+        return
+    with contextlib.suppress(OSError, AttributeError):
+        os.nice(_NICE)
+    if sys.platform == "linux":
+        import ctypes
+
+        with contextlib.suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(_DIES_WITH_PARENT, signal.SIGKILL)
+    if os.getppid() != parent:
+        os._exit(1)
+
+
+def _keep_from_jobs() -> None:
+    """Leave jobs an empty standard input; what they print goes where errors go."""
+    nowhere = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nowhere, 0)
+    os.close(nowhere)
+    os.dup2(2, 1)
+    if sys.platform != "win32":
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, most))
+
+
+class Desk:
+    """Where jobs come in and answers go out, each by a thread of its own, so that an interrupt splits no answer.
+
+    Parameters
+    ----------
+    answers : binary file
+    """
+
+    def __init__(self, answers: BinaryIO) -> None:
+        self.jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+        self._answers: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._at_work: int | None = None  # number of the job that may be interrupted
+        self._cancelled: set[int] = set()
+        threading.Thread(target=self._write, args=(answers,), daemon=True).start()
+
+    def listen(self, orders: BinaryIO) -> None:
+        """Take in jobs and wishes to cancel them; end everything once nobody can wish any more."""
+        for line in orders:
+            order = json.loads(line)
+            if "cancel" not in order:
+                self.jobs.put(order)
+                continue
+            with self._lock:
+                self._cancelled = {order["cancel"]}
+                if self._at_work == order["cancel"]:
+                    _thread.interrupt_main()
+        end_all()
+
+    def _write(self, answers: BinaryIO) -> None:
+        while True:
+            message = self._answers.get()
+            try:
+                answers.write(message)
+                answers.flush()
+            except OSError:  # nobody reads any more
+                end_all()
+            if not message:
+                os._exit(0)
+
+    def tell(self, number: int, event: str, message: dict[str, Any]) -> None:
+        """Send a message of a job."""
+        body = _json({"event": event, **message})
+        if len(body) > LARGEST_MESSAGE:
+            raise ViscofricError(
+                f"The answer has {len(body) / 1e6:.0f} MB, more than a browser is handed "
+                f"({LARGEST_MESSAGE / 1e6:.0f} MB); ask for fewer points."
+            )
+        self._answers.put(f"{number} {event} {len(body)}\n".encode() + body)
+
+    def work(self, job: dict[str, Any]) -> None:
+        """Do a job and tell what became of it."""
+        number = job["job"]
+        reusable = True
+        try:
+            with self._interruptible(number):
+                result = _result(job, lambda event, message: self.tell(number, event, message))
+                self.tell(number, "result", {"result": result})
+        except KeyboardInterrupt as stop:
+            reusable = not _was_importing(stop.__traceback__)
+            self.tell(number, "cancelled", {})
+        except BaseException as error:  # noqa: BLE001 - the page is told
+            reusable = not isinstance(error, MemoryError)
+            self.tell(number, "error", _told(error, Path(job["folder"]) / "files"))
+        if not reusable:
+            self._answers.put(b"")
+            threading.Event().wait()
+
+    @contextlib.contextmanager
+    def _interruptible(self, number: int) -> Any:
+        with self._lock:
+            if number in self._cancelled:
+                raise KeyboardInterrupt
+            self._at_work = number
+        try:
+            yield
+        finally:
+            self._at_work = None
+
+
+def _result(job: dict[str, Any], tell: Any) -> Any:
+    kind = KINDS[job["kind"]]
+    _limit_memory(kind.memory)
+    module = import_module(kind.module)
+    check_confined(job["study"])
+    folder = Path(job["folder"])
+    context = Context(folder / "files", folder / "downloads", folder / "cache", tell)
+    return module.run(job["study"], module.Options.model_validate(job["options"]), context)
+
+
+def _limit_memory(most: int) -> None:
+    """Let this process have no more address space, where the system knows how; a job that wants more fails."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    with contextlib.suppress(OSError, ValueError):
+        resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+
+
+def _json(message: dict[str, Any]) -> bytes:
+    try:
+        text = json.dumps(message, allow_nan=False, separators=(",", ":"))
+    except (TypeError, ValueError):
+        text = json.dumps(plain(message, digits=None), allow_nan=False, separators=(",", ":"))
+    return text.encode() + b"\n"
+
+
+def _was_importing(trace: TracebackType | None) -> bool:
+    """Whether an interrupt came while a module was loaded, which may be left half done."""
+    return any("importlib._bootstrap" in frame.f_code.co_filename for frame, _ in traceback.walk_tb(trace))
+
+
+def _told(error: BaseException, files: Path) -> dict[str, Any]:
+    """Return what the page says of an error: a sentence, and the field of the study that it is about."""
+    if isinstance(error, ViscofricError):
+        words = str(error).replace(f"{files}{os.sep}", "")
+        found = _FIELD.search(words)
+        return {"message": words, "field": getattr(error, "field", None) or (found[1] if found else None)}
+    if isinstance(error, MemoryError):
+        return {
+            "message": _NO_MEMORY,
+            "field": None,
+        }
+    if type(error).__name__ == "ValidationError" and hasattr(error, "errors"):
+        first = error.errors()[0]
+        place = ".".join(["options", *map(str, first["loc"])])
+        return {"message": f"{place}: {first['msg']}.", "field": place}
+    traceback.print_exception(error)
+    return {"message": f"This is an error of viscofric, {type(error).__name__}: {brief(str(error))}.", "field": None}
+
+
+def end_all() -> None:
+    """End this process at once, and those that it started."""
+    if sys.platform != "win32" and os.getpgrp() == os.getpid():
+        os.killpg(os.getpgrp(), signal.SIGKILL)
+    os._exit(1)

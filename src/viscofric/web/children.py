@@ -1,0 +1,292 @@
+"""The processes that compute for the page: kept warm, handed jobs, cancelled, replaced when they end."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+import json
+import logging
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections import deque
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from viscofric.web.jobs import KINDS
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+    from pathlib import Path
+
+MOST_CHILDREN = 4
+_PROGRAM = "from viscofric.web.child import main; main({parent})"
+_ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+_SOFT = 1.0  # s that a cancelled job has to end by itself
+_BEFORE_SPARE = 2.0  # s before another process is started in store: those that have work go first
+_LAST = {"result", "error", "cancelled", "ended"}
+_ENDED = "The process that computed this ended, for want of memory as a rule; ask for less accuracy or fewer points."
+_STOPPED = "The program was stopped."
+
+_log = logging.getLogger(__name__)
+
+
+class Message(NamedTuple):
+    """What a process says of a job: the event, and all of it as a line of JSON."""
+
+    event: str
+    line: bytes
+
+
+def line(event: str, **more: Any) -> bytes:
+    """Return a message of the server itself, as a line of JSON."""
+    return json.dumps({"event": event, **more}).encode() + b"\n"
+
+
+class Child:
+    """A process that computes, as seen by the server."""
+
+    def __init__(self) -> None:
+        self.process = subprocess.Popen(
+            # -P: modules in the working folder must not stand in for those of this process
+            [sys.executable, "-P", "-c", _PROGRAM.format(parent=os.getpid())],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**os.environ, **_ONE_THREAD, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
+            start_new_session=True,  # an interrupt of the terminal is the server's business
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        )
+        self.key: str | None = None  # of the workspace that it served last
+        self.used = 0.0
+        self.number = 0
+        self.messages: asyncio.Queue[Message] = asyncio.Queue()
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    @property
+    def alive(self) -> bool:
+        """Whether it runs still."""
+        return self.process.poll() is None
+
+    def attach(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Begin to hand on what it says."""
+        if self._loop is None:
+            self._loop = loop
+            threading.Thread(target=self._read, args=(loop,), daemon=True).start()
+
+    def _read(self, loop: asyncio.AbstractEventLoop) -> None:
+        pipe = self.process.stdout
+        assert pipe is not None
+        with contextlib.suppress(OSError, ValueError, RuntimeError):  # RuntimeError: the loop is closed
+            for head in pipe:
+                number, event, size = head.split()
+                body = pipe.read(int(size))
+                loop.call_soon_threadsafe(self._take, int(number), Message(event.decode(), body))
+        self.kill()
+        self.process.wait()
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(self._take, None, Message("ended", line("error", message=_ENDED, field=None)))
+
+    def _take(self, number: int | None, message: Message) -> None:
+        if number in (None, self.number):
+            self.messages.put_nowait(message)
+
+    def order(self, order: dict[str, Any]) -> None:
+        """Send a job, or the wish to cancel one."""
+        pipe = self.process.stdin
+        assert pipe is not None
+        with contextlib.suppress(OSError, ValueError):  # it ended, which is told by its output
+            pipe.write(json.dumps(order).encode() + b"\n")
+            pipe.flush()
+
+    def kill(self) -> None:
+        """End it, and what it started, at once."""
+        with contextlib.suppress(OSError):
+            if sys.platform != "win32" and self.process.poll() is None:
+                os.killpg(self.process.pid, signal.SIGKILL)
+        with contextlib.suppress(OSError):
+            self.process.kill()
+
+    def close(self) -> None:
+        """End it and wait for its end."""
+        self.kill()
+        self.process.wait()
+        for pipe in (self.process.stdin, self.process.stdout):
+            with contextlib.suppress(OSError, ValueError):
+                if self._loop is None or pipe is self.process.stdin:  # the other is closed by its reader's end
+                    pipe.close()  # type: ignore[union-attr]
+
+
+class Children:
+    """Processes that compute, at most `most` at once; further jobs wait for their turn.
+
+    Parameters
+    ----------
+    most : int
+    """
+
+    def __init__(self, most: int = MOST_CHILDREN) -> None:
+        self.most = most
+        self._all: list[Child] = []
+        self._idle: list[Child] = []
+        self._waiting: deque[tuple[str, asyncio.Future[Child]]] = deque()
+        self._numbers = itertools.count(1)
+        self._cancelling: set[asyncio.Task[None]] = set()
+        self._closed = False
+
+    @property
+    def running(self) -> int:
+        """Jobs that are at work or wait."""
+        return len(self._all) - len(self._idle) + len(self._waiting)
+
+    def start(self) -> None:
+        """Start a process for the first job to find; needs no event loop."""
+        if not self._closed and len(self._all) < self.most:
+            child = Child()
+            self._all.append(child)
+            self._idle.append(child)
+
+    async def run(
+        self, kind: str, study: dict[str, Any], options: dict[str, Any], *, key: str, folder: Path
+    ) -> AsyncIterator[bytes]:
+        """Have a job done; yield what is told of it, one JSON object a line.
+
+        Parameters
+        ----------
+        kind : str
+            Of `KINDS`.
+        study, options : dict
+        key : str
+            Of the workspace: its next job goes to the same process, if that is free.
+        folder : Path
+            Of the workspace.
+
+        Notes
+        -----
+        Closing the iterator cancels the job.
+        """
+        yield line("queued")
+        if self._closed:
+            yield line("error", message=_STOPPED, field=None)
+            return
+        child = await self._lend(key)
+        number = child.number = next(self._numbers)
+        child.messages = asyncio.Queue()
+        finished = False
+        try:
+            yield line("started")
+            order = {"job": number, "kind": kind, "study": study, "options": options, "folder": str(folder)}
+            sending = asyncio.get_running_loop().run_in_executor(None, child.order, order)
+            async for message in _until(child, sending, KINDS[kind].seconds):
+                finished = message.event in _LAST
+                yield message.line if not (finished and self._closed) else line("error", message=_STOPPED, field=None)
+        finally:
+            if finished:
+                self._give_back(child)
+            else:
+                self._cancel(child)
+
+    async def _lend(self, key: str) -> Child:
+        child = None if self._waiting else self._free(key)
+        if child is None:
+            place: asyncio.Future[Child] = asyncio.get_running_loop().create_future()
+            self._waiting.append((key, place))
+            try:
+                child = await place
+            except asyncio.CancelledError:
+                if place.done() and not place.cancelled():
+                    self._give_back(place.result())
+                else:
+                    self._waiting = deque(one for one in self._waiting if one[1] is not place)
+                raise
+        child.key, child.used = key, time.monotonic()
+        asyncio.get_running_loop().call_later(_BEFORE_SPARE, self._keep_spare)
+        return child
+
+    def _free(self, key: str) -> Child | None:
+        """Take a process that has nothing to do: the one that served the workspace, a new one, or any."""
+        self._idle = [child for child in self._idle if child.alive]
+        self._all = [child for child in self._all if child.alive]
+        known = [child for child in self._idle if child.key == key] or [
+            child for child in self._idle if child.key is None
+        ]
+        if not known and len(self._all) < self.most:
+            self.start()
+            known = self._idle[-1:]
+        if not known:
+            known = sorted(self._idle, key=lambda child: child.used)
+        if not known:
+            return None
+        child = known[0]
+        self._idle.remove(child)
+        child.attach(asyncio.get_running_loop())
+        return child
+
+    def _give_back(self, child: Child) -> None:
+        if child.alive and not self._closed:
+            self._idle.append(child)
+        else:
+            child.close()
+            self._all = [one for one in self._all if one is not child]
+        while self._waiting and (free := self._free(self._waiting[0][0])) is not None:
+            _, place = self._waiting.popleft()
+            if place.done():
+                self._give_back(free)
+            else:
+                place.set_result(free)
+
+    def _keep_spare(self) -> None:
+        """Have a process in store that nobody has used yet, so that a second job need not wait for one to start."""
+        if not any(child.key is None for child in self._idle):
+            self.start()
+
+    def _cancel(self, child: Child) -> None:
+        task = asyncio.get_running_loop().create_task(self._stop(child))
+        self._cancelling.add(task)
+        task.add_done_callback(self._cancelling.discard)
+
+    async def _stop(self, child: Child) -> None:
+        """Have a process give up its job; end it if it does not."""
+        try:
+            asyncio.get_running_loop().run_in_executor(None, child.order, {"cancel": child.number})
+            async with asyncio.timeout(_SOFT):
+                while (await child.messages.get()).event not in _LAST:
+                    pass
+        except TimeoutError:
+            child.kill()
+        finally:
+            self._give_back(child)
+
+    def stop(self) -> None:
+        """End all processes; what they were at ends with a sentence."""
+        self._closed = True
+        for child in self._all:
+            child.kill()
+
+    def close(self) -> None:
+        """End all processes and wait for their end."""
+        self.stop()
+        for child in self._all:
+            child.close()
+        self._all.clear()
+        self._idle.clear()
+
+
+async def _until(child: Child, sending: asyncio.Future[None], seconds: float) -> AsyncIterator[Message]:
+    """Yield what a process says of its job, to the end of that or of the time for it."""
+    end = asyncio.get_running_loop().time() + seconds
+    await sending
+    while True:
+        try:
+            async with asyncio.timeout_at(end):
+                message = await child.messages.get()
+        except TimeoutError:
+            child.kill()
+            words = f"This took longer than {seconds:.0f} s and was stopped; ask for less accuracy or fewer points."
+            yield Message("ended", line("error", message=words, field=None))
+            return
+        yield message
+        if message.event in _LAST:
+            return

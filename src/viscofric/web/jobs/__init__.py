@@ -1,0 +1,35 @@
+"""What the page can have computed: one module each, imported only by the processes that compute."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+_GB = 2**30
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of job.
+
+    Parameters
+    ----------
+    module : str
+        Where ``run(study, options, context) -> dict`` is, and ``Options``, a pydantic model of its options.
+    seconds : float
+        It is stopped when it takes longer than this.
+    memory : int
+        Address space that the process may have while at it, bytes; half a gigabyte of it is the program itself.
+    """
+
+    module: str
+    seconds: float = 600.0
+    memory: int = 4 * _GB
+
+
+#: By the name in the address, ``/api/jobs/<name>``.
+KINDS: dict[str, Kind] = {
+    "check": Kind("viscofric.web.jobs.check", seconds=60.0, memory=2 * _GB),
+}
+
+#: What a process imports before its first job, the most urgent first.
+WARM = ("viscofric.contact.steady", "viscofric.study.run_file")

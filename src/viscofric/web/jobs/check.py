@@ -1,0 +1,55 @@
+"""Job ``check``: whether anything is wrong with a study and its files, and how much it would be to solve."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict
+
+if TYPE_CHECKING:
+    from viscofric.web.jobs.context import Context
+
+
+class Options(BaseModel):
+    """There are none."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Check a study as ``viscofric check`` does; nothing is solved.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``cases``, ``measured_points``, ``solves``, ``seconds`` (one core), ``memory`` (bytes), ``synthetic`` (whether
+        a rubber is made up) and ``notes``.
+
+    Raises
+    ------
+    StudyError
+        With all that is wrong.
+    """
+    import tomli_w
+
+    from viscofric.study.checking import check_study
+    from viscofric.study.run_file import parse_study
+
+    path = context.files / "study.toml"
+    found = check_study(parse_study(tomli_w.dumps(study), path), path)
+    return {
+        "cases": len(found.sweep.cases),
+        "measured_points": None if found.measured is None else len(found.measured.speed),
+        "solves": found.expected.solves,
+        "seconds": found.expected.seconds,
+        "memory": found.expected.memory,
+        "synthetic": any(rubber.synthetic for rubber in found.rubbers),
+        "notes": list(found.notes),
+    }

@@ -1,0 +1,164 @@
+"""``viscofric web`` at work: a port, a token, the browser, and an end that leaves nothing behind."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import socket
+import sys
+import threading
+import webbrowser
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import ViscofricError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+    from types import FrameType
+
+PORT = 8765
+_LOCAL = {"127.0.0.1", "localhost", "::1"}
+_NO_EXTRA = 'The page needs packages that are not installed; get them with: pip install "viscofric[web]"'
+
+
+def is_local(host: str) -> bool:
+    """Whether only this machine can reach a server that is bound to a host."""
+    return host in _LOCAL
+
+
+def bound(host: str, port: int) -> socket.socket:
+    """Return a listening socket at a port, or at a free one if that is taken.
+
+    Raises
+    ------
+    ViscofricError
+        If the host is none of this machine's.
+    """
+    for wanted in (port, 0):
+        try:
+            return _listening(host, wanted)
+        except OSError as error:
+            last = error
+    raise ViscofricError(f"The page cannot be served at {host}:{port} ({last.strerror or last}).") from None
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    family, kind, protocol, _, address = socket.getaddrinfo(
+        host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+    )[0]
+    listening = socket.socket(family, kind, protocol)
+    try:
+        if sys.platform != "win32":  # where it would let two servers have one port
+            listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listening.bind(address)
+        listening.listen(100)
+    except OSError:
+        listening.close()
+        raise
+    return listening
+
+
+def serve(
+    host: str = "127.0.0.1",
+    port: int = PORT,
+    *,
+    study: dict[str, Any] | None = None,
+    files: dict[str, Path] | None = None,
+    browser: bool = True,
+    tell: Callable[[str, int], object] | None = None,
+) -> None:
+    """Serve the page until an interrupt.
+
+    Parameters
+    ----------
+    host : str
+    port : int
+        Wanted; another one where it is taken.
+    study : dict, optional
+        That the page opens with.
+    files : dict, optional
+        Name -> file that every tab begins with.
+    browser : bool
+        Whether to open it.
+    tell : callable, optional
+        Called with the address, token and all, and the port, once it can be opened.
+
+    Raises
+    ------
+    ViscofricError
+        If the packages of the extra ``web`` are missing, or the page cannot be served there.
+    """
+    from viscofric.web.access import Door
+    from viscofric.web.children import Children
+    from viscofric.web.workspace import Workspaces
+
+    with contextlib.ExitStack() as stack, _stopped_by_signals() as stopping:
+        listening = stack.enter_context(bound(host, port))
+        door = Door(listening.getsockname()[1], host)
+        children = Children()
+        children.start()  # at once: it loads NumPy and the contact engine while this process loads the server
+        stack.callback(children.close)
+        server = _server(door, children, study, stack.enter_context(contextlib.closing(Workspaces(files))))
+        stopping.append(children.stop)
+        stopping.append(lambda: setattr(server, "should_exit", True))
+        if tell is not None:
+            tell(door.address, door.port)
+        if browser:
+            threading.Thread(target=webbrowser.open, args=(door.address,), daemon=True).start()
+        server.run(sockets=[listening])
+
+
+def _server(door: Any, children: Any, study: dict[str, Any] | None, workspaces: Any) -> Any:
+    """Return the server, which handles no signals itself."""
+    try:
+        import uvicorn
+
+        from viscofric.web.app import make_app
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] == "viscofric":
+            raise
+        raise ViscofricError(_NO_EXTRA) from None
+
+    class Server(uvicorn.Server):
+        @contextlib.contextmanager
+        def capture_signals(self) -> Iterator[None]:
+            yield
+
+    config = uvicorn.Config(
+        make_app(door, workspaces, children, study),
+        http="h11",
+        loop="asyncio",
+        ws="none",
+        lifespan="off",
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        proxy_headers=False,
+        timeout_keep_alive=30,
+        timeout_graceful_shutdown=2,
+    )
+    return Server(config)
+
+
+@contextlib.contextmanager
+def _stopped_by_signals() -> Iterator[list[Callable[[], object]]]:
+    """Call what is in the list at an interrupt, a hangup or the wish to terminate; before there is any, raise."""
+    stopping: list[Callable[[], object]] = []
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        if len(stopping) < 2:
+            raise KeyboardInterrupt
+        for call in stopping:
+            call()
+
+    if threading.current_thread() is not threading.main_thread():
+        yield stopping
+        return
+    names = ("SIGINT", "SIGTERM", "SIGHUP")
+    before = {number: signal.signal(number, stop) for name in names if (number := getattr(signal, name, None))}
+    try:
+        yield stopping
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

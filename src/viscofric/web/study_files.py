@@ -1,0 +1,120 @@
+"""The files that a study names: kept within the page's own, and brought there from beside a run file."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path, PureWindowsPath
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from viscofric.errors import DataFileError
+from viscofric.web.jobs.context import JobError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+#: Tables of a run file, and their keys that name files.
+FILE_KEYS = {
+    "material": ("dma", "master_curve", "file", "shift_factors"),
+    "measurement": ("mtm", "curves"),
+    "surface": ("file",),
+}
+
+
+class Named(NamedTuple):
+    """Where a study names files.
+
+    Parameters
+    ----------
+    table : dict
+    key : str
+        Of the table.
+    place : str
+        Path in the study.
+    names : list of str
+    """
+
+    table: dict[str, Any]
+    key: str
+    place: str
+    names: list[str]
+
+
+def named_files(document: dict[str, Any]) -> Iterator[Named]:
+    """Yield each place of a study that names files; what has another shape than it should is left out."""
+    for name, keys in FILE_KEYS.items():
+        several = document.get(name)
+        for number, table in enumerate(several if isinstance(several, list) else [several]):
+            if not isinstance(table, dict):
+                continue
+            place = f"{name}[{number}]" if isinstance(several, list) else name
+            for key in keys:
+                value = table.get(key)
+                names = [one for one in (value if isinstance(value, list) else [value]) if isinstance(one, str)]
+                if names:
+                    yield Named(table, key, f"{place}.{key}", names)
+
+
+def check_confined(document: dict[str, Any]) -> None:
+    """See to it that a study of the page names no files but the page's own.
+
+    Raises
+    ------
+    JobError
+        If it leads anywhere else.
+    """
+    for named in named_files(document):
+        for name in named.names:
+            # a backslash or a drive leads elsewhere under Windows
+            if name != Path(name).name or name != PureWindowsPath(name).name or name == ".." or "**" in name:
+                raise JobError(
+                    f"{named.place}: '{name[:200]}' is no file of the page; upload it, and give its name alone.",
+                    named.place,
+                )
+
+
+def opened_study(path: Path) -> tuple[dict[str, Any], dict[str, Path]]:
+    """Read a run file for the page to open with.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    document : dict
+        Its tables, in which files have plain names.
+    files : dict
+        Each of these names, and the file that it stands for.
+
+    Raises
+    ------
+    StudyError
+        If the run file is not right.
+    DataFileError
+        If a file that it names is not there.
+    """
+    from viscofric.study.material_table import files_of
+    from viscofric.study.run_file import parse_study, read_study_text
+
+    text = read_study_text(path)
+    study = parse_study(text, path)
+    for one in study.inputs:
+        if not one.is_file():
+            raise DataFileError(one, "no such file.")
+    document = tomllib.loads(text)
+    files: dict[str, Path] = {}
+    for named in named_files(document):
+        found = [file for name in named.names for file in files_of(path.parent, Path(name))]
+        names = [_free_name(file, files) for file in found]
+        named.table[named.key] = names if isinstance(named.table[named.key], list) or len(names) > 1 else names[0]
+    return document, files
+
+
+def _free_name(file: Path, taken: dict[str, Path]) -> str:
+    """Enter a file under its own name, or one like it if another file has that already."""
+    file = file.resolve()
+    name, number = file.name, 1
+    while taken.setdefault(name, file) != file:
+        number += 1
+        name = f"{file.stem}-{number}{file.suffix}"
+    return name
