@@ -206,7 +206,9 @@ def _told(error: BaseException, files: Path) -> dict[str, Any]:
     if isinstance(error, ViscofricError):
         words = str(error).replace(f"{files}{os.sep}", "")
         found = _FIELD.search(words)
-        return {"message": words, "field": getattr(error, "field", None) or (found[1] if found else None)}
+        field = getattr(error, "field", None) or (found[1] if found else None)
+        problems = [{"field": one.field, "message": one.message} for one in getattr(error, "problems", ())]
+        return {"message": words, "field": field, "problems": problems or [{"field": field, "message": words}]}
     if isinstance(error, MemoryError):
         return {
             "message": _NO_MEMORY,

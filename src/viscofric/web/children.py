@@ -181,12 +181,15 @@ class Children:
             sending = asyncio.get_running_loop().run_in_executor(None, child.order, order)
             async for message in _until(child, sending, KINDS[kind].seconds):
                 finished = message.event in _LAST
-                yield message.line if not (finished and self._closed) else line("error", message=_STOPPED, field=None)
+                yield self._last_words(message) if finished else message.line
         finally:
             if finished:
                 self._give_back(child)
             else:
                 self._cancel(child)
+
+    def _last_words(self, message: Message) -> bytes:
+        return line("error", message=_STOPPED, field=None) if self._closed else message.line
 
     async def _lend(self, key: str) -> Child:
         child = None if self._waiting else self._free(key)

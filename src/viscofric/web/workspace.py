@@ -44,9 +44,7 @@ def checked_name(name: str) -> str:
             f"{brief(name)} is not the name of a file; it has a letter or more, and no dot or space around it."
         )
     if _NOT_IN_NAMES.search(name) or _DEVICE.match(name):
-        raise InputError(
-            f"{brief(name)} is not a plain name of a file that every system can have, like 'sweeps.csv'."
-        )
+        raise InputError(f"{brief(name)} is not a plain name of a file that every system can have, like 'sweeps.csv'.")
     if len(name.encode()) > _LONGEST_NAME:
         raise InputError(f"{brief(name)} is too long for the name of a file; at most {_LONGEST_NAME} bytes.")
     return name
@@ -82,9 +80,7 @@ class Workspace:
         """
         others = [size for other, size in self.listing() if other != name]
         if len(content) > LARGEST_UPLOAD:
-            raise InputError(
-                f"{name} has more than {LARGEST_UPLOAD / 1e6:.0f} MB, too much for measurements."
-            )
+            raise InputError(f"{name} has more than {LARGEST_UPLOAD / 1e6:.0f} MB, too much for measurements.")
         if len(others) >= MOST_FILES:
             raise InputError(f"There are {len(others)} files already, and no more can be kept; remove some first.")
         if sum(others) + len(content) > _MOST_BYTES:

@@ -28,7 +28,13 @@ class Kind:
 
 #: By the name in the address, ``/api/jobs/<name>``.
 KINDS: dict[str, Kind] = {
+    # the study
     "check": Kind("viscofric.web.jobs.check", seconds=60.0, memory=2 * _GB),
+    # sweeps and what is made of them
+    # contacts and curves
+    # measured friction
+    # what is taken away
+    "export-run-file": Kind("viscofric.web.jobs.export_run_file", seconds=60.0, memory=2 * _GB),
 }
 
 #: What a process imports before its first job, the most urgent first.

@@ -37,13 +37,11 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     StudyError
         With all that is wrong.
     """
-    import tomli_w
-
     from viscofric.study.checking import check_study
-    from viscofric.study.run_file import parse_study
+    from viscofric.web.study_text import RUN_FILE, study_of
 
-    path = context.files / "study.toml"
-    found = check_study(parse_study(tomli_w.dumps(study), path), path)
+    _, checked = study_of(study, context.files)
+    found = check_study(checked, context.files / RUN_FILE)
     return {
         "cases": len(found.sweep.cases),
         "measured_points": None if found.measured is None else len(found.measured.speed),

@@ -4,7 +4,8 @@
  * runJob(kind, {study, options}, {onProgress, onPart, signal}) -> Promise<result>
  *   At most four jobs are streamed at once over all tabs; others wait.  `signal` (of an AbortController) cancels: the
  *   promise rejects with an AbortError, and the process that computed is free again.  What is wrong rejects with a
- *   JobError, {message, field}: a sentence, and the path in the study that it is about, or null.
+ *   JobError, {message, field, problems}: a sentence, the path in the study that it is about, or null, and a list of
+ *   such {message, field} of all that is wrong.
  * uploadFiles(files) -> Promise<names>, listFiles(), removeFile(name), useExample(), getStart(), getStatus(),
  * downloadUrl(name), workspace
  */
@@ -13,11 +14,16 @@ const MOST_STREAMS = 4;
 const LARGEST_UPLOAD = 20e6; // bytes
 
 export class JobError extends Error {
-  /** @param {string} message @param {string | null} field */
-  constructor(message, field = null) {
+  /**
+   * @param {string} message
+   * @param {string | null} field
+   * @param {{message: string, field: string | null}[]} [problems]
+   */
+  constructor(message, field = null, problems = [{ message, field }]) {
     super(message);
     this.name = "JobError";
     this.field = field;
+    this.problems = problems;
   }
 }
 
@@ -71,7 +77,7 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
       if (message.event === "progress") onProgress?.(message);
       else if (message.event === "part") onPart?.(message.part);
       else if (message.event === "result") return message.result;
-      else if (message.event === "error") throw new JobError(message.message, message.field);
+      else if (message.event === "error") throw new JobError(message.message, message.field, message.problems);
     }
     throw new JobError("The program behind this page ended before the answer came; start it again with: viscofric web");
   });

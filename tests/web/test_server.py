@@ -1,0 +1,17 @@
+"""The page is served, told what is wrong in sentences, and reproduces what the command line says."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from web.served_page import STUDY, result_of
+
+if TYPE_CHECKING:
+    import httpx
+
+
+def test_check_counts_the_contacts(client: httpx.Client) -> None:
+    speeds = {"from": "1 mm/s", "to": "1 m/s", "points": 7, "spacing": "log"}
+    study = {**STUDY, "conditions": {"load": "25 N", "speed": speeds, "temperature": ["30 degC", "60 degC"]}}
+    found = result_of(client, "check", study)
+    assert (found["cases"], found["synthetic"], found["measured_points"]) == (14, True, None)
