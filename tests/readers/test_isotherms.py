@@ -10,7 +10,7 @@ import pytest
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers import read_dma
-from viscofric.readers.dma.isotherms import isothermal_sweeps
+from viscofric.readers.dma.isotherms import isothermal_sweeps, traced_sweeps
 from viscofric.readers.dma.readings import Readings
 
 FREQUENCIES = np.geomspace(0.1, 10.0, 9)  # Hz
@@ -57,6 +57,19 @@ def test_points_recorded_while_heating_are_left_out_and_named():
     assert len(told) == 1
     assert told[0].startswith("10 points left out")
     assert "lines 12, 13, 14 and 7 more" in told[0]
+
+
+def test_every_reading_is_in_one_isotherm_or_left_out():
+    celsius, hertz = programme([20.0, 30.0, 40.0])
+    heating = np.arange(20.9, 29.9, 0.9)
+    celsius = np.insert(celsius, 9, heating)
+    hertz = np.insert(hertz, 9, np.full(len(heating), 10.0))
+    storage = np.full(len(celsius), 1e6)
+    storage[2] = -1.0
+    traced = traced_sweeps([readings(celsius, hertz, storage=storage)])
+    assert traced.left_out.tolist() == [2, *range(9, 19)]
+    assert [one.rows.size for one in traced.isotherms] == [8, 9, 9]
+    assert traced.points.places[2] == "line 5"
 
 
 @pytest.mark.parametrize("step", [0.1, 0.2, 0.5])

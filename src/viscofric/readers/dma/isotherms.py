@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,8 +45,40 @@ def deformation_is_told(sweeps: IsothermalSweeps) -> bool:
     return sweeps.deformation_told
 
 
+@dataclass(frozen=True, eq=False)
+class TracedSweeps:
+    """Sweeps with every reading that they were made of, or that was left out.
+
+    Parameters
+    ----------
+    sweeps : IsothermalSweeps
+    readings : tuple of Readings
+        One per file.
+    points : Points
+        The readings of all files in one row.
+    isotherms : tuple of Sorted
+        Which of them each isotherm of the sweeps was made of.
+    """
+
+    sweeps: IsothermalSweeps
+    readings: tuple[Readings, ...]
+    points: Points
+    isotherms: tuple[Sorted, ...]
+
+    @property
+    def left_out(self) -> Indices:
+        """Rows of `points` that are in no isotherm; the notes of the sweeps say why."""
+        used = np.concatenate([one.rows for one in self.isotherms])
+        return np.setdiff1d(np.arange(len(self.points)), used)
+
+
 def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> IsothermalSweeps:
-    """Sort the points of one or several files into isotherms.
+    """Sort the points of one or several files into isotherms; see `traced_sweeps`."""
+    return traced_sweeps(readings, deformation).sweeps
+
+
+def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> TracedSweeps:
+    """Sort the points of one or several files into isotherms, and keep what they were made of.
 
     Parameters
     ----------
@@ -56,9 +89,9 @@ def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | N
 
     Returns
     -------
-    IsothermalSweeps
-        Its notes name what was left out, averaged or reordered, and what is doubtful: temperatures that drift
-        within an isotherm, points far off their neighbours, strain amplitudes that differ between isotherms.
+    TracedSweeps
+        The notes of its sweeps name what was left out, averaged or reordered, and what is doubtful: temperatures that
+        drift within an isotherm, points far off their neighbours, strain amplitudes that differ between isotherms.
 
     Raises
     ------
@@ -90,7 +123,8 @@ def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | N
     formats = list(dict.fromkeys(one.format for one in readings))
     isotherms = tuple(one.isotherm for one in sweeps)
     told = deformation is not None or any(one.deformation is not None for one in readings)
-    return IsothermalSweeps(isotherms, kind, source, tuple(notes), ", ".join(formats), told)
+    found = IsothermalSweeps(isotherms, kind, source, tuple(notes), ", ".join(formats), told)
+    return TracedSweeps(found, tuple(readings), points, tuple(sweeps))
 
 
 def _source(readings: Sequence[Readings]) -> str:

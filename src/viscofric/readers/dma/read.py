@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.readers.dma.formats import format_of
-from viscofric.readers.dma.isotherms import isothermal_sweeps
+from viscofric.readers.dma.isotherms import traced_sweeps
 from viscofric.readers.printed import unit_conversion
 from viscofric.readers.source import Source
 from viscofric.units import celsius, kelvin_hint, positive
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from viscofric.data import Deformation, IsothermalSweeps
+    from viscofric.readers.dma.isotherms import TracedSweeps
     from viscofric.readers.dma.readings import Readings
     from viscofric.units import Quantity
 
@@ -64,6 +65,16 @@ def read_dma(
     InputError
         If no file is given, or an argument is wrong.
     """
+    return trace_dma(*paths, deformation=deformation, temperature=temperature, modulus_unit=modulus_unit).sweeps
+
+
+def trace_dma(
+    *paths: str | PathLike[str] | Sequence[str | PathLike[str]],
+    deformation: Deformation | None = None,
+    temperature: Quantity | Sequence[Quantity | None] | None = None,
+    modulus_unit: str | None = None,
+) -> TracedSweeps:
+    """Read what `read_dma` reads, and return with the sweeps every reading of the files; see there."""
     if deformation not in (None, "tension", "shear"):
         raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")
     files = _files(paths)
@@ -77,7 +88,7 @@ def read_dma(
     readings = [_read(source) for source in sources]
     if modulus_unit is not None and not any(one.unit_is_asked for one in readings):
         raise InputError(f"modulus_unit = {modulus_unit!r}: the files name the units of their moduli; leave it out.")
-    return isothermal_sweeps(readings, deformation)
+    return traced_sweeps(readings, deformation)
 
 
 def _files(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]]) -> list[str]:
