@@ -1,0 +1,248 @@
+"""The rubber of a page's run file: checked, made once, and kept for the jobs that follow."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import pickle
+from collections import OrderedDict
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from pydantic import Field, ValidationError
+
+from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.files import read_bytes, write_atomically
+from viscofric.study.material_table import MaterialTable, files_of
+from viscofric.study.rubber import Rubber, make_rubber
+from viscofric.study.run_file import TABLES
+from viscofric.study.run_file_errors import sentences
+from viscofric.study.settings_tables import UncertaintyTable
+from viscofric.study.table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
+
+    from viscofric.study.bands import FrictionBands
+    from viscofric.study.study_rubber import StudyRubber
+
+Made = TypeVar("Made")
+
+#: Rubbers that one child keeps in memory; a made rubber with its draws takes some 300 kB.
+_KEPT = 16
+_memory: OrderedDict[str, Any] = OrderedDict()
+
+
+class Folders(Protocol):
+    """Where a workspace keeps its files, as jobs are told (`jobs.context.Context`)."""
+
+    @property
+    def files(self) -> Path:
+        """Folder of the uploaded files."""
+
+    @property
+    def cache(self) -> Path:
+        """Folder of what may be kept for later."""
+
+
+class _RubberTables(Table):
+    """The tables of a run file that tell of the rubber."""
+
+    material: MaterialTable
+    uncertainty: UncertaintyTable = Field(UncertaintyTable())
+
+
+def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[MaterialTable, UncertaintyTable]:
+    """Check [material] and [uncertainty] of a run file, without the other tables.
+
+    Parameters
+    ----------
+    study : mapping
+        Tables of a run file; of several materials the first counts.
+    folders : Folders
+
+    Returns
+    -------
+    MaterialTable
+        With the paths of uploaded files.
+    UncertaintyTable
+
+    Raises
+    ------
+    StudyError
+        With every wrong key, unit and range, or if a file is none of the uploaded ones.
+    """
+    material = study.get("material")
+    if isinstance(material, list) and material:
+        material = material[0]
+    values = {"material": {} if material is None else material}
+    values |= {name: study[name] for name in ("uncertainty",) if name in study}
+    try:
+        tables = _RubberTables.model_validate(values)
+    except ValidationError as error:
+        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _RubberTables}))) from None
+    for key in ("dma", "master_curve", "file", "shift_factors"):
+        _insist_on_uploads(key, getattr(tables.material, key), folders.files)
+    return tables.material.beside(folders.files), tables.uncertainty
+
+
+def made_rubber(study: Mapping[str, Any], folders: Folders) -> Rubber:
+    """Return the rubber of [material], made by `make_rubber` or found where an earlier job left it.
+
+    Parameters
+    ----------
+    study : mapping
+        Tables of a run file.
+    folders : Folders
+
+    Raises
+    ------
+    StudyError, DataFileError, SuperpositionError, InputError
+        As `make_rubber` does; files are named without their folder.
+    """
+    table, _ = checked_tables(study, folders)
+    return kept("rubber", [table], table.inputs, folders, lambda: _made(table, folders))
+
+
+def friction_bands(study: Mapping[str, Any], folders: Folders) -> FrictionBands:
+    """Return the draws of the rubber that [uncertainty] asks for, as bands of friction are made of them.
+
+    Parameters
+    ----------
+    study : mapping
+        Tables of a run file.
+    folders : Folders
+
+    Returns
+    -------
+    FrictionBands
+        Its `samples` (a `MaterialSamples`) is None where nothing tells how well the rubber is known.
+    """
+    from viscofric.study.bands import FrictionBands
+
+    table, wanted = checked_tables(study, folders)
+    rubber = made_rubber(study, folders)
+    settings = [table, wanted.draws, wanted.seed]
+    return kept("bands", settings, table.inputs, folders, lambda: FrictionBands(rubber, wanted.draws, wanted.seed))
+
+
+def study_rubber(study: Mapping[str, Any], folders: Folders, temperatures: Sequence[float] = ()) -> StudyRubber:
+    """Return the rubber ready to be solved with, as a study has it, but for members of its posterior.
+
+    Parameters
+    ----------
+    study : mapping
+        Tables of a run file.
+    folders : Folders
+    temperatures : sequence of float
+        K; each must have a shift factor.
+
+    Raises
+    ------
+    StudyError, InputError
+        As `StudyRubber.of` does.
+    """
+    import numpy as np
+
+    from viscofric.study.checking import shift_of
+    from viscofric.study.study_rubber import StudyRubber
+
+    rubber = made_rubber(study, folders)
+    shift = shift_of(rubber)
+    shift(np.array(temperatures, dtype=float))
+    return StudyRubber(rubber, friction_bands(study, folders), (), shift)
+
+
+def kept(
+    name: str, settings: Sequence[object], inputs: Sequence[Path], folders: Folders, make: Callable[[], Made]
+) -> Made:
+    """Return what was made before of the same settings and the same files, in this process or another; else make it.
+
+    Parameters
+    ----------
+    name : str
+        Kind of thing.
+    settings : sequence
+        What it depends on, each a table or something that JSON holds.
+    inputs : sequence of Path
+        Files that it depends on; their contents count.
+    folders : Folders
+    make : callable
+        Returns it.
+    """
+    key = _key(name, settings, inputs)
+    if key in _memory:
+        _memory.move_to_end(key)
+        return _memory[key]  # type: ignore[no-any-return]
+    path = folders.cache / f"{key}.pickle"
+    found = _loaded(path)
+    if found is None:
+        found = make()
+        _store(path, found)
+    _memory[key] = found
+    while len(_memory) > _KEPT:
+        _memory.popitem(last=False)
+    return found  # type: ignore[no-any-return]
+
+
+def without_folder(text: str, folders: Folders) -> str:
+    """Return a sentence that names uploaded files as the user knows them."""
+    return text.replace(f"{folders.files}/", "").replace(f"{folders.files.resolve()}/", "")
+
+
+def named_without_folder(error: InputError, folders: Folders) -> InputError:
+    """Return an error of the same kind that names uploaded files as the user knows them."""
+    if isinstance(error, DataFileError):
+        return DataFileError(without_folder(error.path, folders), without_folder(error.problem, folders), error.row)
+    return type(error)(without_folder(str(error), folders))
+
+
+def _made(table: MaterialTable, folders: Folders) -> Rubber:
+    try:
+        rubber = make_rubber(table)
+    except InputError as error:
+        raise named_without_folder(error, folders) from None
+    if rubber.fit is not None:
+        _ = rubber.fit.check  # found once, and kept with the rest
+    return rubber
+
+
+def _insist_on_uploads(key: str, given: object, folder: Path) -> None:
+    """Refuse files outside the folder of uploads: a page reads nothing else of the machine that it runs on."""
+    paths = given if isinstance(given, tuple) else () if given is None else (given,)
+    for path in paths:
+        if path.is_absolute() or len(path.parts) != 1:
+            raise StudyError(f"material.{key}: '{path}' is not one of the page's files; drop it on the page first.")
+        missing = [one.name for one in files_of(folder, path) if not one.is_file()]
+        if missing:
+            raise StudyError(
+                f"material.{key}: '{missing[0]}' is not one of the page's files; drop it on the page first."
+            )
+
+
+def _key(name: str, settings: Sequence[object], inputs: Sequence[Path]) -> str:
+    from viscofric import __version__
+
+    digest = hashlib.sha256(f"{__version__} {name}".encode())
+    for one in settings:
+        text = one.model_dump_json() if isinstance(one, Table) else json.dumps(one)
+        digest.update(f"\0{text}".encode())
+    for path in inputs:
+        digest.update(f"\0{path}\0".encode())
+        digest.update(read_bytes(path))
+    return f"{name}-{digest.hexdigest()[:32]}"
+
+
+def _loaded(path: Path) -> Any:
+    """Return what another child left in this workspace's own folder; None where it left nothing."""
+    try:
+        return pickle.loads(path.read_bytes())
+    except (OSError, EOFError, pickle.UnpicklingError, AttributeError, ImportError):
+        return None
+
+
+def _store(path: Path, value: object) -> None:
+    # A full disk costs time, not the answer.
+    with contextlib.suppress(DataFileError):
+        write_atomically(path, pickle.dumps(value))

@@ -1,0 +1,149 @@
+"""The rubber that jobs of a page share: checked, made once, kept in memory and beside the uploads."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscofric
+from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.study.run_file import material_of
+from viscofric.web.jobs import rubbers
+
+EXAMPLE = Path(viscofric.__file__).parent / "example"
+SWEEPS: dict[str, Any] = {"dma": "dma.csv", "reference_temperature": "30 degC"}
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """The folders of one tab."""
+
+    files: Path
+    cache: Path
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Workspace:
+    place = Workspace(tmp_path / "files", tmp_path / "cache")
+    place.files.mkdir()
+    place.cache.mkdir()
+    shutil.copy(EXAMPLE / "dma.csv", place.files)
+    return place
+
+
+@pytest.fixture(autouse=True)
+def _empty_memory() -> None:
+    rubbers._memory.clear()
+
+
+def counted(monkeypatch: pytest.MonkeyPatch) -> list[object]:
+    calls: list[object] = []
+    make = rubbers.make_rubber
+
+    def make_and_count(table: Any) -> Any:
+        calls.append(table)
+        return make(table)
+
+    monkeypatch.setattr(rubbers, "make_rubber", make_and_count)
+    return calls
+
+
+def test_rubber_is_that_of_the_run_file(workspace: Workspace) -> None:
+    made = rubbers.made_rubber({"material": {**SWEEPS, "shift": "wlf+arrhenius"}}, workspace)
+    table = material_of({**SWEEPS, "shift": "wlf+arrhenius"}).beside(EXAMPLE)
+    whole = rubbers.make_rubber(table)
+    assert made.shift_used == "wlf+arrhenius"
+    np.testing.assert_array_equal(made.material.modes_at().C, whole.material.modes_at().C)
+
+
+def test_second_job_makes_no_second_rubber(workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = counted(monkeypatch)
+    first = rubbers.made_rubber({"material": SWEEPS}, workspace)
+    assert rubbers.made_rubber({"material": dict(SWEEPS), "title": "other"}, workspace) is first
+    assert len(calls) == 1
+
+
+def test_another_child_finds_the_rubber_on_disk(workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = rubbers.made_rubber({"material": SWEEPS}, workspace)
+    rubbers._memory.clear()
+    calls = counted(monkeypatch)
+    again = rubbers.made_rubber({"material": SWEEPS}, workspace)
+    assert not calls
+    assert again.fit is not None
+    assert first.fit is not None
+    np.testing.assert_array_equal(again.material.modes_at().C, first.material.modes_at().C)
+    assert again.fit.check.sentences == first.fit.check.sentences
+
+
+def test_changed_file_or_table_makes_a_new_rubber(workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = counted(monkeypatch)
+    first = rubbers.made_rubber({"material": SWEEPS}, workspace)
+    other = rubbers.made_rubber({"material": {**SWEEPS, "reference_temperature": "40 degC"}}, workspace)
+    lines = (workspace.files / "dma.csv").read_text().splitlines(keepends=True)
+    (workspace.files / "dma.csv").write_text("".join(lines[:-1]))
+    shorter = rubbers.made_rubber({"material": SWEEPS}, workspace)
+    assert len(calls) == 3
+    assert other.material.reference == pytest.approx(313.15)
+    assert first.sweeps is not None
+    assert shorter.sweeps is not None
+    points = [sum(len(sweep) for sweep in one.sweeps.isotherms) for one in (first, shorter)]
+    assert points[1] == points[0] - 1
+
+
+def test_draws_are_kept_and_are_those_asked_for(workspace: Workspace) -> None:
+    study = {"material": SWEEPS, "uncertainty": {"draws": 20, "seed": 3}}
+    bands = rubbers.friction_bands(study, workspace)
+    assert bands.samples is not None
+    assert len(bands.samples) == 20
+    assert rubbers.friction_bands(study, workspace) is bands
+    rubbers._memory.clear()
+    again = rubbers.friction_bands(study, workspace)
+    assert again.samples is not None
+    np.testing.assert_array_equal(again.samples.C, bands.samples.C)
+
+
+def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspace: Workspace) -> None:
+    study = {"material": SWEEPS, "uncertainty": {"draws": 0}}
+    assert rubbers.study_rubber(study, workspace, [333.15]).material.reference == pytest.approx(303.15)
+    with pytest.raises(InputError, match=r"300\.0 °C lies outside"):
+        rubbers.study_rubber(study, workspace, [573.15])
+
+
+@pytest.mark.parametrize(
+    ("material", "sentence"),
+    [
+        ({}, r"^material: nothing says where the rubber comes from"),
+        ({"dma": "dma.csv"}, r"^material: reference_temperature is missing"),
+        ({**SWEEPS, "deformation": "bending"}, r"^material\.deformation: 'bending' is not known"),
+        ({**SWEEPS, "dma": "/etc/passwd"}, r"^material\.dma: '/etc/passwd' is not one of the page's files"),
+        ({**SWEEPS, "dma": "../dma.csv"}, r"^material\.dma: '\.\./dma\.csv' is not one of the page's files"),
+        ({**SWEEPS, "dma": ["dma.csv", "b.csv"]}, r"^material\.dma: 'b\.csv' is not one of the page's files"),
+        ({**SWEEPS, "fixed_shift_factors": {"cold": 1.0}}, r"^material\.fixed_shift_factors: .*'cold'"),
+        ({"file": "rubber.json"}, r"^material\.file: 'rubber\.json' is not one of the page's files"),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_field(workspace: Workspace, material: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(StudyError, match=sentence):
+        rubbers.made_rubber({"material": material}, workspace)
+
+
+def test_errors_name_files_without_the_folder_of_the_page(workspace: Workspace) -> None:
+    (workspace.files / "notes.txt").write_text("nothing of use\n")
+    with pytest.raises(DataFileError) as told:
+        rubbers.made_rubber({"material": {**SWEEPS, "dma": "notes.txt"}}, workspace)
+    assert str(told.value).startswith("notes.txt")
+    assert str(workspace.files) not in str(told.value)
+
+
+def test_a_damaged_file_in_the_cache_is_made_anew(workspace: Workspace) -> None:
+    first = rubbers.made_rubber({"material": SWEEPS}, workspace)
+    (kept,) = workspace.cache.glob("rubber-*.pickle")
+    kept.write_bytes(kept.read_bytes()[:1000])
+    rubbers._memory.clear()
+    again = rubbers.made_rubber({"material": SWEEPS}, workspace)
+    np.testing.assert_array_equal(again.material.modes_at().C, first.material.modes_at().C)
