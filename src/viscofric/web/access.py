@@ -27,7 +27,8 @@ _CONTENT = "; ".join(
     [
         "default-src 'none'",
         "script-src 'self'",
-        "style-src 'self' 'unsafe-inline'",  # figures are styled by their library, element by element
+        "style-src 'self'",
+        "style-src-attr 'unsafe-inline'",  # the library of the figures sets attributes; its sheet is ours (index.html)
         "img-src 'self' data: blob:",
         "font-src 'self'",
         "connect-src 'self'",
