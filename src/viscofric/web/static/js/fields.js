@@ -59,13 +59,13 @@ export function card(title, ...children) {
 }
 
 /** Label, control, help and error of one path. */
-function field({ path, label, help, classes = "" }, control, controls = [control]) {
+function field({ path, label, help, classes = "", beside = null }, control, controls = [control]) {
   const id = `field-${(made += 1)}`;
   const single = controls.length === 1;
   controls[0].id ||= id;
   const labelled = single
     ? h("label", { for: controls[0].id, class: "field-label" }, label)
-    : h("span", { id: `${id}-label`, class: "field-label" }, label);
+    : h("span", { class: "field-head" }, h("span", { id: `${id}-label`, class: "field-label" }, label), beside);
   const helped = help ? h("p", { class: "help", id: `${id}-help` }, help) : null;
   const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
   const described = [helped && `${id}-help`, `${id}-error`].filter(Boolean).join(" ");
@@ -187,7 +187,12 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
   const gap = h("select", { "aria-label": `${label}: spacing` }, spacing.map((value) => h("option", { value }, value)));
   gap.addEventListener("change", () => state.set(`${path}.spacing`, gap.value));
   const ends = [end("from", "from"), end("to", "to")];
-  const range = h("span", { class: "range" }, ends[0], h("span", {}, "to"), ends[1], points, h("span", {}, "points"), spacing.length > 1 ? gap : null);
+  const range = h(
+    "span",
+    { class: "range" },
+    h("span", { class: "ends" }, ends[0], h("span", {}, "to"), ends[1]),
+    h("span", { class: "steps" }, points, h("span", {}, "points"), spacing.length > 1 ? gap : null),
+  );
   const refresh = () => {
     const now = form();
     mode.value = now;
@@ -199,7 +204,7 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
   mode.addEventListener("change", () => state.set(path, inForm(mode.value, state.get(path), { spacing, otherwise })));
   state.subscribe(path, refresh);
   refresh();
-  return field({ path, label, help, classes: "wide" }, h("span", { class: "range-field" }, mode, one, list, range), [one, list, ...ends, points, mode, gap]);
+  return field({ path, label, help, beside: mode }, h("span", { class: "range-field" }, one, list, range), [one, list, ...ends, points, mode, gap]);
 }
 
 /** A list that people typed; a unit at its end is that of all: "30, 60, 90 °C". */

@@ -90,7 +90,24 @@ function colours(dark) {
 const unitOf = (axis) => (axis?.kind && units.label(axis.kind) ? ` (${units.label(axis.kind)})` : "");
 const titled = (axis) => `${axis?.label ?? ""}${unitOf(axis)}`;
 
-function plotlyAxis(axis = {}, dark, grid = true) {
+/** Numbers that lie along an axis, in the user's unit. */
+function along(spec, axis, name) {
+  if (axis?.range) return axis.range.map((value) => units.number(value, axis.kind));
+  if (spec.z) return units.number(spec[name], axis?.kind);
+  return spec.traces.filter((trace) => !trace.hidden).flatMap((trace) => units.number(trace[name] ?? [], axis?.kind));
+}
+
+/** Ticks of a log axis: a label at each decade, or at every few; numbers in full where they are short. */
+function logTicks(values) {
+  const sound = values.filter((value) => value > 0 && Number.isFinite(value));
+  const [low, high] = sound.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, 0]);
+  const decades = Math.log10(high / low);
+  const plain = low >= 9e-4 && high <= 1.1e4;
+  if (!(decades > 1.8)) return { exponentformat: plain ? "none" : "power" };
+  return { exponentformat: plain ? "none" : "power", dtick: Math.max(1, Math.ceil(decades / 9)) };
+}
+
+function plotlyAxis(axis = {}, dark, values = []) {
   const look = colours(dark);
   const range = axis.range?.map((value) => {
     const shown = units.number(value, axis.kind);
@@ -99,10 +116,10 @@ function plotlyAxis(axis = {}, dark, grid = true) {
   return {
     title: { text: titled(axis), standoff: 8, font: { size: 13, color: look.ink } },
     type: axis.log ? "log" : "linear",
-    exponentformat: "power", minexponent: 4, ...(axis.log ? { dtick: undefined } : {}),
+    ...(axis.log ? logTicks(values) : { exponentformat: "power", minexponent: 4 }),
     showline: true, mirror: true, linecolor: look.quiet, linewidth: 1, ticks: "inside", ticklen: 5, tickcolor: look.quiet,
     minor: axis.log ? { ticks: "inside", ticklen: 3, tickcolor: look.quiet, showgrid: false } : undefined,
-    gridcolor: look.line, showgrid: grid, zeroline: false, automargin: true, tickfont: { size: 12 },
+    gridcolor: look.line, zeroline: false, automargin: true, tickfont: { size: 12 },
     ...(range ? { range, autorange: false } : {}),
     ...(axis.equal ? { scaleanchor: "x", scaleratio: 1 } : {}),
   };
@@ -112,6 +129,7 @@ function base(spec, dark, forFile) {
   const look = colours(dark);
   const named = (spec.traces ?? spec.lines ?? []).filter((trace) => trace.name && trace.legend !== false);
   const top = forFile ? 60 : 12;
+  const { x, y } = spec.axes ?? spec;
   return {
     paper_bgcolor: look.paper, plot_bgcolor: look.paper, autosize: !forFile,
     font: { family: 'system-ui, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif', size: 13, color: look.ink },
@@ -119,10 +137,10 @@ function base(spec, dark, forFile) {
     title: forFile ? { text: `<b>${spec.title}</b>`, font: { size: 16 }, x: 0.02, xanchor: "left", y: 0.97, yanchor: "top" } : undefined,
     hovermode: "closest", hoverlabel: { bgcolor: look.hover, bordercolor: look.quiet, font: { color: look.ink, size: 12 } },
     showlegend: named.length > 1,
-    legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom", font: { size: 12 }, bgcolor: "rgba(0,0,0,0)", itemsizing: "constant" },
+    legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom", font: { size: 12 }, bgcolor: "rgba(0,0,0,0)" },
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
-    xaxis: plotlyAxis(spec.axes?.x ?? spec.x, dark), yaxis: plotlyAxis(spec.axes?.y ?? spec.y, dark),
-    shapes: marks(spec, look).shapes, annotations: [...marks(spec, look).annotations, ...syntheticMark(spec, dark)],
+    xaxis: plotlyAxis(x, dark, along(spec, x, "x")), yaxis: plotlyAxis(y, dark, along(spec, y, "y")),
+    shapes: marks(spec, look).shapes, annotations: [...marks(spec, look).annotations, ...(forFile ? syntheticMark(spec) : [])],
     uirevision: spec.id,
     ...(spec.layout ?? {}),
   };
@@ -144,10 +162,10 @@ function marks(spec, look) {
   return { shapes, annotations };
 }
 
-function syntheticMark(spec, dark) {
+function syntheticMark(spec) {
   if (!spec.synthetic) return [];
-  const font = { size: 11, color: hue("vermilion", dark) };
-  return [{ text: "synthetic", xref: "paper", yref: "paper", x: 1, y: 1, xanchor: "right", yanchor: "bottom", showarrow: false, font }];
+  const font = { size: 11, color: hue("vermilion", false) };
+  return [{ text: "synthetic data", xref: "paper", yref: "paper", x: 1, y: 1, xanchor: "right", yanchor: "bottom", showarrow: false, font }];
 }
 
 /** The look of a trace: its own, that of its temperature, or the next hue. */
@@ -298,6 +316,7 @@ export function figure(container, first) {
   const empty = h("p", { class: "plot-empty" });
   const stage = h("div", { class: "stage" }, plot, empty);
   const heading = h("span", { class: "figure-title" });
+  const badge = h("span", { class: "badge small", hidden: true }, "synthetic");
   const caption = h("span", { class: "figure-caption" });
   const details = h("div", { class: "figure-table", hidden: true });
   const toggle = button({ label: "Table", kind: "quiet small", symbol: "table", onClick: () => showTable(details.hidden) });
@@ -306,7 +325,7 @@ export function figure(container, first) {
     button({ label: format, kind: "quiet small", symbol: format === "PNG" ? "down" : undefined, onClick: () => download(format.toLowerCase()) }),
   );
   const tools = h("div", { class: "figure-tools" }, toggle, ...downloads);
-  const element = h("figure", { class: "figure", id: `figure-${spec.id}` }, h("div", { class: "figure-head" }, heading, tools), stage, h("figcaption", {}, caption), details);
+  const element = h("figure", { class: "figure", id: `figure-${spec.id}` }, h("div", { class: "figure-head" }, heading, badge, tools), stage, h("figcaption", {}, caption), details);
   container.append(element);
 
   function download(format) {
@@ -333,6 +352,7 @@ export function figure(container, first) {
     heading.textContent = spec.title ?? "";
     caption.textContent = spec.caption ?? "";
     caption.hidden = !spec.caption;
+    badge.hidden = !spec.synthetic;
     const there = hasData(spec);
     empty.textContent = spec.empty ?? "Nothing to draw yet.";
     empty.hidden = there;
@@ -350,6 +370,11 @@ export function figure(container, first) {
     await Plotly.react(plot, there ? data : [], base(spec, dark, false), { displayModeBar: false, displayNotifier: false, responsive: false, doubleClick: "reset+autosize" });
     if (!drawnOnce) {
       drawnOnce = true;
+      // a close look needs closer ticks
+      plot.on("plotly_relayout", (change) => {
+        const loose = ["xaxis", "yaxis"].filter((axis) => `${axis}.range[0]` in change && plot.layout[axis].dtick);
+        if (loose.length) Plotly.relayout(plot, Object.fromEntries(loose.flatMap((axis) => [[`${axis}.dtick`, null], [`${axis}.tickmode`, "auto"]])));
+      });
       plot.on("plotly_click", (event) => spec.onClick?.(event.points[0], event));
     }
     element.dataset.drawn = String(Number(element.dataset.drawn ?? 0) + 1);
