@@ -172,7 +172,7 @@ function watch() {
     running?.abort();
     running = new AbortController();
     try {
-      const found = await app.api.runJob("run_file", { study: state.study, options: {} }, { signal: running.signal });
+      const found = await app.api.runJob("export-run-file", { study: state.study, options: {} }, { signal: running.signal });
       elsewhere.set(fields.showErrors(found.problems).map((problem) => problem.message));
       state.setResult("run_file", found);
     } catch (error) {
