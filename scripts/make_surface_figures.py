@@ -1,4 +1,4 @@
-"""Make the figures of docs/surfaces.md: a rough surface, where it touches, and friction beside Persson's theory.
+"""Make the figures of docs/guide/surfaces.md: a rough surface, where it touches, and friction beside Persson's theory.
 
 The surfaces and the rubber are made up.  Some 200 contacts of 256² points: about a minute of two cores.
 """

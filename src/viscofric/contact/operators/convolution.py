@@ -226,7 +226,7 @@ class ConvolutionOperator(ABC):
         """Friction force from the energy that the material dissipates, per unit of distance slid.
 
         F_t = −∫ p ∂u/∂x dA, in which only the memory does work; in Fourier space the integral over q of
-        2 q_x |p̂|² (−Im S)/|q| (see docs/contact_numerics.md).  `overlaps` of the pressure are found if not given.
+        2 q_x |p̂|² (−Im S)/|q| (see docs/theory/numerics.md).  `overlaps` of the pressure are found if not given.
         """
         return self._resistance(self._dissipation, pressure, overlaps)
 
