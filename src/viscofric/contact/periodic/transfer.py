@@ -150,7 +150,7 @@ def dissipation(
 ) -> float:
     """Friction force per area from the energy that the solid dissipates, along a unit vector.
 
-    F_t/A = Σ_q 2(1−ν²)/|q| (q·n) (−Im S(−q·v)) |p̂_q|², over the waves of both signs; p̂_q are Fourier coefficients.
+    F_t/A = Σ_q 2(1−ν²)/|q| (q·n) (−Im S(q·v)) |p̂_q|², over the waves of both signs; p̂_q are Fourier coefficients.
     """
     if not np.iscomplexobj(transfer):
         return 0.0  # elastic
