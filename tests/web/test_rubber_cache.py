@@ -2,38 +2,25 @@
 
 from __future__ import annotations
 
-import shutil
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
-import viscofric
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.study.run_file import material_of
 from viscofric.web.jobs import rubbers
+from web.rubber_workspace import EXAMPLE, SWEEPS, workspace_with
 
-EXAMPLE = Path(viscofric.__file__).parent / "example"
-SWEEPS: dict[str, Any] = {"dma": "dma.csv", "reference_temperature": "30 degC"}
+if TYPE_CHECKING:
+    from pathlib import Path
 
-
-@dataclass(frozen=True)
-class Workspace:
-    """The folders of one tab."""
-
-    files: Path
-    cache: Path
+    from viscofric.web.jobs.context import Context
 
 
 @pytest.fixture
-def workspace(tmp_path: Path) -> Workspace:
-    place = Workspace(tmp_path / "files", tmp_path / "cache")
-    place.files.mkdir()
-    place.cache.mkdir()
-    shutil.copy(EXAMPLE / "dma.csv", place.files)
-    return place
+def workspace(tmp_path: Path) -> Context:
+    return workspace_with(tmp_path, EXAMPLE)
 
 
 @pytest.fixture(autouse=True)
@@ -53,22 +40,22 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     return calls
 
 
-def test_rubber_is_that_of_the_run_file(workspace: Workspace) -> None:
+def test_rubber_is_that_of_the_run_file(workspace: Context) -> None:
     made = rubbers.made_rubber({"material": {**SWEEPS, "shift": "wlf+arrhenius"}}, workspace)
-    table = material_of({**SWEEPS, "shift": "wlf+arrhenius"}).beside(EXAMPLE)
+    table = material_of({**SWEEPS, "shift": "wlf+arrhenius"}).beside(EXAMPLE.parent)
     whole = rubbers.make_rubber(table)
     assert made.shift_used == "wlf+arrhenius"
     np.testing.assert_array_equal(made.material.modes_at().C, whole.material.modes_at().C)
 
 
-def test_second_job_makes_no_second_rubber(workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_second_job_makes_no_second_rubber(workspace: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     calls = counted(monkeypatch)
     first = rubbers.made_rubber({"material": SWEEPS}, workspace)
     assert rubbers.made_rubber({"material": dict(SWEEPS), "title": "other"}, workspace) is first
     assert len(calls) == 1
 
 
-def test_another_child_finds_the_rubber_on_disk(workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_another_child_finds_the_rubber_on_disk(workspace: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     first = rubbers.made_rubber({"material": SWEEPS}, workspace)
     rubbers._memory.clear()
     calls = counted(monkeypatch)
@@ -80,7 +67,7 @@ def test_another_child_finds_the_rubber_on_disk(workspace: Workspace, monkeypatc
     assert again.fit.check.sentences == first.fit.check.sentences
 
 
-def test_changed_file_or_table_makes_a_new_rubber(workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_changed_file_or_table_makes_a_new_rubber(workspace: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     calls = counted(monkeypatch)
     first = rubbers.made_rubber({"material": SWEEPS}, workspace)
     other = rubbers.made_rubber({"material": {**SWEEPS, "reference_temperature": "40 degC"}}, workspace)
@@ -95,7 +82,7 @@ def test_changed_file_or_table_makes_a_new_rubber(workspace: Workspace, monkeypa
     assert points[1] == points[0] - 1
 
 
-def test_draws_are_kept_and_are_those_asked_for(workspace: Workspace) -> None:
+def test_draws_are_kept_and_are_those_asked_for(workspace: Context) -> None:
     study = {"material": SWEEPS, "uncertainty": {"draws": 20, "seed": 3}}
     bands = rubbers.friction_bands(study, workspace)
     assert bands.samples is not None
@@ -107,7 +94,7 @@ def test_draws_are_kept_and_are_those_asked_for(workspace: Workspace) -> None:
     np.testing.assert_array_equal(again.samples.C, bands.samples.C)
 
 
-def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspace: Workspace) -> None:
+def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspace: Context) -> None:
     study = {"material": SWEEPS, "uncertainty": {"draws": 0}}
     assert rubbers.study_rubber(study, workspace, [333.15]).material.reference == pytest.approx(303.15)
     with pytest.raises(InputError, match=r"300\.0 °C lies outside"):
@@ -127,12 +114,12 @@ def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspa
         ({"file": "rubber.json"}, r"^material\.file: 'rubber\.json' is not one of the page's files"),
     ],
 )
-def test_what_is_wrong_is_told_with_its_field(workspace: Workspace, material: dict[str, Any], sentence: str) -> None:
+def test_what_is_wrong_is_told_with_its_field(workspace: Context, material: dict[str, Any], sentence: str) -> None:
     with pytest.raises(StudyError, match=sentence):
         rubbers.made_rubber({"material": material}, workspace)
 
 
-def test_errors_name_files_without_the_folder_of_the_page(workspace: Workspace) -> None:
+def test_errors_name_files_without_the_folder_of_the_page(workspace: Context) -> None:
     (workspace.files / "notes.txt").write_text("nothing of use\n")
     with pytest.raises(DataFileError) as told:
         rubbers.made_rubber({"material": {**SWEEPS, "dma": "notes.txt"}}, workspace)
@@ -140,7 +127,7 @@ def test_errors_name_files_without_the_folder_of_the_page(workspace: Workspace) 
     assert str(workspace.files) not in str(told.value)
 
 
-def test_a_damaged_file_in_the_cache_is_made_anew(workspace: Workspace) -> None:
+def test_a_damaged_file_in_the_cache_is_made_anew(workspace: Context) -> None:
     first = rubbers.made_rubber({"material": SWEEPS}, workspace)
     (kept,) = workspace.cache.glob("rubber-*.pickle")
     kept.write_bytes(kept.read_bytes()[:1000])

@@ -31,6 +31,10 @@ KINDS: dict[str, Kind] = {
     # the study
     "check": Kind("viscofric.web.jobs.check", seconds=60.0, memory=2 * _GB),
     # sweeps and what is made of them
+    "sweeps": Kind("viscofric.web.jobs.sweeps", seconds=60.0, memory=2 * _GB),
+    "rubber": Kind("viscofric.web.jobs.rubber", seconds=300.0, memory=3 * _GB),
+    "moduli": Kind("viscofric.web.jobs.moduli", seconds=300.0, memory=3 * _GB),
+    "isotherm_misfit": Kind("viscofric.web.jobs.isotherm_misfit", seconds=60.0, memory=3 * _GB),
     # contacts and curves
     # measured friction
     # what is taken away

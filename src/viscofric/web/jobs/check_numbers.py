@@ -1,0 +1,105 @@
+"""Whether superposition holds, as words and numbers that the page shows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
+from viscofric.rheology.superposition.overlap import LogSweep
+from viscofric.rheology.superposition.own_shifts import own_shifts
+from viscofric.web.jobs.context import plain
+
+if TYPE_CHECKING:
+    from viscofric.rheology.superposition.consistency import Diagram, SuperpositionCheck
+    from viscofric.rheology.superposition.superpose import Superposition
+
+_HEADLINES = {
+    "holds": "Superposition holds",
+    "other factors": "Superposition holds, but not with these shift factors",
+    "roughly": "Superposition holds only roughly",
+    "fails": "Superposition does not hold",
+    "untested": "Whether superposition holds cannot be told",
+}
+
+
+def check_numbers(fit: Superposition) -> dict[str, Any]:
+    """Return the verdict on a superposition with what it rests on.
+
+    Parameters
+    ----------
+    fit : Superposition
+
+    Returns
+    -------
+    dict
+        ``verdict``: "holds", "other factors", "roughly", "fails" or "untested"; ``headline`` and ``sentences``;
+        distances of ``neighbours`` in decades; ``diagrams`` in SI units and rad; ``kramers_kronig`` or None.
+    """
+    check = fit.check
+    verdict = _verdict(fit, check)
+    return {
+        "verdict": verdict,
+        "headline": _HEADLINES[verdict],
+        "sentences": list(check.sentences),
+        "figure_of_merit": plain(check.figure_of_merit),
+        "neighbours": [
+            {
+                "colder": plain(pair.colder),
+                "warmer": plain(pair.warmer),
+                "distance": plain(pair.distance),
+                "error": plain(pair.standard_error),
+            }
+            for pair in check.neighbours
+        ],
+        "diagrams": {
+            "van_gurp_palmen": _by_temperature(check.van_gurp_palmen),
+            "booij_thoone_palmen": _by_temperature(check.booij_thoone_palmen),
+            "cole_cole": _by_temperature(check.cole_cole),
+            "wicket": _by_temperature(check.wicket),
+        },
+        "kramers_kronig": _kramers_kronig(check),
+    }
+
+
+def _verdict(fit: Superposition, check: SuperpositionCheck) -> str:
+    if not check.neighbours:
+        return "untested"
+    if check.roughly:
+        return "roughly"
+    if not check.holds:
+        return "fails"
+    vertical = fit.vertical_shift
+    logs = [
+        LogSweep.of(one, 0.0 if vertical is None else float(vertical.log10(one.temperature))) for one in fit.isotherms
+    ]
+    return "other factors" if own_shifts(logs, fit.shift_factors.log10_values).wrong else "holds"
+
+
+def _by_temperature(diagram: Diagram) -> list[dict[str, Any]]:
+    cuts = np.flatnonzero(np.diff(diagram.temperature)) + 1
+    return [
+        {"temperature": plain(float(kelvin[0])), "x": plain(x), "y": plain(y)}
+        for kelvin, x, y in zip(
+            *(np.split(column, cuts) for column in (diagram.temperature, diagram.x, diagram.y)), strict=True
+        )
+        if len(kelvin)
+    ]
+
+
+def _kramers_kronig(check: SuperpositionCheck) -> dict[str, Any] | None:
+    found = check.kramers_kronig
+    if found is None:
+        return None
+    return {
+        "holds": found.holds,
+        "sentence": found.sentence,
+        "angular_frequency": plain(found.angular_frequency),
+        "storage": plain(found.storage_deviation),
+        "loss": plain(found.loss_deviation),
+        "judged": found.judged.tolist(),
+        "rms_storage": plain(found.rms_storage),
+        "rms_loss": plain(found.rms_loss),
+        "allowed": LARGEST_RMS,
+    }

@@ -1,0 +1,87 @@
+"""Job ``isotherm_misfit``: how badly one isotherm overlaps its neighbours, were its shift factor another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+from viscofric.rheology.superposition.overlap import LogSweep, join_at
+from viscofric.study.quantities import kelvin
+from viscofric.web.jobs.context import JobError, plain
+from viscofric.web.jobs.rubbers import made_rubber
+
+if TYPE_CHECKING:
+    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.web.jobs.context import Context
+
+#: An isotherm is named to this, K.
+_NAMED = 0.05
+
+
+class Options(BaseModel):
+    """Which isotherm, and how far it may be dragged."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    temperature: Annotated[float, BeforeValidator(kelvin)]
+    reach: float = Field(3.0, gt=0.0, le=10.0)
+    step: float = Field(0.02, ge=0.005, le=1.0)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Slide one isotherm over its neighbours, which stay where they are.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file; [material] counts.
+    options : Options
+        ``temperature`` of the isotherm in words; ``reach`` and ``step`` in decades.
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``temperature`` (K), ``log10_shift`` as it is now, ``moved`` (n decades to either side) and ``misfit`` (n, joint
+        rms of log10 E' and log10 E'' where it overlaps its neighbours, decades; None where it overlaps neither).
+
+    Raises
+    ------
+    JobError
+        If there is no such isotherm.
+    """
+    fit = made_rubber(study, context).fit
+    if fit is None:
+        raise JobError("Only isotherms of sweeps can be shifted; this rubber is made of none.")
+    temperatures = fit.shift_factors.temperatures
+    place = int(np.argmin(np.abs(temperatures - options.temperature)))
+    if abs(temperatures[place] - options.temperature) > _NAMED:
+        raise JobError(f"None of the joined isotherms is at {options.temperature - 273.15:.1f} °C.")
+    half = round(options.reach / options.step)
+    moved = options.step * np.arange(-half, half + 1)
+    return {
+        "temperature": plain(float(temperatures[place])),
+        "log10_shift": plain(float(fit.shift_factors.log10_values[place])),
+        "moved": plain(moved),
+        "misfit": plain([_misfit(fit, place, float(by)) for by in moved]),
+    }
+
+
+def _misfit(fit: Superposition, place: int, moved: float) -> float:
+    """Return the joint rms misfit of an isotherm with both its neighbours; NaN where it overlaps neither."""
+    vertical, shifts = fit.vertical_shift, fit.shift_factors.log10_values
+    squares = []
+    for colder in (place - 1, place):
+        if not 0 <= colder < len(shifts) - 1:
+            continue
+        cold, warm = (
+            LogSweep.of(one, 0.0 if vertical is None else float(vertical.log10(one.temperature)))
+            for one in fit.isotherms[colder : colder + 2]
+        )
+        step = float(shifts[colder] - shifts[colder + 1]) + (moved if colder == place else -moved)
+        found = join_at(cold, warm, step)
+        if np.isfinite(found.uncertainty):
+            squares.append(found.misfit**2)
+    return float(np.sqrt(np.mean(squares))) if squares else float("nan")

@@ -1,0 +1,90 @@
+"""Job ``moduli``: the rubber's modulus at one temperature, with its band and the measured points brought there."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+
+from viscofric.study.quantities import kelvin
+from viscofric.web.jobs.context import JobError, plain
+from viscofric.web.jobs.rubbers import friction_bands, made_rubber
+from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, moduli
+
+if TYPE_CHECKING:
+    from viscofric.study.rubber import Rubber
+    from viscofric.web.jobs.context import Context
+
+#: The isotherm within this of the temperature counts as measured there, K.
+_NEAR = 1.0
+
+
+class Options(BaseModel):
+    """Where the modulus is asked."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    temperature: Annotated[float, BeforeValidator(kelvin)]
+    bands: bool = True
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Return E'(ω) and E''(ω) of the rubber at a temperature.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file; [material] and [uncertainty] count.
+    options : Options
+        ``temperature`` in words ("60 degC").
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``temperature`` (K), ``modulus``, ``band`` or None, ``moved`` (all measured points, brought there by α and b) or
+        None, ``isotherm`` (the sweep measured there, as it was read) or None, ``extrapolated`` (whether α is).
+
+    Raises
+    ------
+    JobError
+        If the rubber has no shift factor there.
+    """
+    rubber = made_rubber(study, context)
+    material, at = rubber.material, options.temperature
+    if material.shift is None:
+        raise JobError("This rubber has no shift with temperature: it serves at one temperature only.")
+    alpha = float(material.shift(at))
+    omega = frequencies(rubber) / alpha
+    samples = friction_bands(study, context).samples if options.bands else None
+    return {
+        "temperature": plain(at),
+        "log10_shift": plain(float(np.log10(alpha))),
+        "extrapolated": bool(material.shift.extrapolates(at)),
+        "modulus": moduli(material.complex_modulus(omega, at), omega),
+        "band": None if samples is None else band_numbers(samples, omega, at),
+        "moved": _moved(rubber, at, alpha),
+        "isotherm": _isotherm(rubber, at),
+    }
+
+
+def _moved(rubber: Rubber, at: float, alpha: float) -> dict[str, Any] | None:
+    curve = rubber.master_curve if rubber.fit is None else rubber.fit.master_curve
+    if curve is None:
+        return None
+    vertical = rubber.material.vertical_shift
+    b = 1.0 if vertical is None else float(vertical(at))
+    return moduli(b * curve.complex_modulus, curve.angular_frequency / alpha) | {
+        "temperature": plain(curve.temperature)
+    }
+
+
+def _isotherm(rubber: Rubber, at: float) -> dict[str, Any] | None:
+    if rubber.fit is None:
+        return None
+    nearest = min(rubber.fit.isotherms, key=lambda one: abs(one.temperature - at))
+    if abs(nearest.temperature - at) > _NEAR:
+        return None
+    measured = nearest.storage_modulus + 1j * nearest.loss_modulus
+    return moduli(measured, nearest.angular_frequency) | {"temperature": plain(nearest.temperature)}

@@ -1,0 +1,173 @@
+"""A rubber's spectrum and moduli with their bands, as numbers that the page draws."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.web.jobs.context import plain
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.data import MasterCurve
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+    from viscofric.study.rubber import Rubber
+
+    Array = NDArray[np.float64]
+
+#: Lines go so far beyond the measured frequencies, as a factor.
+_BEYOND = 10.0
+#: Points of a line over each decade, and in all.
+_PER_DECADE, _MOST = 16, 400
+#: Retardation times and frequencies of a ready rubber reach this far beyond one another, as a factor.
+_BEYOND_MODES = 30.0
+_LEVEL_95 = 1.959963984540054
+
+
+def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
+    """Return modes, moduli over frequency at the reference, and what the fit leaves unexplained.
+
+    Parameters
+    ----------
+    rubber : Rubber
+
+    Returns
+    -------
+    dict
+        In SI units.  ``modes`` and ``relaxation`` are None where the rubber is a table that no modes describe,
+        ``measured`` and ``residual`` where it comes from no master curve, ``fit`` where its spectrum was not fitted.
+    """
+    material = rubber.material
+    modes, why = _modes(material)
+    curve = _curve(rubber)
+    at = frequencies(rubber)
+    return {
+        "reference": None if material.reference is None else plain(material.reference),
+        "poisson_ratio": plain(material.poisson_ratio),
+        "E0": None if modes is None else plain(modes.E0),
+        "E_inf": None if modes is None else plain(modes.E_inf),
+        "modes": None if modes is None else {"tau": plain(modes.tau), "C": plain(modes.C)},
+        "relaxation": None if modes is None else _relaxation(modes),
+        "fit": None if modes is None else _fit(modes),
+        "notes": list(why),
+        "modulus": moduli(material.complex_modulus(at), at),
+        "measured": None if curve is None else _measured(curve),
+        "residual": None if curve is None else _residual(curve, material),
+    }
+
+
+def _modes(material: Material) -> tuple[RetardationSpectrum | None, tuple[str, ...]]:
+    """Return the retardation modes, and what is to be said of them."""
+    try:
+        modes = material.modes_at()
+        return modes, material.notes_on_modes
+    except InputError as error:
+        return None, (str(error),)
+
+
+def _curve(rubber: Rubber) -> MasterCurve | None:
+    return rubber.master_curve if rubber.fit is None else rubber.fit.master_curve
+
+
+def frequencies(rubber: Rubber) -> Array:
+    """Return the angular frequencies that the rubber's moduli are drawn over, rad/s, at the reference."""
+    curve, spectrum = _curve(rubber), rubber.material.spectrum
+    if not isinstance(spectrum, RetardationSpectrum):
+        low, high = float(spectrum.angular_frequency[0]), float(spectrum.angular_frequency[-1])
+    elif curve is not None:
+        low, high = curve.angular_frequency[0] / _BEYOND, curve.angular_frequency[-1] * _BEYOND
+    elif spectrum.fit is not None:
+        low, high = (end * by for end, by in zip(spectrum.fit.frequency_range, (1 / _BEYOND, _BEYOND), strict=True))
+    elif len(spectrum.tau):
+        low, high = 1.0 / (_BEYOND_MODES * spectrum.tau.max()), _BEYOND_MODES / spectrum.tau.min()
+    else:
+        low, high = 1e-3, 1e3
+    count = int(np.clip(_PER_DECADE * np.log10(high / low), 2, _MOST))
+    # The ends as they are, to the last digit: tables refuse to be asked beyond them.
+    return np.concatenate([[low], np.geomspace(low, high, count)[1:-1], [high]])
+
+
+def moduli(complex_modulus: NDArray[np.complex128], angular_frequency: Array) -> dict[str, Any]:
+    """Return moduli and loss tangent over frequency."""
+    return {
+        "angular_frequency": plain(angular_frequency),
+        "storage": plain(complex_modulus.real),
+        "loss": plain(complex_modulus.imag),
+        "loss_tangent": plain(complex_modulus.imag / complex_modulus.real),
+    }
+
+
+def _relaxation(modes: RetardationSpectrum) -> dict[str, Any]:
+    series = modes.to_relaxation()
+    return {"tau": plain(series.tau), "E": plain(series.E)}
+
+
+def _fit(modes: RetardationSpectrum) -> dict[str, Any] | None:
+    fit = modes.fit
+    if fit is None:
+        return None
+    return {
+        "method": fit.method,
+        "rms_storage": plain(fit.rms_storage),
+        "rms_loss": plain(fit.rms_loss),
+        "frequency_range": plain(list(fit.frequency_range)),
+        "tau_ratio": plain(fit.tau_ratio),
+        "regularisation": plain(fit.regularisation),
+        "E0_remark": fit.E0_remark,
+        "E_inf_remark": fit.E_inf_remark,
+        "notes": list(fit.notes),
+    }
+
+
+def _measured(curve: MasterCurve) -> dict[str, Any]:
+    return moduli(curve.complex_modulus, curve.angular_frequency) | {"temperature": plain(curve.temperature)}
+
+
+def _residual(curve: MasterCurve, material: Material) -> dict[str, Any] | None:
+    """Return log10 of measured over fitted moduli at the points of the master curve."""
+    fitted = material.complex_modulus(curve.angular_frequency)
+    storage, loss = np.log10(curve.storage_modulus / fitted.real), np.log10(curve.loss_modulus / fitted.imag)
+    return {"storage": plain(storage), "loss": plain(loss)}
+
+
+def band_numbers(
+    samples: MaterialSamples, angular_frequency: Array, temperature: float | None = None
+) -> dict[str, Any]:
+    """Return the 95 % band of the moduli, of the modes and of E0 and E_inf.
+
+    Parameters
+    ----------
+    samples : MaterialSamples
+    angular_frequency : (n,) array
+        rad/s.
+    temperature : float, optional
+        K; the reference if not given.
+    """
+    band = samples.modulus_band(angular_frequency, temperature)
+
+    def tangent(material: Material) -> Array:
+        moduli_there = material.complex_modulus(angular_frequency, temperature)
+        return np.asarray(moduli_there.imag / moduli_there.real)
+
+    lossy = samples.band(tangent)
+    modes = samples.spectrum_band()
+    alike = not np.any(np.ptp(samples.tau, axis=0) > 0.0)
+    error = samples.standard_errors
+    return {
+        "draws": len(samples),
+        "angular_frequency": plain(angular_frequency),
+        "storage": {"lower": plain(band.lower.real), "upper": plain(band.upper.real)},
+        "loss": {"lower": plain(band.lower.imag), "upper": plain(band.upper.imag)},
+        "loss_tangent": {"lower": plain(lossy.lower), "upper": plain(lossy.upper)},
+        "modes": {"tau": plain(samples.tau[0]), "lower": plain(modes.lower), "upper": plain(modes.upper)}
+        if alike
+        else None,
+        "E0_error95": plain(_LEVEL_95 * error.E0),
+        "E_inf_error95": plain(_LEVEL_95 * error.E_inf),
+        "notes": list(samples.notes),
+    }

@@ -1,0 +1,223 @@
+"""Job ``sweeps``: what the rubber's files were taken for, what they hold, and what was flagged in them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.readers.dma.read import trace_dma
+from viscofric.readers.dma.sweep_checks import outliers
+from viscofric.web.jobs.context import Context, JobError, plain
+from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, without_folder
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.readers.dma.isotherms import TracedSweeps
+    from viscofric.readers.dma.readings import Readings
+    from viscofric.study.material_table import MaterialTable
+
+#: More readings that were left out are counted, not drawn.
+_MOST_FLAGGED = 2_000
+#: A reference is proposed near this temperature, where the sweeps have one.
+_USUAL_REFERENCE = 303.15  # K
+#: What stands in for a reference that is not chosen yet: reading needs none.
+_ANY_REFERENCE = "30 degC"
+
+
+class Options(BaseModel):
+    """There are none."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Read what [material] names.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file; [material] alone counts, and needs no reference temperature yet.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``source``: "dma", "master_curve", "file" or "catalogue".  Of sweeps ``files`` (what each was taken for),
+        ``asks`` (keys of [material] that the files leave open), ``isotherms``, ``flagged`` readings, ``notes`` and
+        ``reference`` (a temperature that would do, K).  Of other sources ``about`` (words), ``synthetic`` and
+        ``notes``.
+
+    Raises
+    ------
+    JobError, StudyError, InputError
+        If a file cannot be used; with the key of [material] that would say what is missing.
+    """
+    table, _ = checked_tables(_with_reference(study), context)
+    if table.dma is None:
+        return _other(table, study, context)
+    try:
+        traced = trace_dma(
+            *table.dma,
+            deformation=table.deformation,
+            temperature=None if table.temperature is None else _one_or_each(table.temperature),
+            modulus_unit=table.modulus_unit,
+        )
+    except InputError as error:
+        raise _asking(named_without_folder(error, context)) from None
+    return _of_sweeps(table, traced, context)
+
+
+def _with_reference(study: dict[str, Any]) -> dict[str, Any]:
+    material = study.get("material")
+    if isinstance(material, dict) and "dma" in material:
+        return {**study, "material": {"reference_temperature": _ANY_REFERENCE, **material}}
+    return study
+
+
+def _one_or_each(temperatures: tuple[float, ...]) -> float | list[float | None]:
+    return temperatures[0] if len(temperatures) == 1 else list(temperatures)
+
+
+def _asking(error: InputError) -> JobError:
+    """Return the error with the field whose value would mend it, where the reader's sentence says so."""
+    words = str(error)
+    if "modulus_unit=" in words:
+        words = words.replace(", or say it by modulus_unit='MPa'", "; or say here which unit it is")
+        return JobError(words, "material.modulus_unit")
+    if "temperature='25 degC'" in words:
+        before = words.split("; for a sweep at one temperature say it")[0]
+        return JobError(f"{before}; say here at which temperature it was measured.", "material.temperature")
+    if "looks like a master curve" in words:
+        before = words.split("; use read_master_curve")[0]
+        return JobError(f"{before}; choose “master curve” as the source, and drop it there.", "material.dma")
+    if "deformation" in words:
+        return JobError(words, "material.deformation")
+    return JobError(words, "material.dma")
+
+
+def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> dict[str, Any]:
+    sweeps = traced.sweeps
+    nearest = float(sweeps.temperatures[np.argmin(np.abs(sweeps.temperatures - _USUAL_REFERENCE))])
+    notes = [without_folder(note, context) for note in sweeps.notes]
+    return {
+        "source": "dma",
+        "format": sweeps.format,
+        "deformation": sweeps.deformation,
+        "files": [_file(one) for one in traced.readings],
+        "asks": _asks(table, traced.readings),
+        "isotherms": [
+            {
+                "temperature": plain(one.temperature),
+                "angular_frequency": plain(one.angular_frequency),
+                "storage": plain(one.storage_modulus),
+                "loss": plain(one.loss_modulus),
+                "loss_tangent": plain(one.loss_modulus / one.storage_modulus),
+                "strain_amplitude": None if one.strain_amplitude is None else plain(one.strain_amplitude),
+            }
+            for one in sweeps.isotherms
+        ],
+        "flagged": [*_left_out(traced), *_outliers(traced)],
+        "left_out": int(traced.left_out.size),
+        "notes": notes,
+        "reference": plain(round(nearest, 2)),
+        "synthetic": False,
+    }
+
+
+def _file(readings: Readings) -> dict[str, Any]:
+    return {
+        "name": Path(readings.source).name,
+        "format": readings.format,
+        "deformation": readings.deformation,
+        "said_by": readings.said_by,
+        "readings": len(readings),
+        "temperature": _range(readings.temperature),
+        "angular_frequency": _range(readings.angular_frequency),
+        "strain_amplitude": None if readings.strain_amplitude is None else _range(readings.strain_amplitude),
+        "notes": list(readings.notes),
+    }
+
+
+def _range(values: Any) -> list[float] | None:
+    sound = values[np.isfinite(values) & (values > 0.0)]
+    return [plain(float(sound.min())), plain(float(sound.max()))] if sound.size else None
+
+
+def _asks(table: MaterialTable, readings: Sequence[Readings]) -> list[str]:
+    """Return the keys of [material] that the files leave to the user, whether or not he has given them."""
+    asked = []
+    if all(one.deformation is None for one in readings):
+        asked.append("deformation")
+    if any(one.unit_is_asked for one in readings):
+        asked.append("modulus_unit")
+    if table.temperature is not None:
+        asked.append("temperature")
+    return asked
+
+
+def _left_out(traced: TracedSweeps) -> list[dict[str, Any]]:
+    points = traced.points
+    return [
+        {
+            "why": "left out",
+            "place": points.places[row],
+            "temperature": plain(float(points.temperature[row])),
+            "angular_frequency": plain(float(points.angular_frequency[row])),
+            "storage": plain(float(points.storage_modulus[row])),
+            "loss": plain(float(points.loss_modulus[row])),
+        }
+        for row in traced.left_out[:_MOST_FLAGGED].tolist()
+    ]
+
+
+def _outliers(traced: TracedSweeps) -> list[dict[str, Any]]:
+    found = []
+    for name in ("storage", "loss"):
+        for number, place in outliers(traced.sweeps.isotherms, name):
+            one, rows = traced.sweeps.isotherms[number], traced.isotherms
+            origins = next(each for each in rows if each.isotherm is one).origins[place]
+            found.append(
+                {
+                    "why": f"far off its neighbours ({name} modulus), kept",
+                    "place": traced.points.named(origins.tolist()),
+                    "temperature": plain(one.temperature),
+                    "angular_frequency": plain(float(one.angular_frequency[place])),
+                    "storage": plain(float(one.storage_modulus[place])),
+                    "loss": plain(float(one.loss_modulus[place])),
+                }
+            )
+    return found
+
+
+def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dict[str, Any]:
+    """Tell of a rubber that needs no sweeps: a master curve, a card, one of the catalogue."""
+    from viscofric.rheology.catalogue import catalogue_entry
+
+    try:
+        rubber = made_rubber(study, context)
+    except DataFileError as error:
+        key = "file" if table.file is not None else "master_curve"
+        told = _asking(error) if key == "master_curve" else JobError(str(error))
+        raise JobError(str(told), told.field if told.field != "material.dma" else f"material.{key}") from None
+    source = "catalogue" if table.catalogue else "file" if table.file else "master_curve"
+    about = []
+    if table.catalogue:
+        entry = catalogue_entry(table.catalogue)
+        about = [entry.holds, entry.remarks, entry.citation]
+    return {
+        "source": source,
+        "name": rubber.material.name,
+        "about": about or [text for text in (rubber.source, rubber.material.citation) if text],
+        "notes": [without_folder(note, context) for note in rubber.notes],
+        "synthetic": rubber.synthetic,
+        "reference": None if rubber.material.reference is None else plain(rubber.material.reference),
+        "isotherms": [],
+        "flagged": [],
+        "asks": ["deformation"] if table.master_curve and table.deformation else [],
+    }

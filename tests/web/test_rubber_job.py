@@ -1,0 +1,211 @@
+"""The rubber as the page gets it: the numbers are those of the Python interface, and hold what was planted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import InputError
+from viscofric.rheology.catalogue import catalogue_material
+from viscofric.web.jobs.context import Context, JobError
+from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+DRAWS = {"draws": 40}
+
+
+@pytest.fixture(scope="module")
+def workspace(tmp_path_factory: pytest.TempPathFactory) -> Context:
+    return workspace_with(tmp_path_factory.mktemp("tab"), EXAMPLE)
+
+
+@pytest.fixture(scope="module")
+def rubber(workspace: Context) -> Any:
+    return done("rubber", workspace, {**SWEEPS, "shift": "wlf"}, uncertainty=DRAWS)
+
+
+@pytest.fixture(scope="module")
+def fit() -> vf.Superposition:
+    return vf.superpose(vf.read_dma(EXAMPLE), "30 degC")
+
+
+def test_shift_factors_and_their_bars_are_those_of_superposition(rubber: Any, fit: vf.Superposition) -> None:
+    factors = rubber["shift"]["factors"]
+    np.testing.assert_allclose(factors["log10"], fit.shift_factors.log10_values, rtol=5e-6)
+    np.testing.assert_allclose(factors["error95"], 1.959964 * fit.shift_factors.standard_errors, rtol=5e-6, atol=1e-12)
+    assert not any(factors["held"])
+    assert rubber["shift"]["misfit"]["joint"] == pytest.approx(fit.quality.joint, rel=5e-6)
+
+
+def test_isotherms_are_moved_by_their_factors(rubber: Any, fit: vf.Superposition) -> None:
+    for told, one, shift in zip(
+        rubber["shift"]["isotherms"], fit.isotherms, fit.shift_factors.log10_values, strict=True
+    ):
+        np.testing.assert_allclose(told["reduced_frequency"], one.angular_frequency * 10.0**shift, rtol=1e-5)
+        np.testing.assert_allclose(told["storage"], one.storage_modulus, rtol=5e-6)
+    assert [one["temperature"] for one in rubber["shift"]["isotherms"] if one["is_reference"]] == [303.15]
+
+
+def test_laws_are_compared_and_the_one_used_is_marked(rubber: Any, fit: vf.Superposition) -> None:
+    laws = {one["kind"]: one for one in rubber["shift"]["laws"]}
+    assert [kind for kind, one in laws.items() if one["used"]] == ["wlf"]
+    compared = fit.shift_factors.compare_laws()
+    assert [kind for kind, one in laws.items() if one["chosen"]] == [compared.chosen.kind]
+    assert laws["wlf"]["aicc"] == pytest.approx(
+        compared.rows[0].aicc if compared.rows[0].kind == "wlf" else 0, rel=5e-6
+    )
+    low, high = laws["wlf"]["limits"]["answers"]
+    fitted = laws["wlf"]["limits"]["fitted"]
+    assert low < fitted[0] < fitted[1] < high
+    assert laws["wlf"]["line"]["temperature"][0] == pytest.approx(low, abs=0.1)
+    # 1 % noise leaves log10 α uncertain by hundredths of a decade
+    assert np.max(np.abs(laws["wlf"]["residual"]["log10"])) < 0.05
+
+
+def test_verdict_is_that_of_the_check(rubber: Any, fit: vf.Superposition) -> None:
+    check = rubber["check"]
+    assert check["verdict"] == "holds"
+    assert check["sentences"] == list(fit.check.sentences)
+    assert check["kramers_kronig"]["holds"] is True
+    points = sum(len(one["x"]) for one in check["diagrams"]["van_gurp_palmen"])
+    assert points == sum(len(one) for one in fit.isotherms)
+    assert [one["temperature"] for one in check["diagrams"]["wicket"]] == rubber["shift"]["factors"]["temperature"]
+
+
+def test_spectrum_and_its_moduli_belong_together(rubber: Any) -> None:
+    spectrum = rubber["spectrum"]
+    modes = vf.RetardationSpectrum(
+        1.0 / (1.0 / spectrum["E_inf"] + sum(spectrum["modes"]["C"])),
+        spectrum["E_inf"],
+        spectrum["modes"]["C"],
+        spectrum["modes"]["tau"],
+    )
+    line = spectrum["modulus"]
+    expected = modes.complex_modulus(line["angular_frequency"])
+    np.testing.assert_allclose(line["storage"], expected.real, rtol=1e-4)  # sums of numbers of six digits
+    np.testing.assert_allclose(line["loss_tangent"], expected.imag / expected.real, rtol=1e-4)
+    series = spectrum["relaxation"]
+    assert spectrum["E0"] + sum(series["E"]) == pytest.approx(spectrum["E_inf"], rel=1e-4)
+    residual = np.array(spectrum["residual"]["storage"])
+    assert np.sqrt(np.mean(residual**2)) == pytest.approx(spectrum["fit"]["rms_storage"], rel=1e-3)
+
+
+def test_band_holds_the_planted_rubber(rubber: Any) -> None:
+    planted = catalogue_material("synthetic fluoroelastomer")
+    band, low_high = rubber["band"], rubber["spectrum"]["fit"]["frequency_range"]
+    omega = np.array(band["angular_frequency"])
+    measured = (omega > low_high[0]) & (omega < low_high[1])
+    expected = planted.complex_modulus(omega, "30 degC")
+    for name, values in (("storage", expected.real), ("loss", expected.imag)):
+        lower, upper = np.array(band[name]["lower"]), np.array(band[name]["upper"])
+        held = np.mean(((values >= lower) & (values <= upper))[measured])
+        # 95 % pointwise, neighbours alike: of one draw of the noise some 80 to 100 %
+        assert held > 0.75
+    assert band["draws"] == 40
+
+
+def test_answer_without_bands_comes_first(workspace: Context) -> None:
+    told: list[tuple[str, dict[str, Any]]] = []
+    context = Context(
+        workspace.files, workspace.downloads, workspace.cache, lambda event, what: told.append((event, what))
+    )
+    answer = done("rubber", context, {**SWEEPS, "shift": "wlf"}, uncertainty=DRAWS)
+    (part,) = [what["part"] for event, what in told if event == "part"]
+    assert "band" not in part
+    assert part["shift"] == answer["shift"]
+    assert done("rubber", workspace, SWEEPS, options={"bands": False})["band"] is None
+
+
+def test_dragged_isotherm_stays_where_it_is_put(workspace: Context, rubber: Any) -> None:
+    at = rubber["shift"]["factors"]["temperature"].index(313.15)
+    wanted = rubber["shift"]["factors"]["log10"][at] + 0.5
+    moved = done("rubber", workspace, {**SWEEPS, "fixed_shift_factors": {"40 degC": wanted}}, options={"bands": False})
+    assert moved["shift"]["origin"] == "held"
+    assert moved["shift"]["factors"]["log10"][at] == pytest.approx(wanted, rel=5e-6)
+    assert [
+        T for T, held in zip(*(moved["shift"]["factors"][k] for k in ("temperature", "held")), strict=True) if held
+    ] == [313.15]
+    # the others follow it, but for the one at the reference beside it
+    assert moved["shift"]["misfit"]["joint"] > 1.2 * rubber["shift"]["misfit"]["joint"]
+
+
+def test_misfit_of_a_dragged_isotherm_is_least_where_it_was_found(workspace: Context) -> None:
+    found = done("isotherm_misfit", workspace, SWEEPS, options={"temperature": "60 degC", "reach": 0.5})
+    misfit, moved = np.array(found["misfit"], dtype=float), np.array(found["moved"])
+    # the shifts are fitted to all isotherms at once, so that one pair's best lies within its noise of theirs
+    assert abs(moved[np.nanargmin(misfit)]) <= 0.06
+    assert misfit[0] > 3.0 * misfit[len(misfit) // 2]
+    assert moved[0] == -0.5
+    with pytest.raises(JobError, match=r"None of the joined isotherms is at 64\.0 °C"):
+        done("isotherm_misfit", workspace, SWEEPS, options={"temperature": "64 degC"})
+    with pytest.raises(JobError, match="made of none"):
+        done("isotherm_misfit", workspace, {"catalogue": "VHB 4910"}, options={"temperature": "64 degC"})
+
+
+def test_modulus_at_another_temperature(workspace: Context, rubber: Any) -> None:
+    found = done("moduli", workspace, {**SWEEPS, "shift": "wlf"}, uncertainty=DRAWS, options={"temperature": "60 degC"})
+    line, reference = found["modulus"], rubber["spectrum"]["modulus"]
+    # E(ω, T) = E(α ω, T0): the same moduli at other frequencies
+    np.testing.assert_allclose(line["storage"], reference["storage"], rtol=2e-5)
+    alpha = 10.0 ** found["log10_shift"]
+    np.testing.assert_allclose(line["angular_frequency"], np.array(reference["angular_frequency"]) / alpha, rtol=2e-5)
+    assert found["isotherm"]["temperature"] == 333.15
+    assert found["extrapolated"] is False
+    inside = np.array(found["band"]["storage"]["lower"]) <= np.array(line["storage"])
+    assert np.mean(inside) > 0.9
+    assert done("moduli", workspace, {**SWEEPS, "shift": "wlf"}, options={"temperature": "235 degC", "bands": False})[
+        "extrapolated"
+    ]
+
+
+def test_temperature_without_a_shift_factor_is_refused_in_a_sentence(workspace: Context) -> None:
+    with pytest.raises(InputError, match=r"300\.0 °C lies outside the measured"):
+        done("moduli", workspace, SWEEPS, options={"temperature": "300 degC"})
+    with pytest.raises(JobError, match="one temperature only"):
+        done("moduli", workspace, {"catalogue": "VHB 4910"}, options={"temperature": "60 degC"})
+
+
+@pytest.mark.parametrize("name", ["VHB 4910", "PVB interlayer", "synthetic fluoroelastomer"])
+def test_rubbers_of_the_catalogue_have_moduli_and_modes(workspace: Context, name: str) -> None:
+    found = done("rubber", workspace, {"catalogue": name})
+    assert found["synthetic"] is (name == "synthetic fluoroelastomer")
+    assert (found["shift"] is None) is (name == "VHB 4910")
+    assert found["check"] is None
+    assert found["band"] is None
+    assert "sweeps" in found["no_band"]
+    assert len(found["spectrum"]["modes"]["tau"]) == {"VHB 4910": 3, "PVB interlayer": 11}.get(name, 37)
+
+
+@pytest.mark.parametrize(
+    ("more", "sparse"),
+    [({"spectrum": "sparse", "modes": 8}, True), ({"spectrum": "regularised", "tau_ratio": 4}, False)],
+)
+def test_other_kinds_of_spectrum(workspace: Context, more: dict[str, Any], sparse: bool) -> None:
+    found = done("rubber", workspace, {**SWEEPS, **more}, uncertainty={"draws": 20})
+    assert found["spectrum"]["fit"]["method"] == more["spectrum"]
+    assert (found["spectrum"]["fit"]["regularisation"] is None) is sparse
+    assert (found["band"]["modes"] is None) is sparse
+    assert not sparse or len(found["spectrum"]["modes"]["tau"]) <= 8
+
+
+def test_vertical_shift_is_told(workspace: Context) -> None:
+    free = done("rubber", workspace, {**SWEEPS, "vertical_shift": "free"}, options={"bands": False})
+    vertical = free["shift"]["vertical"]
+    assert vertical["fitted"] is True
+    assert np.all(np.array(vertical["lower"]) <= vertical["b"])
+    density = done("rubber", workspace, {**SWEEPS, "vertical_shift": "density"}, options={"bands": False})
+    assert density["shift"]["vertical"]["fitted"] is False
+
+
+def test_rubber_of_a_real_instrument(real_data: Path, tmp_path: Path) -> None:
+    workspace = workspace_with(tmp_path, real_data / "instruments" / "eplexor" / "freq_Eplexor_raw.xls")
+    material = {"dma": "freq_Eplexor_raw.xls", "reference_temperature": "20 degC", "shift": "best"}
+    found = done("rubber", workspace, material, uncertainty=DRAWS)
+    assert found["check"]["verdict"] in ("holds", "roughly")
+    assert len(found["shift"]["factors"]["temperature"]) >= 15
+    assert found["band"]["draws"] == 40

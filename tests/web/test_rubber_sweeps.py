@@ -1,0 +1,158 @@
+"""What the page says of files of sweeps: what they were taken for, what they hold, what was flagged, what is asked."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from viscofric.readers import read_dma
+from viscofric.web.jobs.context import Context, JobError
+from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+HERTZ = np.geomspace(0.1, 10.0, 9)
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Context:
+    return workspace_with(tmp_path, EXAMPLE)
+
+
+def table(head: str, temperatures: tuple[float, ...] = (20.0, 30.0), spoil: dict[int, str] | None = None) -> str:
+    """Return a text table of a smooth rubber in MPa; rows of `spoil` have another storage modulus."""
+    rows = []
+    for celsius in temperatures:
+        for hertz in HERTZ:
+            storage = 10.0 * hertz**0.2 * 10.0 ** (-0.01 * celsius)
+            stored = (spoil or {}).get(len(rows), f"{storage:.6g}")
+            cells = [f"{celsius:g}"] if "T" in head else []
+            rows.append(",".join([*cells, f"{hertz:.6g}", stored, f"{0.1 * storage:.6g}"]))
+    return "\n".join([head, *rows, ""])
+
+
+def test_synthetic_example_is_told_as_the_reader_takes_it(workspace: Context) -> None:
+    found = done("sweeps", workspace, {"dma": "dma.csv"})
+    sweeps = read_dma(EXAMPLE)
+    assert found["source"] == "dma"
+    assert found["notes"] == list(sweeps.notes)
+    assert [one["name"] for one in found["files"]] == ["dma.csv"]
+    assert found["files"][0]["format"].startswith("text table")
+    assert found["files"][0]["deformation"] == "tension"
+    assert found["files"][0]["readings"] == sum(len(one) for one in sweeps.isotherms) == 442
+    assert found["reference"] == 303.15
+    assert found["asks"] == []
+    assert found["flagged"] == []
+    for told, read in zip(found["isotherms"], sweeps.isotherms, strict=True):
+        # numbers are sent with six digits
+        np.testing.assert_allclose(told["angular_frequency"], read.angular_frequency, rtol=5e-6)
+        np.testing.assert_allclose(told["loss_tangent"], read.loss_modulus / read.storage_modulus, rtol=5e-6)
+
+
+def test_left_out_readings_and_outliers_are_flagged_with_their_place(workspace: Context) -> None:
+    text = table("T (degC),f (Hz),E' (MPa),E'' (MPa)", (20.0, 30.0, 40.0), {3: "-1", 13: "60"})
+    (workspace.files / "spoilt.csv").write_text(text)
+    found = done("sweeps", workspace, {"dma": "spoilt.csv"})
+    left_out, outlier = found["flagged"]
+    assert left_out["why"] == "left out"
+    assert left_out["place"] == "line 5"
+    assert left_out["storage"] == -1e6
+    assert found["left_out"] == 1
+    assert outlier["why"] == "far off its neighbours (storage modulus), kept"
+    assert outlier["place"] == "line 15"
+    assert outlier["storage"] == 60e6
+
+
+def test_tension_or_shear_is_asked_where_no_file_says_it(workspace: Context) -> None:
+    (workspace.files / "plain.csv").write_text(table("T (degC),f (Hz),storage modulus (MPa),loss modulus (MPa)"))
+    assert done("sweeps", workspace, {"dma": "plain.csv"})["asks"] == ["deformation"]
+    answered = done("sweeps", workspace, {"dma": "plain.csv", "deformation": "shear"})
+    assert answered["asks"] == ["deformation"]
+    assert answered["deformation"] == "shear"
+
+
+def test_unit_that_is_missing_is_asked_at_its_field(workspace: Context) -> None:
+    (workspace.files / "bare.csv").write_text(table("T (degC),f (Hz),E',E''"))
+    with pytest.raises(JobError, match=r"^bare\.csv.*say here which unit it is") as told:
+        done("sweeps", workspace, {"dma": "bare.csv"})
+    assert told.value.field == "material.modulus_unit"
+    found = done("sweeps", workspace, {"dma": "bare.csv", "modulus_unit": "MPa"})
+    assert found["asks"] == ["modulus_unit"]
+
+
+def test_temperature_that_is_missing_is_asked_at_its_field(workspace: Context) -> None:
+    (workspace.files / "sweep.csv").write_text(table("f (Hz),E' (MPa),E'' (MPa)", (20.0,)))
+    with pytest.raises(JobError, match="at which temperature it was measured") as told:
+        done("sweeps", workspace, {"dma": "sweep.csv"})
+    assert told.value.field == "material.temperature"
+    found = done("sweeps", workspace, {"dma": "sweep.csv", "temperature": "20 degC"})
+    assert found["asks"] == ["temperature"]
+    assert found["isotherms"][0]["temperature"] == 293.15
+
+
+def test_what_is_no_sweep_is_told_by_its_name_alone(workspace: Context) -> None:
+    (workspace.files / "letter.txt").write_text("Dear colleagues,\n")
+    with pytest.raises(JobError, match=r"^letter\.txt: ") as told:
+        done("sweeps", workspace, {"dma": "letter.txt"})
+    assert told.value.field == "material.dma"
+
+
+@pytest.mark.parametrize(
+    ("name", "synthetic", "words"),
+    [
+        ("synthetic fluoroelastomer", True, "not a measurement"),
+        ("PVB interlayer", False, "Van Duser"),
+        ("VHB 4910", False, "Chester"),
+    ],
+)
+def test_catalogue_tells_its_sources(workspace: Context, name: str, synthetic: bool, words: str) -> None:
+    found = done("sweeps", workspace, {"catalogue": name})
+    assert found["source"] == "catalogue"
+    assert found["synthetic"] is synthetic
+    assert words in " ".join(found["about"])
+
+
+def test_ready_rubber_and_master_curve_are_taken_too(workspace: Context) -> None:
+    import viscofric as vf
+
+    vf.write_card(vf.catalogue_material("PVB interlayer"), workspace.files / "rubber.json", "json")
+    found = done("sweeps", workspace, {"file": "rubber.json"})
+    assert found["source"] == "file"
+    assert found["name"].startswith("PVB interlayer")
+    assert found["reference"] == pytest.approx(293.15)
+    (workspace.files / "master.csv").write_text(table("f (Hz),E' (MPa),E'' (MPa)", (20.0,)))
+    curve = {"master_curve": "master.csv", "reference_temperature": "20 degC"}
+    assert done("sweeps", workspace, curve)["source"] == "master_curve"
+
+
+@pytest.mark.parametrize(
+    ("pattern", "taken_for", "deformation", "isotherms", "asks"),
+    [
+        ("dma/acrylic_468mp.csv", "text table", "tension", 20, ["deformation"]),
+        ("instruments/trios/multi_technique_LIMS.txt", "TRIOS", "shear", 1, []),
+        ("instruments/eplexor/freq_Eplexor_raw.xls", "Eplexor", "tension", 21, []),
+        ("instruments/mettler/glassy_network/*.txt", "Mettler", "tension", 22, []),
+        ("instruments/rad_per_s_tsv/foam*.csv", "text table", "tension", 19, ["deformation", "modulus_unit"]),
+    ],
+)
+def test_files_of_instruments_are_recognised(
+    real_data: Path, tmp_path: Path, pattern: str, taken_for: str, deformation: str, isotherms: int, asks: list[str]
+) -> None:
+    files = sorted(real_data.glob(pattern))
+    assert files
+    material: dict[str, Any] = {"dma": [file.name for file in files]}
+    if "modulus_unit" in asks:
+        material["modulus_unit"] = "MPa"
+    found = done("sweeps", workspace_with(tmp_path, *files), material)
+    assert taken_for in found["format"]
+    assert found["deformation"] == deformation
+    assert len(found["isotherms"]) == isotherms
+    assert found["asks"] == asks
+    assert [one["name"] for one in found["files"]] == material["dma"]
+
+
+def test_sweeps_need_no_reference_but_take_one(workspace: Context) -> None:
+    assert done("sweeps", workspace, SWEEPS)["isotherms"] == done("sweeps", workspace, {"dma": "dma.csv"})["isotherms"]
