@@ -1,7 +1,8 @@
 """A process that computes for the page: jobs come on its standard input, and it ends when that closes.
 
 Each line of the input is a JSON object: a job, or the wish to have one cancelled.  Each answer is a line with the job's
-number, the event and a number of bytes, and then as many bytes of JSON.  `viscofric.web.children` is the other end.
+number, the event, whether this process stays after it, and a number of bytes, and then as many bytes of JSON.
+`viscofric.web.children` is the other end.
 """
 
 from __future__ import annotations
@@ -21,16 +22,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from viscofric.errors import ViscofricError, brief
-from viscofric.web.jobs import KINDS, WARM
+from viscofric.web.jobs import WARM
 from viscofric.web.jobs.context import Context, plain
 from viscofric.web.study_files import check_confined
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from types import TracebackType
 
 #: What is sent at once may have this many bytes: a browser is not to be handed more.
 LARGEST_MESSAGE = 48_000_000
-_LARGEST_FILE = 500_000_000  # bytes, of one that a job writes
+_LARGEST_FILE = 200_000_000  # bytes, of one that a job writes
 _NO_MEMORY = "There was not enough memory for this; ask for less accuracy or fewer points."
 _DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 _NICE = 5  # the server and the browser go first
@@ -38,20 +40,22 @@ _TABLES = "title|data_origin|material|indenter|surface|layer|conditions|sweep|me
 _FIELD = re.compile(rf"(?:^|[:\s])((?:{_TABLES}|options)(?:\.[\w-]+|\[\d+\])*): ")
 
 
-def main(parent: int) -> None:
+def main(parent: int, warm: Iterable[str] = WARM) -> None:
     """Do jobs until the standard input closes; run in a process of its own.
 
     Parameters
     ----------
     parent : int
         Number of the process that hands out the jobs.
+    warm : iterable of str
+        Modules that it imports before the first of them.
     """
     _end_with(parent)
     orders, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     _keep_from_jobs()
     desk = Desk(answers)
     threading.Thread(target=desk.listen, args=(orders,), daemon=True).start()
-    for module in WARM:
+    for module in warm:
         import_module(module)
     while True:
         # an interrupt that came as its job ended reaches the loop; there is nothing left to interrupt then
@@ -127,7 +131,7 @@ class Desk:
             if not message:
                 os._exit(0)
 
-    def tell(self, number: int, event: str, message: dict[str, Any]) -> None:
+    def tell(self, number: int, event: str, message: dict[str, Any], stays: bool = True) -> None:
         """Send a message of a job."""
         body = _json({"event": event, **message})
         if len(body) > LARGEST_MESSAGE:
@@ -135,23 +139,23 @@ class Desk:
                 f"The answer has {len(body) / 1e6:.0f} MB, more than a browser is handed "
                 f"({LARGEST_MESSAGE / 1e6:.0f} MB); ask for fewer points."
             )
-        self._answers.put(f"{number} {event} {len(body)}\n".encode() + body)
+        self._answers.put(f"{number} {event} {'stays' if stays else 'ends'} {len(body)}\n".encode() + body)
 
     def work(self, job: dict[str, Any]) -> None:
         """Do a job and tell what became of it."""
         number = job["job"]
-        reusable = True
+        stays = True
         try:
             with self._interruptible(number):
                 result = _result(job, lambda event, message: self.tell(number, event, message))
                 self.tell(number, "result", {"result": result})
         except KeyboardInterrupt as stop:
-            reusable = not _was_importing(stop.__traceback__)
-            self.tell(number, "cancelled", {})
+            stays = not _was_importing(stop.__traceback__)
+            self.tell(number, "cancelled", {}, stays)
         except BaseException as error:  # noqa: BLE001 - the page is told
-            reusable = not isinstance(error, MemoryError)
-            self.tell(number, "error", _told(error, Path(job["folder"]) / "files"))
-        if not reusable:
+            stays = not isinstance(error, MemoryError)
+            self.tell(number, "error", _told(error, Path(job["folder"]) / "files"), stays)
+        if not stays:
             self._answers.put(b"")
             threading.Event().wait()
 
@@ -164,13 +168,13 @@ class Desk:
         try:
             yield
         finally:
-            self._at_work = None
+            with self._lock:  # an interrupt on its way comes here, not to the next job
+                self._at_work = None
 
 
 def _result(job: dict[str, Any], tell: Any) -> Any:
-    kind = KINDS[job["kind"]]
-    _limit_memory(kind.memory)
-    module = import_module(kind.module)
+    _limit_memory(job["memory"])
+    module = import_module(job["module"])
     check_confined(job["study"])
     folder = Path(job["folder"])
     context = Context(folder / "files", folder / "downloads", folder / "cache", tell)

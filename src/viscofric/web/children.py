@@ -62,28 +62,29 @@ class Child:
         self.key: str | None = None  # of the workspace that it served last
         self.used = 0.0
         self.number = 0
+        self.stays = True
         self.messages: asyncio.Queue[Message] = asyncio.Queue()
-        self._loop: asyncio.AbstractEventLoop | None = None
+        self._reader: threading.Thread | None = None
 
     @property
     def alive(self) -> bool:
-        """Whether it runs still."""
-        return self.process.poll() is None
+        """Whether it runs still, and stays."""
+        return self.stays and self.process.poll() is None
 
     def attach(self, loop: asyncio.AbstractEventLoop) -> None:
         """Begin to hand on what it says."""
-        if self._loop is None:
-            self._loop = loop
-            threading.Thread(target=self._read, args=(loop,), daemon=True).start()
+        if self._reader is None:
+            self._reader = threading.Thread(target=self._read, args=(loop,), daemon=True)
+            self._reader.start()
 
     def _read(self, loop: asyncio.AbstractEventLoop) -> None:
         pipe = self.process.stdout
         assert pipe is not None
         with contextlib.suppress(OSError, ValueError, RuntimeError):  # RuntimeError: the loop is closed
             for head in pipe:
-                number, event, size = head.split()
-                body = pipe.read(int(size))
-                loop.call_soon_threadsafe(self._take, int(number), Message(event.decode(), body))
+                number, event, stays, size = head.decode().split()
+                self.stays = stays == "stays"
+                loop.call_soon_threadsafe(self._take, int(number), Message(event, pipe.read(int(size))))
         self.kill()
         self.process.wait()
         with contextlib.suppress(RuntimeError):
@@ -103,6 +104,7 @@ class Child:
 
     def kill(self) -> None:
         """End it, and what it started, at once."""
+        self.stays = False
         with contextlib.suppress(OSError):
             if sys.platform != "win32" and self.process.poll() is None:
                 os.killpg(self.process.pid, signal.SIGKILL)
@@ -113,10 +115,11 @@ class Child:
         """End it and wait for its end."""
         self.kill()
         self.process.wait()
+        if self._reader is not None:
+            self._reader.join(_SOFT)
         for pipe in (self.process.stdin, self.process.stdout):
-            with contextlib.suppress(OSError, ValueError):
-                if self._loop is None or pipe is self.process.stdin:  # the other is closed by its reader's end
-                    pipe.close()  # type: ignore[union-attr]
+            with contextlib.suppress(OSError):
+                pipe.close()  # type: ignore[union-attr]
 
 
 class Children:
@@ -177,9 +180,17 @@ class Children:
         finished = False
         try:
             yield line("started")
-            order = {"job": number, "kind": kind, "study": study, "options": options, "folder": str(folder)}
+            doing = KINDS[kind]
+            order = {
+                "job": number,
+                "module": doing.module,
+                "memory": doing.memory,
+                "study": study,
+                "options": options,
+                "folder": str(folder),
+            }
             sending = asyncio.get_running_loop().run_in_executor(None, child.order, order)
-            async for message in _until(child, sending, KINDS[kind].seconds):
+            async for message in _until(child, sending, doing.seconds):
                 finished = message.event in _LAST
                 yield self._last_words(message) if finished else message.line
         finally:
@@ -210,8 +221,9 @@ class Children:
 
     def _free(self, key: str) -> Child | None:
         """Take a process that has nothing to do: the one that served the workspace, a new one, or any."""
-        self._idle = [child for child in self._idle if child.alive]
-        self._all = [child for child in self._all if child.alive]
+        for child in [child for child in self._idle if not child.alive]:
+            self._idle.remove(child)
+            self._bury(child)
         known = [child for child in self._idle if child.key == key] or [
             child for child in self._idle if child.key is None
         ]
@@ -231,14 +243,17 @@ class Children:
         if child.alive and not self._closed:
             self._idle.append(child)
         else:
-            child.close()
-            self._all = [one for one in self._all if one is not child]
+            self._bury(child)
         while self._waiting and (free := self._free(self._waiting[0][0])) is not None:
             _, place = self._waiting.popleft()
             if place.done():
                 self._give_back(free)
             else:
                 place.set_result(free)
+
+    def _bury(self, child: Child) -> None:
+        child.close()
+        self._all.remove(child)
 
     def _keep_spare(self) -> None:
         """Have a process in store that nobody has used yet, so that a second job need not wait for one to start."""

@@ -1,0 +1,258 @@
+"""Processes that compute for the page: told of, cancelled, bounded, replaced, and never left behind."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import time
+from collections import deque
+from contextlib import aclosing, contextmanager
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from viscofric.web import children as module
+from viscofric.web.children import Children
+from viscofric.web.jobs import Kind
+from web.processes_left import alive, ended, started_by
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+    from pathlib import Path
+
+MB = 2**20
+
+
+@pytest.fixture(autouse=True)
+def odd_jobs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setitem(module.KINDS, "odd", Kind("web.odd_jobs", seconds=60.0, memory=2048 * MB))
+    monkeypatch.setitem(module.KINDS, "short", Kind("web.odd_jobs", seconds=0.5))
+    monkeypatch.setitem(module.KINDS, "narrow", Kind("web.odd_jobs", memory=1024 * MB))
+    # without what contacts need, which takes most of a second to load
+    cold = "from viscofric.web.child import main; main({parent}, warm=())"
+    monkeypatch.setattr(module, "_PROGRAM", cold)
+    for name in ("files", "downloads", "cache"):
+        (tmp_path / name).mkdir()
+
+
+class Bench:
+    """Processes, asked as the page would ask them."""
+
+    def __init__(self, children: Children, folder: Path) -> None:
+        self.children, self.folder = children, folder
+
+    def run(self, do: str, amount: float = 0.0, kind: str = "odd", key: str = "a") -> AsyncIterator[bytes]:
+        options = {"do": do, "amount": amount}
+        return self.children.run(kind, {}, options, key=key, folder=self.folder)
+
+    async def all(self, *arguments: Any, **more: Any) -> list[dict[str, Any]]:
+        return [json.loads(line) async for line in self.run(*arguments, **more)]
+
+    async def last(self, *arguments: Any, **more: Any) -> dict[str, Any]:
+        return (await self.all(*arguments, **more))[-1]
+
+    async def cancelled(self, *arguments: Any, after: float = 0.1, **more: Any) -> int:
+        """Begin a job and let go of it; return the process that had it."""
+        async with aclosing(self.run(*arguments, **more)) as lines:
+            async for line in lines:
+                told = json.loads(line)
+                if told["event"] == "part":
+                    await asyncio.sleep(after)
+                    return int(told["part"]["process"])
+        raise AssertionError("the job did not begin")
+
+    async def idle(self, within: float) -> float:
+        """Wait until no job is at work; return how long that took."""
+        begun = time.monotonic()
+        while self.children.running:
+            assert time.monotonic() - begun < within
+            await asyncio.sleep(0.01)
+        return time.monotonic() - begun
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[Callable[..., Any]]:
+    """Run something with processes at hand; none is left afterwards."""
+
+    @contextmanager
+    def closed(children: Children) -> Iterator[Children]:
+        try:
+            yield children
+        finally:
+            children.close()
+
+    def run(work: Callable[[Bench], Awaitable[Any]], most: int = 2) -> Any:
+        async def all_of_it() -> Any:
+            with closed(Children(most)) as children:
+                children.start()
+                return await work(Bench(children, tmp_path))
+
+        return asyncio.run(all_of_it())
+
+    yield run
+    assert ended(started_by(os.getpid(), "viscofric.web.child"), within=2.0)
+
+
+def test_job_is_queued_started_told_of_and_answered(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        told = await bench.all("tell", 10)
+        assert [one["event"] for one in told[:3]] == ["queued", "started", "part"]
+        assert told[-1]["result"] == {"text": "x" * 10, "not a number": None, "numbers": [1, 2.5]}
+        progress = [one for one in told if one["event"] == "progress"]
+        assert progress[0] == {"event": "progress", "done": 0, "total": 1_000, "label": "0"}
+        assert len(progress) < 100  # of a thousand: a browser could not show more
+
+    bench(work)
+
+
+def test_what_goes_wrong_is_one_sentence_and_the_next_job_is_done(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        refused = await bench.last("refuse")
+        assert refused["message"] == "sweeps.csv, line 3: conditions.load: is odd."
+        assert refused["field"] == "conditions.load"
+        failed = await bench.last("fail")
+        assert failed["message"].startswith("This is an error of viscofric, KeyError")
+        died = await bench.last("die")
+        assert died["message"].startswith("The process that computed this ended")
+        unknown = await bench.last("nothing")
+        assert unknown["field"] == "options.do"
+        assert (await bench.last("rest"))["event"] == "result"
+
+    bench(work)
+
+
+def test_job_gets_neither_the_servers_input_nor_its_output(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        assert (await bench.last("print"))["result"] == {"read": None}
+
+    bench(work)
+
+
+def test_memory_time_files_and_answers_have_bounds(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        assert "not enough memory" in (await bench.last("grow", 1100 * MB, kind="narrow"))["message"]
+        begun = time.monotonic()
+        assert "took longer than" in (await bench.last("rest", 30.0, kind="short"))["message"]
+        assert time.monotonic() - begun < 5.0
+        assert "File too large" in (await bench.last("write", 201))["message"]
+        assert "more than a browser is handed" in (await bench.last("tell", 60e6))["message"]
+        assert (await bench.last("grow", 100 * MB, kind="narrow"))["event"] == "result"
+
+    bench(work)
+
+
+def test_cancelled_job_frees_its_process_for_the_next(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        process = await bench.cancelled("rest", 30.0)
+        assert await bench.idle(within=2.0) < 1.0  # at once, but for a busy machine
+        assert (await bench.last("rest"))["result"]["process"] == process
+
+    bench(work, most=1)
+
+
+def test_job_that_does_not_let_itself_be_cancelled_is_ended_within_two_seconds(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        for do, amount in [("insist", 30.0), ("hold", 2e9)]:
+            process = await bench.cancelled(do, amount)
+            await bench.idle(within=2.0)
+            assert ended([process], within=0.5)
+        assert (await bench.last("rest"))["event"] == "result"
+
+    bench(work, most=1)
+
+
+def test_big_solve_is_cancelled_within_two_seconds(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        await bench.cancelled("solve", 10, after=1.0)
+        await bench.idle(within=2.0)
+
+    bench(work, most=1)
+
+
+def test_more_jobs_than_processes_wait_for_their_turn(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        finished: deque[int] = deque()
+
+        async def one(number: int) -> dict[str, Any]:
+            last = await bench.last("rest", 0.2, key=f"tab {number}")
+            finished.append(number)
+            return last
+
+        found = await asyncio.gather(*map(one, range(5)))
+        assert {one["event"] for one in found} == {"result"}
+        assert len({one["result"]["process"] for one in found}) == 2
+        assert set(finished) == set(range(5))
+        # one that waits gives its place up when it is let go of
+        long = asyncio.create_task(bench.last("rest", 0.5)), asyncio.create_task(bench.last("rest", 0.5))
+        await asyncio.sleep(0.1)
+        waiting = asyncio.create_task(bench.last("rest", 0.0))
+        await asyncio.sleep(0.1)
+        assert bench.children.running == 3
+        waiting.cancel()
+        await asyncio.sleep(0)
+        await asyncio.gather(*long)
+        await bench.idle(within=1.0)
+
+    bench(work, most=2)
+
+
+def test_workspace_comes_back_to_the_process_that_served_it(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        both = [bench.last("rest", 0.2, key=key) for key in "ab"]
+        a, b = [one["result"]["process"] for one in await asyncio.gather(*both)]
+        assert a != b
+        for key, process in [("b", b), ("a", a), ("b", b)]:
+            assert (await bench.last("rest", key=key))["result"]["process"] == process
+
+    bench(work)
+
+
+def test_end_of_the_server_ends_jobs_with_a_sentence(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        job = asyncio.create_task(bench.last("insist", 30.0))
+        await asyncio.sleep(0.4)
+        bench.children.stop()
+        assert (await asyncio.wait_for(job, 2.0))["message"] == "The program was stopped."
+        assert (await bench.last("rest"))["message"] == "The program was stopped."
+
+    bench(work)
+
+
+def test_processes_of_a_process_end_with_it(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        async with aclosing(bench.run("share", 30.0)) as lines:
+            async for line in lines:
+                told = json.loads(line)
+                if told["event"] == "part":
+                    break
+            process = told["part"]["process"]
+            while len(started_by(process)) < 2:
+                await asyncio.sleep(0.02)
+            own = started_by(process)
+            os.kill(process, signal.SIGKILL)
+            assert [json.loads(line)["event"] async for line in lines] == ["error"]
+        assert ended([process, *own], within=3.0)
+
+    bench(work)
+
+
+def test_process_ends_when_its_input_closes_whatever_it_does(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        async with aclosing(bench.run("share", 30.0)) as lines:
+            async for line in lines:
+                told = json.loads(line)
+                if told["event"] == "part":
+                    break
+            process = told["part"]["process"]
+            while len(started_by(process)) < 2:
+                await asyncio.sleep(0.02)
+            own = started_by(process)
+            (child,) = (one for one in bench.children._all if one.process.pid == process)
+            child.process.stdin.close()  # type: ignore[union-attr]
+            assert [json.loads(line)["event"] async for line in lines] == ["error"]
+        assert ended([process, *own], within=1.0)
+        assert not any(map(alive, own))
+
+    bench(work)
