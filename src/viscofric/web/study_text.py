@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from viscofric.errors import StudyError
+from viscofric.errors import StudyError, brief
 from viscofric.study.run_file import FIELDS, parse_study
 
 if TYPE_CHECKING:
@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 
 #: What the exported run file is called.
 RUN_FILE = "study.toml"
-_HEAD = (
-    "# Made on the local page of viscofric.  Paths are relative to this file; run it with: viscofric run study.toml\n"
-)
+_HEAD = "# Made on the local page of viscofric.  Run it in its folder: viscofric run study.toml\n"
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _LONGEST_LINE = 100
 _DEEPEST = 10
@@ -83,14 +81,19 @@ def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
     Raises
     ------
     DocumentError
-        With every wrong key, unit and range.
+        With every wrong key, unit and range, or if a data file lies outside the folder.
     """
     text = study_text(document)
     path = folder / RUN_FILE
     try:
-        return text, parse_study(text, path)
+        study = parse_study(text, path)
     except StudyError as error:
         raise DocumentError(_problems(str(error), f"{path}: ")) from None
+    for file in study.inputs:
+        if file.parent != folder or file.name in ("", ".."):
+            words = f"{brief(str(file))} lies elsewhere; drop the file on the page, and give its name alone."
+            raise DocumentError((Problem("", words),))
+    return text, study
 
 
 def _problems(said: str, start: str) -> tuple[Problem, ...]:

@@ -39,6 +39,8 @@ KINDS: dict[str, Kind] = {
     # measured friction
     # what is taken away
     "export-run-file": Kind("viscofric.web.jobs.export_run_file", seconds=60.0, memory=2 * _GB),
+    "export-study": Kind("viscofric.web.jobs.export_study", seconds=24 * 3600.0, memory=8 * _GB),
+    "export-card": Kind("viscofric.web.jobs.export_card", seconds=120.0, memory=2 * _GB),
 }
 
 #: What a process imports before its first job, the most urgent first.

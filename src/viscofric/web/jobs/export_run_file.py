@@ -1,4 +1,4 @@
-"""The page's document as a run file: its text, all that is wrong with it, and how much it asks for."""
+"""The page's document as a run file: its text, all that is wrong with it, and, packed with its data, to take away."""
 
 from __future__ import annotations
 
@@ -7,16 +7,28 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.errors import ViscofricError
-from viscofric.web.study_text import DocumentError, study_of, study_text
+from viscofric.web.jobs.export_files import archive, missing_files, offered
+from viscofric.web.study_text import RUN_FILE, DocumentError, Problem, study_of, study_text
 
 if TYPE_CHECKING:
+    from viscofric.study.run_file import Study
     from viscofric.web.jobs.context import Context
+
+ARCHIVE = "study.zip"
 
 
 class Options(BaseModel):
-    """There are none."""
+    """How much is wanted.
+
+    Parameters
+    ----------
+    pack : bool
+        Whether the run file is packed, together with its data files, as a download.
+    """
 
     model_config = ConfigDict(extra="forbid")
+
+    pack: bool = False
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -32,23 +44,48 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``text`` of the run file, ``problems`` (a list of ``field`` and ``message``), ``cases`` that it asks for and
-        ``files`` that it names; the last two are None where there are problems.
+        ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it asks for and
+        ``files`` that it names, None where there are problems; ``download``, if it was to be packed.
+
+    Raises
+    ------
+    DocumentError
+        If a study with problems is to be packed.
     """
+    text, problems, checked = _checked(study, context)
+    if checked is None or problems:
+        if options.pack:
+            raise DocumentError(problems)
+        told = [one._asdict() for one in problems]
+        return {"text": text, "problems": told, "cases": None, "files": None, "download": None}
+    download = None
+    if options.pack:
+        files = [(path.name, path) for path in checked.inputs]
+        download = offered(archive(context.downloads / ARCHIVE, [(RUN_FILE, text), *files]), "run file and data")
+    return {
+        "text": text,
+        "problems": [],
+        "cases": len(checked.sweep().cases),
+        "files": [path.name for path in checked.inputs],
+        "download": download,
+    }
+
+
+def _checked(study: dict[str, Any], context: Context) -> tuple[str, tuple[Problem, ...], Study | None]:
+    """Return the text, what is wrong with it, and the study if it is one."""
     try:
         text, checked = study_of(study, context.files)
-        cases = len(checked.sweep().cases)
+        missing = [
+            Problem(_place_of(study, name), f"The file {name} is not here; drop it on the page first.")
+            for name in missing_files(checked)
+        ]
     except DocumentError as error:
-        problems = [{"field": one.field, "message": one.message} for one in error.problems]
-        return {"text": _text_of(study), "problems": problems, "cases": None, "files": None}
+        return _text_of(study), error.problems, None
+    try:
+        checked.sweep()
     except ViscofricError as error:
-        problems = [{"field": "", "message": str(error)}]
-        return {"text": _text_of(study), "problems": problems, "cases": None, "files": None}
-    missing = [path.name for path in checked.inputs if not path.is_file()]
-    problems = [
-        {"field": _place_of(study, name), "message": f"The file {name} is not here; upload it."} for name in missing
-    ]
-    return {"text": text, "problems": problems, "cases": cases, "files": [path.name for path in checked.inputs]}
+        return text, (Problem("conditions", str(error)),), None
+    return text, tuple(missing), checked
 
 
 def _text_of(study: dict[str, Any]) -> str:
@@ -60,7 +97,7 @@ def _text_of(study: dict[str, Any]) -> str:
 
 
 def _place_of(study: dict[str, Any], name: str) -> str:
-    """Return the path in the document where a file is named."""
+    """Return the path in the document where a file is named; that of its table, if a pattern stands for it."""
     for table in ("material", "surface", "measurement"):
         entries = study.get(table)
         for key, value in entries.items() if isinstance(entries, dict) else ():

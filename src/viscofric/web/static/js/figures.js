@@ -141,7 +141,7 @@ function base(spec, dark, forFile) {
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
     xaxis: plotlyAxis(x, dark, along(spec, x, "x")), yaxis: plotlyAxis(y, dark, along(spec, y, "y")),
     shapes: marks(spec, look).shapes, annotations: [...marks(spec, look).annotations, ...(forFile ? syntheticMark(spec) : [])],
-    uirevision: spec.id,
+    uirevision: spec.id, separators: ".\u2009",
     ...(spec.layout ?? {}),
   };
 }

@@ -1,0 +1,77 @@
+"""The rubber as a card for finite-element programs, or as viscofric's own file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from viscofric.web.jobs.export_files import offered
+from viscofric.web.jobs.rubbers import made_rubber
+
+if TYPE_CHECKING:
+    from viscofric.rheology.cards import CardFormat
+    from viscofric.web.jobs.context import Context
+
+_WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
+_OWN = ("csv", "json")
+
+
+class Options(BaseModel):
+    """Which card, and what the rubber does not say; see `viscofric.rheology.cards.write_card`."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    format: Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"] = "abaqus"
+    poisson_ratio: float | None = Field(None, ge=0.0, le=0.5)
+    density: str | None = Field(None, max_length=100)
+    temperature_unit: Literal["K", "degC"] = "K"
+    unit_system: Literal["Pa", "MPa"] = "Pa"
+    domain: Literal["time", "frequency"] = "time"
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Write a card of the rubber.
+
+    Parameters
+    ----------
+    study : dict
+        The page's document; of it, [material] counts.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``text`` of the card, ``download`` (``name``, ``title``, ``size``) and ``notes``, sentences.
+
+    Raises
+    ------
+    InputError
+        If the program cannot take the rubber, with what would make it.
+    """
+    from viscofric.rheology import ShiftFactors
+    from viscofric.rheology.cards import write_card
+    from viscofric.study.rubber_results import CARDS
+
+    rubber = made_rubber(study, context)
+    form: CardFormat = options.format
+    name = "rubber" if form in _OWN else f"rubber_{form.replace('-', '_')}"
+    path = context.downloads / f"{name}{CARDS[form]}"
+    write_card(
+        rubber.material,
+        path,
+        form,
+        poisson_ratio=options.poisson_ratio,
+        density=options.density or None,
+        temperature_unit=options.temperature_unit,
+        unit_system=options.unit_system if form in _WITHOUT_UNITS else "Pa",
+        domain=options.domain,
+    )
+    notes = []
+    if form not in _OWN and isinstance(rubber.material.shift, ShiftFactors):
+        notes.append(
+            "The card holds at the reference temperature only, since other programs take a shift law but no table of "
+            "factors; a fitted law (step 2) gives the rubber one."
+        )
+    return {"text": path.read_text(encoding="utf-8"), "download": offered(path, f"card for {form}"), "notes": notes}

@@ -1,0 +1,93 @@
+"""What is taken away: a study's folder with its data, and archives of files."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import zipfile
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import DataFileError
+from viscofric.files import write_atomically
+from viscofric.web.study_text import RUN_FILE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+    from viscofric.study.run_file import Study
+
+_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest that archives can tell: the same files give the same bytes
+
+
+def missing_files(study: Study) -> list[str]:
+    """Return the names of data files that a study names and that are not there."""
+    return [path.name for path in study.inputs if not path.is_file()]
+
+
+def lay_out(text: str, study: Study, folder: Path) -> Path:
+    """Put a run file and copies of its data files into a folder.
+
+    Parameters
+    ----------
+    text : str
+        Of the run file.
+    study : Study
+        As it was checked, with the paths of its files.
+    folder : Path
+        Made if need be; other data files in it are removed, folders are left.
+
+    Returns
+    -------
+    Path
+        The run file.
+
+    Raises
+    ------
+    DataFileError
+        If a data file is not there, or the folder cannot be written.
+    """
+    if missing := missing_files(study):
+        raise DataFileError(missing[0], "is not one of the page's files; drop it on the page first.")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for old in folder.iterdir():
+            if old.is_file():
+                old.unlink()
+        for path in study.inputs:
+            shutil.copyfile(path, folder / path.name)
+        (folder / RUN_FILE).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise DataFileError(folder.name, f"cannot be written ({error.strerror or error}).") from None
+    return folder / RUN_FILE
+
+
+def archive(target: Path, files: Iterable[tuple[str, Path | str]]) -> Path:
+    """Write a zip archive.
+
+    Parameters
+    ----------
+    target : Path
+    files : iterable of (str, Path or str)
+        Name in the archive, and the file, or the text, that is kept under it.
+
+    Returns
+    -------
+    Path
+        The archive.
+    """
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as packed:
+        for name, content in files:
+            data = content.encode() if isinstance(content, str) else content.read_bytes()
+            entry = zipfile.ZipInfo(name, _EPOCH)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            packed.writestr(entry, data)
+    write_atomically(target, buffer.getvalue())
+    return target
+
+
+def offered(path: Path, title: str) -> dict[str, Any]:
+    """Return a file as the page offers it: ``name``, ``title`` and ``size`` (bytes)."""
+    return {"name": path.name, "title": title, "size": path.stat().st_size}

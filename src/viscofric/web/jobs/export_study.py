@@ -1,0 +1,108 @@
+"""The whole study, run as ``viscofric run`` does it: results, report, tables and figures to take away."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from viscofric.web.jobs.export_files import archive, lay_out, offered
+from viscofric.web.study_text import study_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from viscofric.study import StudyResults
+    from viscofric.study.running import Event
+    from viscofric.web.jobs.context import Context
+
+_MOST_TOLD = 8
+_STAGES = {
+    "measurement": "reading the measurement",
+    "material": "making the rubber",
+    "shift": "shifting the measurement",
+    "contacts": "solving contacts",
+    "report": "drawing figures and report",
+}
+
+
+class Options(BaseModel):
+    """How the study is run.
+
+    Parameters
+    ----------
+    workers : int
+        Processes that solve contacts; the results do not depend on it.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+
+    workers: int = Field(1, ge=1, le=os.cpu_count() or 1)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Run a study; contacts that an earlier run in this workspace solved are taken from there.
+
+    Parameters
+    ----------
+    study : dict
+        The page's document.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``downloads``, a list of ``name``, ``title`` and ``size``; ``cases`` and ``failed``, their numbers;
+        ``failures``, ``warnings`` and ``notes``, sentences; ``synthetic``.
+
+    Raises
+    ------
+    DocumentError
+        With all that is wrong with the document.
+    StudyError, DataFileError
+        As `run_study`.
+    """
+    from viscofric.report import write_figures_and_report
+    from viscofric.report.messages import grouped_failures, readable
+    from viscofric.study import run_study
+
+    text, checked = study_of(study, context.files)
+    folder = context.cache / "study"
+    run_file = lay_out(text, checked, folder)
+
+    def tell(event: Event) -> None:
+        stage = event.stage or "contacts"
+        label = _STAGES.get(stage, stage)
+        context.progress(event.done or 0, event.total or 0, f"{label}: {event.label}" if event.label else label)
+
+    results = run_study(run_file, resume=True, workers=options.workers, progress=tell)
+    context.progress(0, 1, _STAGES["report"])
+    figures, report = write_figures_and_report(results.tree, results.folder)
+    downloads = _downloads(results, figures, report, context.downloads)
+    failures = list(results.failures)
+    return {
+        "downloads": downloads,
+        "cases": int(results.dataset["friction_coefficient"].size),
+        "failed": int(results.dataset["failed"].sum()),
+        "failures": grouped_failures(failures, _MOST_TOLD),
+        "warnings": [readable(one) for one in results.warnings],
+        "notes": [readable(one) for one in results.notes],
+        "synthetic": results.tree.attrs.get("data_origin") == "synthetic",
+    }
+
+
+def _downloads(results: StudyResults, figures: list[Path], report: Path, folder: Path) -> list[dict[str, Any]]:
+    """Put what a study left where the page can fetch it."""
+    kept = [(report, "report, one page to hand on"), (results.folder / "results.nc", "results, labelled (netCDF)")]
+    offers = []
+    for path, title in kept:
+        shutil.copyfile(path, folder / path.name)
+        offers.append(offered(folder / path.name, title))
+    offers.append(offered(results.to_csv(folder / "results.csv"), "table of all cases (CSV)"))
+    offers.append(offered(results.to_excel(folder / "results.xlsx"), "workbook with all tables (Excel)"))
+    pictures = archive(folder / "figures.zip", [(path.name, path) for path in sorted(figures)])
+    offers.append(offered(pictures, f"{len(figures)} figures (PNG and SVG)"))
+    return offers
