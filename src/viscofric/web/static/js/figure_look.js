@@ -1,0 +1,65 @@
+// Colours of figures, light and dark, and one look for each temperature: blue where cold, red where warm.
+
+// Okabe and Ito's colours, cold to warm, as in the reports; [on light, on dark]
+const HUES = {
+  blue: ["#0072b2", "#56a9e0"], sky: ["#3f9fd8", "#8fd0f7"], green: ["#009e73", "#3cc79d"],
+  orange: ["#d38f00", "#f0b73c"], vermilion: ["#d55e00", "#ff8a4a"], purple: ["#b5528c", "#e39ac5"], red: ["#a31f34", "#f2707f"],
+};
+
+const BY_COUNT = [
+  ["blue"], ["blue", "vermilion"], ["blue", "green", "vermilion"], ["blue", "green", "orange", "vermilion"],
+  ["blue", "sky", "green", "orange", "vermilion"], ["blue", "sky", "green", "orange", "vermilion", "red"],
+];
+
+const SCALE = [["#16306b", "#5a7fe0"], HUES.blue, HUES.green, HUES.orange, HUES.vermilion, ["#8f1230", "#ff5d77"]];
+
+const SYMBOLS = ["circle", "square", "triangle-up", "diamond", "triangle-down", "pentagon", "x"];
+
+const DASHES = ["solid", "9px,3px", "3px,3px", "9px,3px,3px,3px"];
+
+/** Whether the page is dark now. */
+export function isDark() {
+  const chosen = document.documentElement.dataset.theme;
+  return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+}
+
+function mixed(one, other, share) {
+  const parts = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+  const [from, to] = [parts(one), parts(other)];
+  return `#${from.map((value, at) => Math.round(value + share * (to[at] - value)).toString(16).padStart(2, "0")).join("")}`;
+}
+
+export function faded(colour, share) {
+  const [r, g, b] = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+  return `rgba(${r},${g},${b},${share})`;
+}
+
+/** Colour of a named hue on the page's background: hue("blue"). */
+export function hue(name, dark = isDark()) {
+  return HUES[name]?.[dark ? 1 : 0] ?? name;
+}
+
+function distinct(all) {
+  return [...new Set(all.map((kelvin) => Math.round(kelvin * 10) / 10))].sort((one, other) => one - other);
+}
+
+/** One colour per temperature, blue where cold and red where warm; `all` are those that are shown together. */
+export function temperatureColour(kelvin, all = [kelvin], dark = isDark()) {
+  const sorted = distinct([...all, kelvin]);
+  const rank = sorted.indexOf(Math.round(kelvin * 10) / 10);
+  if (sorted.length <= BY_COUNT.length) return hue(BY_COUNT[sorted.length - 1][rank], dark);
+  const place = ((kelvin - sorted[0]) / (sorted.at(-1) - sorted[0])) * (SCALE.length - 1);
+  const at = Math.min(Math.max(Math.floor(place), 0), SCALE.length - 2);
+  return mixed(SCALE[at][dark ? 1 : 0], SCALE[at + 1][dark ? 1 : 0], Math.min(Math.max(place - at, 0), 1));
+}
+
+/** Colour, symbol and dashes of a temperature, so that it can be told in grey, too. */
+export function temperatureLook(kelvin, all = [kelvin], dark = isDark()) {
+  const rank = distinct([...all, kelvin]).indexOf(Math.round(kelvin * 10) / 10);
+  return { colour: temperatureColour(kelvin, all, dark), symbol: SYMBOLS[rank % SYMBOLS.length], dash: DASHES[rank % DASHES.length] };
+}
+
+export function colours(dark) {
+  const light = { ink: "#1d2329", quiet: "#5b6570", line: "#dfe3e7", paper: "#ffffff", hover: "#ffffff" };
+  return dark ? { ink: "#e4e8ec", quiet: "#a0abb5", line: "#343c44", paper: "#1b2025", hover: "#2a3138" } : light;
+}
