@@ -50,13 +50,23 @@ function withUnit(text, kind) {
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(trimmed) ? `${trimmed} ${units.unitWords(kind)}` : trimmed;
 }
 
-const readable = (words) => String(words ?? "").replace("degC", "°C").replace("degF", "°F");
+const readable = (words) =>
+  String(words ?? "")
+    .replace("degC", "°C")
+    .replace("degF", "°F");
 
 const listed = (value) => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
 
 /** Text box whose value follows a path; `read` turns text into a document's value, `write` the reverse. */
 function box(path, { read, write, placeholder, type = "text", label, ...rest }) {
-  const input = h("input", { type, placeholder, autocomplete: "off", spellcheck: "false", "aria-label": label, ...rest });
+  const input = h("input", {
+    type,
+    placeholder,
+    autocomplete: "off",
+    spellcheck: "false",
+    "aria-label": label,
+    ...rest,
+  });
   const refresh = () => {
     if (document.activeElement !== input || !input.dataset.typing) input.value = write(state.get(path));
   };
@@ -79,7 +89,10 @@ export function quantityField({ path, label, kind = "plain", help, placeholder }
 
 /** Free text, such as a title or a name. */
 export function textField({ path, label, help, placeholder }) {
-  return field({ path, label, help }, box(path, { read: (text) => text.trim(), write: (value) => value ?? "", placeholder }));
+  return field(
+    { path, label, help },
+    box(path, { read: (text) => text.trim(), write: (value) => value ?? "", placeholder }),
+  );
 }
 
 /** A plain number: numberField({path: "solver.accuracy", label: "Accuracy", min, max, step}). */
@@ -91,7 +104,11 @@ export function numberField({ path, label, help, min, max, step = "any", placeho
 
 /** A choice: choiceField({path, label, options: [[value, label], …], otherwise, onChange}); an undefined value removes the key. */
 export function choiceField({ path, label, options, help, otherwise, onChange }) {
-  const select = h("select", {}, options.map(([value, text], index) => h("option", { value: String(index) }, text ?? value)));
+  const select = h(
+    "select",
+    {},
+    options.map(([value, text], index) => h("option", { value: String(index) }, text ?? value)),
+  );
   const refresh = () => {
     const value = state.get(path) ?? otherwise;
     const index = options.findIndex(([one]) => JSON.stringify(one) === JSON.stringify(value));
@@ -129,7 +146,12 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
     return Array.isArray(value) && value.length !== 1 ? "list" : "one";
   };
   const mode = h("select", { class: "mode", "aria-label": `${label}: how it is given` });
-  for (const [value, text] of [["one", "one value"], ["list", "list"], ["range", "range"]]) mode.append(h("option", { value }, text));
+  for (const [value, text] of [
+    ["one", "one value"],
+    ["list", "list"],
+    ["range", "range"],
+  ])
+    mode.append(h("option", { value }, text));
   const read = (text) => withUnit(text, kind);
   const one = box(path, { label, read, write: (value) => readable(listed(value)[0]) });
   const list = box(path, {
@@ -138,8 +160,19 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
     write: (value) => listed(value).map(readable).join(", "),
   });
   const end = (key, text) => box(`${path}.${key}`, { label: `${label} ${text}`, read, write: readable });
-  const points = box(`${path}.points`, { label: `${label}: number of points`, type: "number", min: 2, step: 1, read: Number, write: (value) => value ?? "" });
-  const gap = h("select", { "aria-label": `${label}: spacing` }, spacing.map((value) => h("option", { value }, value)));
+  const points = box(`${path}.points`, {
+    label: `${label}: number of points`,
+    type: "number",
+    min: 2,
+    step: 1,
+    read: Number,
+    write: (value) => value ?? "",
+  });
+  const gap = h(
+    "select",
+    { "aria-label": `${label}: spacing` },
+    spacing.map((value) => h("option", { value }, value)),
+  );
   gap.addEventListener("change", () => state.set(`${path}.spacing`, gap.value));
   const ends = [end("from", "from"), end("to", "to")];
   const range = h(
@@ -159,7 +192,14 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
   mode.addEventListener("change", () => state.set(path, inForm(mode.value, state.get(path), { spacing, otherwise })));
   state.subscribe(path, refresh);
   refresh();
-  return field({ path, label, help, beside: mode }, h("span", { class: "range-field" }, one, list, range), [one, list, ...ends, points, mode, gap]);
+  return field({ path, label, help, beside: mode }, h("span", { class: "range-field" }, one, list, range), [
+    one,
+    list,
+    ...ends,
+    points,
+    mode,
+    gap,
+  ]);
 }
 
 /** A list that people typed; a unit at its end is that of all: "30, 60, 90 °C". */
@@ -175,10 +215,16 @@ function inForm(form, value, { spacing, otherwise }) {
   const all = isRange ? [value.from, value.to] : listed(value);
   if (form === "one") return all[0] ?? otherwise.one;
   if (form === "list") return all.length > 1 ? all : [all[0], otherwise.to ?? all[0]].filter(Boolean);
-  return { from: all[0], to: all.length > 1 ? all.at(-1) : (otherwise.to ?? all[0]), points: otherwise.points ?? 10, spacing: spacing[0] };
+  return {
+    from: all[0],
+    to: all.length > 1 ? all.at(-1) : (otherwise.to ?? all[0]),
+    points: otherwise.points ?? 10,
+    spacing: spacing[0],
+  };
 }
 
-const within = (place, path) => path !== "" && (place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`));
+const within = (place, path) =>
+  path !== "" && (place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`));
 
 /** Show each sentence beside its field and none beside the others; returns those that have no field on the page. */
 export function showErrors(problems) {
@@ -197,7 +243,9 @@ export function showErrors(problems) {
 /** Show the error of a job beside its field; returns whether there is such a field. */
 export function showError(error) {
   if (!error?.field) return false;
-  const home = [...fields.keys()].filter((path) => within(error.field, path)).sort((one, other) => other.length - one.length)[0];
+  const home = [...fields.keys()]
+    .filter((path) => within(error.field, path))
+    .sort((one, other) => other.length - one.length)[0];
   if (home === undefined) return false;
   for (const element of fields.get(home)) element.setError(error.message);
   return true;

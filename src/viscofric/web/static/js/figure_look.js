@@ -2,13 +2,22 @@
 
 // Okabe and Ito's colours, cold to warm, as in the reports; [on light, on dark]
 const HUES = {
-  blue: ["#0072b2", "#56a9e0"], sky: ["#3f9fd8", "#8fd0f7"], green: ["#009e73", "#3cc79d"],
-  orange: ["#d38f00", "#f0b73c"], vermilion: ["#d55e00", "#ff8a4a"], purple: ["#b5528c", "#e39ac5"], red: ["#a31f34", "#f2707f"],
+  blue: ["#0072b2", "#56a9e0"],
+  sky: ["#3f9fd8", "#8fd0f7"],
+  green: ["#009e73", "#3cc79d"],
+  orange: ["#d38f00", "#f0b73c"],
+  vermilion: ["#d55e00", "#ff8a4a"],
+  purple: ["#b5528c", "#e39ac5"],
+  red: ["#a31f34", "#f2707f"],
 };
 
 const BY_COUNT = [
-  ["blue"], ["blue", "vermilion"], ["blue", "green", "vermilion"], ["blue", "green", "orange", "vermilion"],
-  ["blue", "sky", "green", "orange", "vermilion"], ["blue", "sky", "green", "orange", "vermilion", "red"],
+  ["blue"],
+  ["blue", "vermilion"],
+  ["blue", "green", "vermilion"],
+  ["blue", "green", "orange", "vermilion"],
+  ["blue", "sky", "green", "orange", "vermilion"],
+  ["blue", "sky", "green", "orange", "vermilion", "red"],
 ];
 
 const SCALE = [["#16306b", "#5a7fe0"], HUES.blue, HUES.green, HUES.orange, HUES.vermilion, ["#8f1230", "#ff5d77"]];
@@ -26,7 +35,13 @@ export function isDark() {
 function mixed(one, other, share) {
   const parts = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
   const [from, to] = [parts(one), parts(other)];
-  return `#${from.map((value, at) => Math.round(value + share * (to[at] - value)).toString(16).padStart(2, "0")).join("")}`;
+  return `#${from
+    .map((value, at) =>
+      Math.round(value + share * (to[at] - value))
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("")}`;
 }
 
 export function faded(colour, share) {
@@ -56,7 +71,11 @@ export function temperatureColour(kelvin, all = [kelvin], dark = isDark()) {
 /** Colour, symbol and dashes of a temperature, so that it can be told in grey, too. */
 export function temperatureLook(kelvin, all = [kelvin], dark = isDark()) {
   const rank = distinct([...all, kelvin]).indexOf(Math.round(kelvin * 10) / 10);
-  return { colour: temperatureColour(kelvin, all, dark), symbol: SYMBOLS[rank % SYMBOLS.length], dash: DASHES[rank % DASHES.length] };
+  return {
+    colour: temperatureColour(kelvin, all, dark),
+    symbol: SYMBOLS[rank % SYMBOLS.length],
+    dash: DASHES[rank % DASHES.length],
+  };
 }
 
 export function colours(dark) {

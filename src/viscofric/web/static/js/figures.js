@@ -51,7 +51,7 @@ async function savePicture(spec, format) {
   const layout = { ...layoutOf(spec, false, true), width, height };
   const data = spec.z ? mapTraces(spec, false) : plotlyTraces(spec, false);
   const url = await Plotly.toImage({ data, layout }, { format, width, height, scale: format === "png" ? 2 : 1 });
-  const content = format === "svg" ? decodeURIComponent(url.slice(url.indexOf(",") + 1)) : await (await blobOf(url));
+  const content = format === "svg" ? decodeURIComponent(url.slice(url.indexOf(",") + 1)) : await await blobOf(url);
   save(`${spec.id}.${format}`, content, "image/svg+xml");
 }
 
@@ -75,13 +75,30 @@ export function figure(container, first) {
   const badge = h("span", { class: "badge small", hidden: true }, "synthetic");
   const caption = h("span", { class: "figure-caption" });
   const details = h("div", { class: "figure-table", hidden: true });
-  const toggle = button({ label: "Table", kind: "quiet small", symbol: "table", onClick: () => showTable(details.hidden) });
+  const toggle = button({
+    label: "Table",
+    kind: "quiet small",
+    symbol: "table",
+    onClick: () => showTable(details.hidden),
+  });
   toggle.setAttribute("aria-expanded", "false");
   const downloads = ["PNG", "SVG", "CSV"].map((format) =>
-    button({ label: format, kind: "quiet small", symbol: format === "PNG" ? "down" : undefined, onClick: () => download(format.toLowerCase()) }),
+    button({
+      label: format,
+      kind: "quiet small",
+      symbol: format === "PNG" ? "down" : undefined,
+      onClick: () => download(format.toLowerCase()),
+    }),
   );
   const tools = h("div", { class: "figure-tools" }, toggle, ...downloads);
-  const element = h("figure", { class: "figure", id: `figure-${spec.id}` }, h("div", { class: "figure-head" }, heading, badge, tools), stage, h("figcaption", {}, caption), details);
+  const element = h(
+    "figure",
+    { class: "figure", id: `figure-${spec.id}` },
+    h("div", { class: "figure-head" }, heading, badge, tools),
+    stage,
+    h("figcaption", {}, caption),
+    details,
+  );
   container.append(element);
 
   function download(format) {
@@ -99,7 +116,10 @@ export function figure(container, first) {
     if (details.hidden) return;
     const { head, rows } = numbers(spec);
     const most = 2000;
-    const cut = rows.length > most ? h("p", { class: "help" }, `The first ${most} of ${rows.length} rows; the CSV file has all.`) : "";
+    const cut =
+      rows.length > most
+        ? h("p", { class: "help" }, `The first ${most} of ${rows.length} rows; the CSV file has all.`)
+        : "";
     details.replaceChildren(table(head, rows.slice(0, most), `Numbers of: ${spec.title}`), cut);
   }
 
@@ -123,13 +143,27 @@ export function figure(container, first) {
     const Plotly = await drawing();
     const dark = isDark();
     const data = spec.z ? mapTraces(spec, dark) : plotlyTraces(spec, dark);
-    await Plotly.react(plot, there ? data : [], layoutOf(spec, dark, false), { displayModeBar: false, displayNotifier: false, responsive: false, doubleClick: "reset+autosize" });
+    await Plotly.react(plot, there ? data : [], layoutOf(spec, dark, false), {
+      displayModeBar: false,
+      displayNotifier: false,
+      responsive: false,
+      doubleClick: "reset+autosize",
+    });
     if (!drawnOnce) {
       drawnOnce = true;
       // a close look needs closer ticks
       plot.on("plotly_relayout", (change) => {
         const loose = ["xaxis", "yaxis"].filter((axis) => `${axis}.range[0]` in change && plot.layout[axis].dtick);
-        if (loose.length) Plotly.relayout(plot, Object.fromEntries(loose.flatMap((axis) => [[`${axis}.dtick`, null], [`${axis}.tickmode`, "auto"]])));
+        if (loose.length)
+          Plotly.relayout(
+            plot,
+            Object.fromEntries(
+              loose.flatMap((axis) => [
+                [`${axis}.dtick`, null],
+                [`${axis}.tickmode`, "auto"],
+              ]),
+            ),
+          );
       });
       plot.on("plotly_click", (event) => spec.onClick?.(event.points[0], event));
     }
@@ -142,7 +176,9 @@ export function figure(container, first) {
     requestAnimationFrame(() => (busy = busy.then(draw).catch((error) => (empty.textContent = error.message))));
   }
 
-  const size = new ResizeObserver(() => (drawnOnce && stage.clientWidth > 0 ? window.Plotly.Plots.resize(plot) : ask()));
+  const size = new ResizeObserver(() =>
+    drawnOnce && stage.clientWidth > 0 ? window.Plotly.Plots.resize(plot) : ask(),
+  );
   size.observe(stage);
   const handle = {
     element,

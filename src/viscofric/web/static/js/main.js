@@ -2,12 +2,20 @@
 
 import * as figures from "./figures.js";
 import * as fields from "./fields.js";
+import { headerTools } from "./header.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
-const { button, h, icon } = fields;
+const { h } = fields;
 const STEPS = ["sweeps", "shift", "spectrum", "contact", "measurement", "export"];
-const TITLES = { sweeps: "Data", shift: "Shift", spectrum: "Spectrum", contact: "Contact and friction", measurement: "Measurement", export: "Export" };
+const TITLES = {
+  sweeps: "Data",
+  shift: "Shift",
+  spectrum: "Spectrum",
+  contact: "Contact and friction",
+  measurement: "Measurement",
+  export: "Export",
+};
 const FIRST = "contact";
 
 const app = { state, units, figures, fields, api: null, start: null, goTo, announce };
@@ -70,14 +78,23 @@ async function load(id) {
   try {
     return (await import(`./steps/${id}.js`)).default;
   } catch (error) {
-    return { id, title: TITLES[id], mount: (section) => section.append(fields.note([`This step could not be loaded: ${error.message}`], "warning")) };
+    return {
+      id,
+      title: TITLES[id],
+      mount: (section) => section.append(fields.note([`This step could not be loaded: ${error.message}`], "warning")),
+    };
   }
 }
 
 function addStep(id, number, module) {
   const title = module.title ?? TITLES[id];
   const summary = h("span", { class: "step-summary" });
-  const link = h("a", { href: `#${id}`, class: "step-link" }, h("span", { class: "step-number", "aria-hidden": "true" }, String(number)), h("span", { class: "step-words" }, h("span", { class: "step-title" }, title), summary));
+  const link = h(
+    "a",
+    { href: `#${id}`, class: "step-link" },
+    h("span", { class: "step-number", "aria-hidden": "true" }, String(number)),
+    h("span", { class: "step-words" }, h("span", { class: "step-title" }, title), summary),
+  );
   link.addEventListener("click", (event) => {
     event.preventDefault();
     goTo(id);
@@ -85,74 +102,14 @@ function addStep(id, number, module) {
   document.getElementById("steps").append(h("li", {}, link));
   const heading = h("h2", { tabindex: "-1", id: `title-${id}` }, title);
   const body = h("div", { class: "step-body" });
-  const section = h("section", { class: "step", id: `step-${id}`, hidden: true, "aria-labelledby": `title-${id}` }, heading, body);
+  const section = h(
+    "section",
+    { class: "step", id: `step-${id}`, hidden: true, "aria-labelledby": `title-${id}` },
+    heading,
+    body,
+  );
   document.getElementById("main").append(section);
   steps.set(id, { id, title, module, link, summary, section, heading, body, mounted: false });
-}
-
-function unitsMenu() {
-  const panel = h("div", { class: "menu", id: "units-menu", popover: "auto", role: "dialog", "aria-label": "Units" });
-  const opener = h("button", { type: "button", class: "button quiet", popovertarget: "units-menu" }, icon("units"), h("span", {}, "Units"));
-  const fill = () => {
-    const rows = units.choices().map(({ kind, title, units: all, chosen }) => {
-      const select = h("select", { id: `unit-${kind}` }, all.map((one) => h("option", { value: one, selected: one === chosen }, one)));
-      select.addEventListener("change", () => units.choose(kind, select.value));
-      return [h("label", { for: `unit-${kind}` }, title), select];
-    });
-    const sets = units.systems.map((name) => button({ label: name, kind: "small", onClick: () => units.choose(name) }));
-    panel.replaceChildren(h("div", { class: "menu-sets", role: "group", "aria-label": "Sets of units" }, sets), h("div", { class: "menu-grid" }, rows.flat()));
-  };
-  fill();
-  units.subscribe(() => {
-    const focused = document.activeElement?.id;
-    fill();
-    if (focused) document.getElementById(focused)?.focus();
-  });
-  return [opener, panel];
-}
-
-function themeButton() {
-  const show = () => {
-    const dark = figures.isDark();
-    toggle.setAttribute("aria-label", dark ? "Dark; change to light" : "Light; change to dark");
-    toggle.title = dark ? "Light" : "Dark";
-  };
-  const toggle = h("button", { type: "button", class: "button quiet" }, icon("theme"));
-  toggle.addEventListener("click", () => {
-    chooseTheme(figures.isDark() ? "light" : "dark");
-    show();
-  });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
-  show();
-  return toggle;
-}
-
-function chooseTheme(theme) {
-  document.documentElement.dataset.theme = theme;
-  try {
-    localStorage.setItem("viscofric.theme", theme);
-  } catch {
-    // Without storage the choice holds until the page is left.
-  }
-  document.dispatchEvent(new Event("themechange"));
-}
-
-function undoButtons() {
-  const change = (how, word) => () => state[how]() && announce(`${word}.`);
-  const undo = h("button", { type: "button", class: "button quiet", title: "Undo (Ctrl+Z)", "aria-label": "Undo", onclick: change("undo", "Undone") }, icon("undo"));
-  const redo = h("button", { type: "button", class: "button quiet", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo", onclick: change("redo", "Done again") }, icon("redo"));
-  const show = () => {
-    undo.disabled = !state.canUndo;
-    redo.disabled = !state.canRedo;
-  };
-  state.subscribe("", show);
-  show();
-  document.addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || /^(text|number)$/.test(event.target.type ?? "")) return;
-    event.preventDefault();
-    (event.shiftKey ? redo : undo).click();
-  });
-  return [undo, redo];
 }
 
 function showSynthetic() {
@@ -172,7 +129,11 @@ function watch() {
     running?.abort();
     running = new AbortController();
     try {
-      const found = await app.api.runJob("export-run-file", { study: state.study, options: {} }, { signal: running.signal });
+      const found = await app.api.runJob(
+        "export-run-file",
+        { study: state.study, options: {} },
+        { signal: running.signal },
+      );
       elsewhere.set(fields.showErrors(found.problems).map((problem) => problem.message));
       state.setResult("run_file", found);
     } catch (error) {
@@ -193,7 +154,7 @@ async function begin() {
     const [start, ...modules] = await Promise.all([app.api.getStart(), ...STEPS.map(load)]);
     app.start = start;
     state.begin(start.study);
-    document.getElementById("tools").append(...undoButtons(), ...unitsMenu(), themeButton());
+    document.getElementById("tools").append(...headerTools(announce));
     STEPS.forEach((id, at) => addStep(id, at + 1, modules[at]));
   } catch (error) {
     main.append(fields.note([`The page could not be started: ${error.message}`], "error"));
@@ -203,7 +164,8 @@ async function begin() {
     summarise();
     showSynthetic();
   });
-  for (const key of ["sweeps", "rubber", "shift", "spectrum", "curve", "contact", "measured", "export"]) state.onResult(key, summarise);
+  for (const key of ["sweeps", "rubber", "shift", "spectrum", "curve", "contact", "measured", "export"])
+    state.onResult(key, summarise);
   summarise();
   showSynthetic();
   const fromAddress = () => (steps.has(location.hash.slice(1)) ? location.hash.slice(1) : FIRST);

@@ -45,7 +45,12 @@ const ICONS = {
 /** A button; `kind` is "main", "quiet" or nothing. */
 export function button({ label, onClick, kind, symbol, title, disabled }) {
   const classes = ["button", kind].filter(Boolean).join(" ");
-  return h("button", { type: "button", class: classes, onclick: onClick, title, disabled }, symbol ? icon(symbol) : null, label);
+  return h(
+    "button",
+    { type: "button", class: classes, onclick: onClick, title, disabled },
+    symbol ? icon(symbol) : null,
+    label,
+  );
 }
 
 /** A card with a heading, for figures and forms that belong together. */
@@ -57,7 +62,13 @@ export function card(title, ...children) {
 /** A place to drop files, which is also a button: fileDrop({label, accept, multiple, onFiles: (files) => …}). */
 export function fileDrop({ label, help, accept, multiple = true, onFiles }) {
   const input = h("input", { type: "file", accept, multiple, class: "hidden-input", id: `files-${(made += 1)}` });
-  const zone = h("label", { class: "drop", for: input.id }, icon("file"), h("strong", {}, label), help ? h("span", { class: "help" }, help) : null);
+  const zone = h(
+    "label",
+    { class: "drop", for: input.id },
+    icon("file"),
+    h("strong", {}, label),
+    help ? h("span", { class: "help" }, help) : null,
+  );
   const take = (list) => list.length > 0 && onFiles([...list]);
   input.addEventListener("change", () => {
     take(input.files);
@@ -120,7 +131,13 @@ export function keyNumbers(list = []) {
   const element = h("dl", { class: "key-numbers" });
   element.set = (entries) => {
     const one = ({ label, value, remark }) =>
-      h("div", {}, h("dt", {}, label), h("dd", { class: "value" }, value), remark ? h("dd", { class: "remark" }, remark) : null);
+      h(
+        "div",
+        {},
+        h("dt", {}, label),
+        h("dd", { class: "value" }, value),
+        remark ? h("dd", { class: "remark" }, remark) : null,
+      );
     element.replaceChildren(...entries.map(one));
   };
   element.set(list);
@@ -137,8 +154,20 @@ export function table(head, rows, caption) {
       "table",
       {},
       caption ? h("caption", {}, caption) : null,
-      h("thead", {}, h("tr", {}, head.map((text) => h("th", { scope: "col" }, text)))),
-      h("tbody", {}, rows.map((row) => h("tr", {}, row.map(cell)))),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          head.map((text) => h("th", { scope: "col" }, text)),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        rows.map((row) => h("tr", {}, row.map(cell))),
+      ),
     ),
   );
 }

@@ -18,7 +18,10 @@ const MOST_UNDO = 100;
 /** Parts of a path: "material.dma[1]" -> ["material", "dma", 1]. */
 export function partsOf(path) {
   if (!path) return [];
-  return path.split(/\.|\[|\]\.?/).filter((part) => part !== "").map((part) => (/^\d+$/.test(part) ? Number(part) : part));
+  return path
+    .split(/\.|\[|\]\.?/)
+    .filter((part) => part !== "")
+    .map((part) => (/^\d+$/.test(part) ? Number(part) : part));
 }
 
 function valueAt(document, path) {

@@ -13,7 +13,7 @@ const HZ = 2 * Math.PI;
 
 // label: [factor to SI, offset, words in a run file]
 const UNITS = {
-  length: { mm: [1e-3], "µm": [1e-6, 0, "um"], m: [1], in: [0.0254] },
+  length: { mm: [1e-3], µm: [1e-6, 0, "um"], m: [1], in: [0.0254] },
   speed: { "mm/s": [1e-3], "m/s": [1], "µm/s": [1e-6, 0, "um/s"], "in/s": [0.0254] },
   temperature: { "°C": [1, 273.15, "degC"], K: [1], "°F": [5 / 9, 459.67 * (5 / 9), "degF"] },
   load: { N: [1], mN: [1e-3], kN: [1e3], lbf: [4.4482216152605] },
@@ -21,23 +21,47 @@ const UNITS = {
   modulus: { MPa: [1e6], kPa: [1e3], GPa: [1e9], Pa: [1], psi: [6894.757293168361] },
   pressure: { MPa: [1e6], kPa: [1e3], Pa: [1], bar: [1e5], psi: [6894.757293168361] },
   frequency: { Hz: [1], "rad/s": [1 / HZ] },
-  time: { s: [1], ms: [1e-3], "µs": [1e-6, 0, "us"] },
+  time: { s: [1], ms: [1e-3], µs: [1e-6, 0, "us"] },
   angle: { "°": [Math.PI / 180, 0, "deg"], rad: [1] },
 };
 const SYSTEMS = {
   engineering: Object.fromEntries(Object.entries(UNITS).map(([kind, units]) => [kind, Object.keys(units)[0]])),
   SI: {
-    length: "m", speed: "m/s", temperature: "K", load: "N", line_load: "N/m", modulus: "Pa", pressure: "Pa",
-    frequency: "rad/s", time: "s", angle: "rad",
+    length: "m",
+    speed: "m/s",
+    temperature: "K",
+    load: "N",
+    line_load: "N/m",
+    modulus: "Pa",
+    pressure: "Pa",
+    frequency: "rad/s",
+    time: "s",
+    angle: "rad",
   },
   imperial: {
-    length: "in", speed: "in/s", temperature: "°F", load: "lbf", line_load: "lbf/in", modulus: "psi", pressure: "psi",
-    frequency: "Hz", time: "s", angle: "°",
+    length: "in",
+    speed: "in/s",
+    temperature: "°F",
+    load: "lbf",
+    line_load: "lbf/in",
+    modulus: "psi",
+    pressure: "psi",
+    frequency: "Hz",
+    time: "s",
+    angle: "°",
   },
 };
 const TITLES = {
-  length: "Length", speed: "Speed", temperature: "Temperature", load: "Load", line_load: "Load per length",
-  modulus: "Modulus", pressure: "Pressure", frequency: "Frequency", time: "Time", angle: "Angle",
+  length: "Length",
+  speed: "Speed",
+  temperature: "Temperature",
+  load: "Load",
+  line_load: "Load per length",
+  modulus: "Modulus",
+  pressure: "Pressure",
+  frequency: "Frequency",
+  time: "Time",
+  angle: "Angle",
 };
 
 let chosen = { ...SYSTEMS.engineering, ...remembered() };
@@ -102,7 +126,8 @@ export function show(value, kind = "plain", digits = 3) {
   const inUnit = number(value, kind);
   if (inUnit === null || !Number.isFinite(inUnit)) return "–";
   const unit = label(kind);
-  const text = kind === "temperature" ? String(Math.round(10 * inUnit) / 10).replace("-", "−") : plainNumber(inUnit, digits);
+  const text =
+    kind === "temperature" ? String(Math.round(10 * inUnit) / 10).replace("-", "−") : plainNumber(inUnit, digits);
   if (!unit) return text;
   return unit === "°" ? `${text}°` : `${text}\u00a0${unit}`;
 }
@@ -123,14 +148,24 @@ export function parse(text, kind) {
   if (typeof text === "number") return kind === "plain" ? text : null;
   const found = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i.exec(String(text ?? "").replace("−", "-"));
   if (!found) return null;
-  const unit = found[2].replace(/^u(?=m|s)/, "µ").replace("μ", "µ").replace("degC", "°C").replace("degF", "°F").replace(/^deg$/, "°");
+  const unit = found[2]
+    .replace(/^u(?=m|s)/, "µ")
+    .replace("μ", "µ")
+    .replace("degC", "°C")
+    .replace("degF", "°F")
+    .replace(/^deg$/, "°");
   const [factor, offset = 0] = (kind === "plain" && !unit ? [1] : UNITS[kind]?.[unit]) ?? [null];
   return factor === null ? null : Number((factor * Number(found[1]) + offset).toPrecision(14));
 }
 
 /** Kinds that the menu offers: [{kind, title, units, chosen}]. */
 export function choices() {
-  return Object.entries(UNITS).map(([kind, units]) => ({ kind, title: TITLES[kind], units: Object.keys(units), chosen: chosen[kind] }));
+  return Object.entries(UNITS).map(([kind, units]) => ({
+    kind,
+    title: TITLES[kind],
+    units: Object.keys(units),
+    chosen: chosen[kind],
+  }));
 }
 
 /** Names of whole sets of units. */

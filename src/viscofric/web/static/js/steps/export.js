@@ -1,11 +1,6 @@
 // Step 6: the run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
-const PROGRAMS = [
-  ["abaqus", "Abaqus"], ["ansys", "ANSYS"], ["ls-dyna", "LS-DYNA"], ["comsol", "COMSOL, parameters"],
-  ["comsol-branches", "COMSOL, table of branches"], ["json", "viscofric (JSON)"], ["csv", "table (CSV)"],
-];
-const WITH_UNITS = ["abaqus", "ansys", "ls-dyna"];
-const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
+import { cardCard, copyButton, fileLine } from "./export_card.js";
 
 export default {
   id: "export",
@@ -19,32 +14,15 @@ export default {
   mount(section, app) {
     const { h } = app.fields;
     section.append(
-      h("p", {}, "All that this page shows follows from one run file. Take it along and repeat the study anywhere, or run it here."),
+      h(
+        "p",
+        {},
+        "All that this page shows follows from one run file. Take it along and repeat the study anywhere, or run it here.",
+      ),
       h("div", { class: "grid" }, runFileCard(app), h("div", { class: "stack" }, studyCard(app), cardCard(app))),
     );
   },
 };
-
-/** Copies a text, and says so. */
-function copyButton(app, text) {
-  const { button } = app.fields;
-  const copy = button({
-    label: "Copy",
-    symbol: "copy",
-    kind: "small",
-    onClick: async () => {
-      try {
-        await navigator.clipboard.writeText(text());
-        app.announce("Copied.");
-        copy.lastChild.textContent = "Copied";
-      } catch {
-        copy.lastChild.textContent = "Select and copy it";
-      }
-      setTimeout(() => (copy.lastChild.textContent = "Copy"), 2000);
-    },
-  });
-  return copy;
-}
 
 /** Downloads what a job left. */
 function fetchFile(app, name) {
@@ -59,7 +37,9 @@ function runFileCard(app) {
   const show = (found) => {
     if (!found) return;
     text.replaceChildren(...coloured(found.text, h));
-    const files = found.files?.length ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which are packed with it`}.` : "";
+    const files = found.files?.length
+      ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which are packed with it`}.`
+      : "";
     about.textContent = found.cases ? `It asks for ${found.cases} case${found.cases === 1 ? "" : "s"}.${files}` : "";
     wrong.set(found.problems.map((one) => (one.field ? `${one.field}: ${one.message}` : one.message)));
     take.disabled = found.problems.length > 0;
@@ -82,7 +62,12 @@ function runFileCard(app) {
   const made = card(
     "Run file",
     textField({ path: "title", label: "Title of study and report" }),
-    h("div", { class: "row" }, take, copyButton(app, () => app.state.result("run_file")?.text ?? "")),
+    h(
+      "div",
+      { class: "row" },
+      take,
+      copyButton(app, () => app.state.result("run_file")?.text ?? ""),
+    ),
     about,
     wrong,
     text,
@@ -111,7 +96,13 @@ function studyCard(app) {
   const warnings = note([], "warning");
   const failures = note([], "error");
   const files = h("ul", { class: "downloads", "aria-label": "Results" });
-  const workers = h("input", { type: "number", min: "1", max: String(navigator.hardwareConcurrency || 1), value: "1", id: "export-workers" });
+  const workers = h("input", {
+    type: "number",
+    min: "1",
+    max: String(navigator.hardwareConcurrency || 1),
+    value: "1",
+    id: "export-workers",
+  });
   const clear = () => {
     for (const one of [notes, warnings, failures]) one.set([]);
     numbers.set([]);
@@ -150,14 +141,20 @@ function studyCard(app) {
     bar.finish(said);
     numbers.set([
       { label: "cases", value: String(found.cases), remark: found.failed ? `${found.failed} failed` : "all solved" },
-      { label: "to look at", value: String(found.warnings.length), remark: found.warnings.length === 1 ? "warning" : "warnings" },
+      {
+        label: "to look at",
+        value: String(found.warnings.length),
+        remark: found.warnings.length === 1 ? "warning" : "warnings",
+      },
     ]);
     files.replaceChildren(...found.downloads.map((one) => fileLine(app, one)));
     failures.set(found.failures);
     warnings.set(found.warnings);
     notes.set(found.notes);
     app.state.setResult("export", found);
-    app.announce(`The study is finished: ${found.cases} cases, ${found.failed} failed. ${found.downloads.length} files can be downloaded.`);
+    app.announce(
+      `The study is finished: ${found.cases} cases, ${found.failed} failed. ${found.downloads.length} files can be downloaded.`,
+    );
   }
 
   const go = button({ label: "Run the whole study", kind: "main", onClick: runStudy });
@@ -169,13 +166,32 @@ function studyCard(app) {
   });
   return card(
     "Results and report",
-    h("p", { class: "help" }, "Solves every case to the accuracy asked for, with the rubber's uncertainty, and writes a report, tables and figures."),
+    h(
+      "p",
+      { class: "help" },
+      "Solves every case to the accuracy asked for, with the rubber's uncertainty, and writes a report, tables and figures.",
+    ),
     h(
       "div",
       { class: "form" },
-      numberField({ path: "solver.accuracy", label: "Accuracy of friction", min: 1e-4, max: 0.1, placeholder: "0.001" }),
+      numberField({
+        path: "solver.accuracy",
+        label: "Accuracy of friction",
+        min: 1e-4,
+        max: 0.1,
+        placeholder: "0.001",
+      }),
       numberField({ path: "uncertainty.draws", label: "Draws of the rubber", min: 0, step: 1, placeholder: "200" }),
-      choiceField({ path: "outputs.fields", label: "Pressure maps kept", otherwise: "few", options: [["few", "of a few cases"], ["all", "of all cases"], ["none", "none"]] }),
+      choiceField({
+        path: "outputs.fields",
+        label: "Pressure maps kept",
+        otherwise: "few",
+        options: [
+          ["few", "of a few cases"],
+          ["all", "of all cases"],
+          ["none", "none"],
+        ],
+      }),
       h("div", { class: "field" }, h("label", { class: "field-label", for: "export-workers" }, "Processes"), workers),
     ),
     h("div", { class: "row" }, go, bar),
@@ -184,92 +200,5 @@ function studyCard(app) {
     files,
     warnings,
     notes,
-  );
-}
-
-function fileLine(app, { name, title, size: bytes }) {
-  const { h, icon } = app.fields;
-  const link = h("a", { class: "button small", href: app.api.downloadUrl(name), download: name }, icon("down"), name);
-  return h("li", {}, link, h("span", { class: "help" }, `${title}, ${size(bytes)}`));
-}
-
-/** A select or box that is no part of the study, kept over reloads. */
-function viewField(app, key, label, control, help) {
-  const { h } = app.fields;
-  control.id = `view-${key.replace(".", "-")}`;
-  const kept = app.state.view(key);
-  if (kept !== undefined) control.value = kept;
-  control.addEventListener("change", () => app.state.setView(key, control.value));
-  return h("div", { class: "field" }, h("label", { class: "field-label", for: control.id }, label), control, help ? h("p", { class: "help" }, help) : null);
-}
-
-function cardCard(app) {
-  const { button, card, h, note } = app.fields;
-  const select = (options) => h("select", {}, options.map(([value, text]) => h("option", { value }, text)));
-  const box = (placeholder) => h("input", { type: "text", placeholder, autocomplete: "off" });
-  const program = select(PROGRAMS);
-  const system = select([["Pa", "Pa, m, s, kg"], ["MPa", "MPa, mm, s, t"]]);
-  const temperature = select([["K", "kelvin"], ["degC", "°C"]]);
-  const domain = select([["time", "time (Prony series)"], ["frequency", "frequency"]]);
-  const poisson = box("that of the rubber");
-  const density = box("none");
-  const wrong = note([], "error");
-  const notes = note([]);
-  const text = h("pre", { tabindex: "0", role: "region", "aria-label": "Card", hidden: true });
-  const after = h("div", { class: "row" });
-  const optional = {
-    system: viewField(app, "card.system", "Units of the model", system),
-    temperature: viewField(app, "card.temperature", "Temperatures of the model", temperature),
-    domain: viewField(app, "card.domain", "Analysis", domain),
-    poisson: viewField(app, "card.poisson", "Poisson's ratio", poisson, "ANSYS and LS-DYNA cannot take 0.5"),
-    density: viewField(app, "card.density", "Density", density, "such as 1800 kg/m^3; LS-DYNA needs it"),
-  };
-  const programField = viewField(app, "card.program", "Program", program);
-  const fit = () => {
-    const own = ["json", "csv"].includes(program.value);
-    optional.system.hidden = !WITH_UNITS.includes(program.value);
-    optional.domain.hidden = program.value !== "abaqus";
-    for (const one of [optional.temperature, optional.poisson, optional.density]) one.hidden = own;
-  };
-  program.addEventListener("change", fit);
-  fit();
-
-  async function write() {
-    wrong.set([]);
-    const ratio = poisson.value.trim();
-    const options = { format: program.value, temperature_unit: temperature.value, unit_system: system.value, domain: domain.value };
-    if (ratio) options.poisson_ratio = Number(ratio);
-    if (density.value.trim()) options.density = density.value.trim();
-    go.disabled = true;
-    try {
-      if (ratio && !Number.isFinite(options.poisson_ratio)) throw new Error(`Poisson's ratio: ${ratio} is not a number, such as 0.499.`);
-      const found = await app.api.runJob("export-card", { study: app.state.study, options });
-      text.textContent = found.text;
-      text.hidden = false;
-      notes.set(found.notes);
-      after.replaceChildren(fileLine(app, found.download).firstChild, copyButton(app, () => found.text));
-      app.announce(`The card is written: ${found.download.name}.`);
-    } catch (error) {
-      wrong.set([error.message]);
-      text.hidden = true;
-      after.replaceChildren();
-      app.announce(`Error: ${error.message}`);
-    } finally {
-      go.disabled = false;
-    }
-  }
-
-  const go = button({ label: "Write the card", onClick: write });
-  app.state.subscribe("material", () => {
-    text.hidden = true;
-    after.replaceChildren();
-  });
-  return card(
-    "Rubber for finite elements",
-    h("div", { class: "form" }, programField, ...Object.values(optional)),
-    h("div", { class: "row" }, go, after),
-    wrong,
-    notes,
-    text,
   );
 }
