@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
+    from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.record import Record
     from viscofric.study.surface_solving import SurfaceTask
@@ -98,8 +99,27 @@ class Task:
 
     def solve(self) -> CaseRecord:
         """Solve it; see `solve`."""
-        material = Material(self.modes, poisson_ratio=self.poisson_ratio)
-        case: dict[str, Any] = {
+        if self.sensitive:
+            try:
+                solution, sensitivity = solve_with_sensitivity(
+                    self._material, self.indenter, temperature=None, **self._contact
+                )
+                return CaseRecord.of(solution, self.temperature, sensitivity, self.fields)
+            except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
+                pass
+        return CaseRecord.of(self.solution(), self.temperature, with_fields=self.fields)
+
+    def solution(self) -> ContactSolution:
+        """Solve it, and return all that was found instead of what is kept of it; see `solve_steady`."""
+        return solve_steady(self._material, self.indenter, **self._contact)
+
+    @property
+    def _material(self) -> Material:
+        return Material(self.modes, poisson_ratio=self.poisson_ratio)
+
+    @property
+    def _contact(self) -> dict[str, Any]:
+        return {
             "speed": self.speed,
             "load": self.load,
             "accuracy": self.accuracy,
@@ -107,13 +127,6 @@ class Task:
             "indenter_modulus": self.indenter_modulus,
             "indenter_poisson_ratio": self.indenter_poisson_ratio,
         }
-        if self.sensitive:
-            try:
-                solution, sensitivity = solve_with_sensitivity(material, self.indenter, temperature=None, **case)
-                return CaseRecord.of(solution, self.temperature, sensitivity, self.fields)
-            except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
-                pass
-        return CaseRecord.of(solve_steady(material, self.indenter, **case), self.temperature, with_fields=self.fields)
 
 
 def solve(task: Task | SurfaceTask) -> Record:

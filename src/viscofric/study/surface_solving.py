@@ -13,6 +13,8 @@ from viscofric.study.surface_source import surface_of, unit_vector
 
 if TYPE_CHECKING:
     from viscofric.contact.layers import Layer
+    from viscofric.contact.periodic.solution import PeriodicSolution
+    from viscofric.contact.periodic.surface import PeriodicSurface
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.surface_source import SurfaceSource
 
@@ -92,9 +94,19 @@ class SurfaceTask:
 
     def solve(self) -> SurfaceRecord:
         """Solve it; see `viscofric.study.solving.solve`."""
-        solution = solve_periodic(
+        return SurfaceRecord.of(self.solution(), self.temperature, self.fields)
+
+    def solution(self, surface: PeriodicSurface | None = None) -> PeriodicSolution:
+        """Solve it, and return all that was found instead of what is kept of it; see `solve_periodic`.
+
+        Parameters
+        ----------
+        surface : PeriodicSurface, optional
+            That is taken instead, such as a coarser likeness.
+        """
+        return solve_periodic(
             Material(self.modes, poisson_ratio=self.poisson_ratio),
-            surface_of(self.surface),
+            surface_of(self.surface) if surface is None else surface,
             speed=self.speed,
             pressure=self.pressure,
             direction=unit_vector(self.direction),
@@ -103,4 +115,3 @@ class SurfaceTask:
             indenter_poisson_ratio=self.surface_poisson_ratio,
             tolerance=min(max(TOLERANCE * self.accuracy, TIGHTEST), LOOSEST),
         )
-        return SurfaceRecord.of(solution, self.temperature, self.fields)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from study.planning.made_up_contacts import SLS, case_of, made_up
+from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from viscofric.errors import InputError
 from viscofric.study.planning.plan import plan_cases
 from viscofric.study.record import CaseRecord, Failure
@@ -98,3 +98,34 @@ def test_line_contacts_are_recorded_too() -> None:
     (task,) = plan_cases([case_of(0.1, load=100.0, indenter=vf.Cylinder(0.01))], [SLS], accuracy=1e-2).wanted()
     record = solve(task)
     assert CaseRecord.from_json(record.to_json()) == record
+
+
+def test_what_lies_between_solved_contacts_is_told_before_the_end() -> None:
+    speeds = np.geomspace(1e-3, 10.0, 60)
+    plan = plan_cases([case_of(float(speed)) for speed in speeds], [SLS], accuracy=1e-2)
+    first, second, *others = plan.wanted()
+    assert list(plan.so_far()) == []
+    plan.receive(first.key, made_up(first))
+    assert list(plan.so_far()) == []
+    plan.receive(second.key, made_up(second))
+    drafts = list(plan.so_far())
+    # Slowest first, and nothing beyond the two contacts.
+    assert [number for number, _, _ in drafts] == list(range(len(drafts)))
+    assert 0 < len(drafts) < len(speeds) / 4
+    assert not any(known for _, _, known in drafts)
+    for task in others:
+        plan.receive(task.key, made_up(task))
+    half_way = {number: (outcome, known) for number, outcome, known in plan.so_far()}
+    assert len(half_way) == len(speeds)
+    assert not all(known for _, known in half_way.values())
+    carry_out(plan)
+    end = list(plan.so_far())
+    assert [outcome for _, outcome, _ in end] == plan.found()
+    assert all(known for _, _, known in end)
+    for number, outcome, _ in end:
+        drafted, known = half_way[number]
+        assert isinstance(outcome, CaseRecord)
+        assert isinstance(drafted, CaseRecord)
+        # What counts as known is so within the accuracy; drafts between contacts a factor of e apart are near it.
+        allowed = 1e-2 if known else 0.1
+        assert drafted.friction_coefficient == pytest.approx(outcome.friction_coefficient, rel=allowed)

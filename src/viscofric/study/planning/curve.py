@@ -7,6 +7,7 @@ whole waves only, so that neither time nor order matters.
 
 from __future__ import annotations
 
+import copy
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -137,6 +138,25 @@ class Curve:
             else:
                 self._open.append(one)
         self.wanted = tuple(one.middle for one in self._open)
+
+    def drafted(self, found: Mapping[int, Node | None]) -> Curve:
+        """Return what the curve would be if nothing more were solved.
+
+        Parameters
+        ----------
+        found : mapping of int to Node or None
+            What is known already of the nodes that are wanted.
+
+        Returns
+        -------
+        Curve
+            Intervals are closed if their ends are known, well enough or not, the open ones last; nothing is wanted.
+        """
+        drafted = copy.copy(self)
+        drafted._nodes = self._nodes | {place: node for place, node in found.items() if node is not None}
+        drafted.closed = [*self.closed, *(one for one in self._open if {one.low, one.high} <= drafted._nodes.keys())]
+        drafted.wanted = ()
+        return drafted
 
     def between(self, one: Interval) -> tuple[Stencil, Interpolated]:
         """Interpolate the cases of a closed interval, from the nodes that are returned too."""

@@ -15,7 +15,7 @@ from viscofric.study.record import Failure, Record
 from viscofric.study.sweep import SurfaceCase
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
     from viscofric.rheology.material import Material
     from viscofric.study.planning.conditions import AnyTask
@@ -52,8 +52,9 @@ class Plan:
         self._told: dict[str, list[Callable[[Outcome], None]]] = {}
         self._known: dict[str, Outcome] = {}
         alone = set(apart)
-        for family, members in self._families(alone).items():
-            _FamilyPlan(self, family, members).go_on()
+        self._parts = [_FamilyPlan(self, family, members) for family, members in self._families(alone).items()]
+        for part in self._parts:
+            part.go_on()
         for number in sorted(alone):
             self.solve_alone(number)
 
@@ -98,6 +99,24 @@ class Plan:
                 f"{self.total - len(known)} of {self.total} cases are not known yet; solve what is wanted first."
             )
         return known
+
+    def so_far(self) -> Iterator[tuple[int, Outcome, bool]]:
+        """Yield what can be told by now, for those who do not want to wait for the end.
+
+        Yields
+        ------
+        number : int
+            Of a case.
+        outcome : CaseRecord, SurfaceRecord or Failure
+            Once more when it is asked again; it may change as long as its curve is solved.
+        known : bool
+            Whether it is within the accuracy already, or lies between contacts that may be too far from each other.
+        """
+        for number, outcome in enumerate(self._outcomes):
+            if outcome is not None:
+                yield number, outcome, True
+        for part in self._parts:
+            yield from part.draft()
 
     def settle(self, number: int, outcome: Outcome) -> None:
         """Note what became of a case."""
@@ -162,6 +181,7 @@ class _FamilyPlan:
         self._curve: Curve = self._solved.curve(np.array([place.s for place in self._places]))
         self._wave: dict[int, Node | None] = {}
         self._counted = 0
+        self._settled = False
 
     def go_on(self) -> None:
         """Ask for the next wave, or settle all cases where there is none."""
@@ -179,12 +199,24 @@ class _FamilyPlan:
             self._count(sum(len(one.cases) for one in self._curve.closed))
             self.go_on()
 
+    def draft(self) -> Iterator[tuple[int, Outcome, bool]]:
+        """Yield cases that lie between contacts known by now; see `Plan.so_far`."""
+        if self._settled:
+            return
+        cases = [self._plan.case(number) for number in self._numbers]
+        curve = self._curve.drafted(self._wave)
+        for place, one in enumerate(curve.closed):
+            known = place < len(self._curve.closed)
+            for row, outcome in self._solved.between(curve, one, cases, self._places):
+                yield self._numbers[row], outcome, known
+
     def _count(self, cases: int) -> None:
         self._plan.count(cases - self._counted)
         self._counted = cases
 
     def _settle(self) -> None:
         self._count(0)  # each is counted when it is settled
+        self._settled = True
         cases = [self._plan.case(number) for number in self._numbers]
         for one in self._curve.closed:
             for row, outcome in self._solved.between(self._curve, one, cases, self._places):
