@@ -33,8 +33,7 @@ def odd_jobs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     # without what contacts need, which takes most of a second to load
     cold = "from viscofric.web.child import main; main({parent}, warm=())"
     monkeypatch.setattr(module, "_PROGRAM", cold)
-    for name in ("files", "downloads", "cache"):
-        (tmp_path / name).mkdir()
+    (tmp_path / "a" / "downloads").mkdir(parents=True)
 
 
 class Bench:
@@ -45,7 +44,7 @@ class Bench:
 
     def run(self, do: str, amount: float = 0.0, kind: str = "odd", key: str = "a") -> AsyncIterator[bytes]:
         options = {"do": do, "amount": amount}
-        return self.children.run(kind, {}, options, key=key, folder=self.folder)
+        return self.children.run(kind, {}, options, self.folder / key)
 
     async def all(self, *arguments: Any, **more: Any) -> list[dict[str, Any]]:
         return [json.loads(line) async for line in self.run(*arguments, **more)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import ipaddress
 import json
+import re
 import secrets
 import socket
 from dataclasses import dataclass, field
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 LARGEST_STUDY = 4_000_000  # bytes, of a job's body
 _BODY_PAUSE = 20.0  # s without a byte of a body that was announced
+_HOST = re.compile(r"(?P<name>\[[^\[\]]+\]|[^:\[\]]+)(?::(?P<port>\d{1,5}))?")
 _EVERYWHERE = {"0.0.0.0", "::", ""}
 _CONTENT = "; ".join(
     [
@@ -79,10 +81,10 @@ class Door:
 
     def is_host(self, value: str) -> bool:
         """Whether a Host header names this server, by an address that nobody else can have made a name for."""
-        name, _, port = value.rpartition(":") if not value.endswith("]") else (value, "", "80")
-        if port != str(self.port):
+        found = _HOST.fullmatch(value)
+        if found is None or (found["port"] or "80") != str(self.port):
             return False
-        name = name.strip("[]").lower()
+        name = found["name"].strip("[]").lower()
         if name in {"127.0.0.1", "localhost", self.host.lower()} - {""}:
             return True
         if self.host not in _EVERYWHERE:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 _NDJSON = "application/x-ndjson"
 _EXAMPLE = ("dma.csv", "mtm.csv")
+_KIND = Annotated[str, InAddress(min_length=1, max_length=1_000, json_schema_extra={"enum": [*KINDS]})]
 _ANY_NAME = Annotated[str, InAddress(min_length=1, max_length=1_000)]
 
 
@@ -130,8 +131,9 @@ def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict
     )
     _tell_plainly(api)
     _page(api, study)
-    _files(api, workspaces)
-    _jobs(api, workspaces, children)
+    _files(api)
+    _jobs(api, children)
+    api.state.workspaces = workspaces
 
     def largest(path: str) -> int:
         return LARGEST_UPLOAD if path.startswith("/api/files/") else LARGEST_STUDY
@@ -188,36 +190,43 @@ def _static(request: Request, name: str) -> Response:
     return Response(file.packed if packed else file.content, media_type=file.media_type, headers=headers)
 
 
-def _files(api: FastAPI, workspaces: Workspaces) -> None:
-    def of_header(x_workspace: Annotated[str, Header(pattern=KEY)]) -> Workspace:
-        return workspaces.get(x_workspace)
+def _of_header(request: Request, x_workspace: Annotated[str, Header(pattern=KEY)]) -> Workspace:
+    workspaces: Workspaces = request.app.state.workspaces
+    return workspaces.get(x_workspace)
 
-    def of_query(workspace: Annotated[str, Query(pattern=KEY)]) -> Workspace:
-        return workspaces.get(workspace)
 
-    def listed(workspace: Workspace) -> list[StoredFile]:
-        return [StoredFile(name=name, size=size) for name, size in workspace.listing()]
+def _of_query(request: Request, workspace: Annotated[str, Query(pattern=KEY)]) -> Workspace:
+    workspaces: Workspaces = request.app.state.workspaces
+    return workspaces.get(workspace)
 
-    ByHeader = Annotated[Workspace, Depends(of_header)]
 
+_ByHeader = Annotated[Workspace, Depends(_of_header)]
+_ByQuery = Annotated[Workspace, Depends(_of_query)]
+
+
+def _listed(workspace: Workspace) -> list[StoredFile]:
+    return [StoredFile(name=name, size=size) for name, size in workspace.listing()]
+
+
+def _files(api: FastAPI) -> None:
     @api.get("/api/files")
-    def list_files(workspace: ByHeader) -> list[StoredFile]:
+    def list_files(workspace: _ByHeader) -> list[StoredFile]:
         """List the files of the workspace."""
-        return listed(workspace)
+        return _listed(workspace)
 
     @api.post("/api/files/example")
-    def use_example(workspace: ByHeader) -> list[StoredFile]:
+    def use_example(workspace: _ByHeader) -> list[StoredFile]:
         """Put the synthetic example's measurements there."""
         from importlib.resources import files
 
         for name in _EXAMPLE:
             workspace.store(name, (files("viscofric") / "example" / name).read_bytes())
-        return listed(workspace)
+        return _listed(workspace)
 
     body = {"content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}
 
     @api.put("/api/files/{name}", openapi_extra={"requestBody": body})
-    async def store_file(name: _ANY_NAME, workspace: ByHeader, request: Request) -> StoredFile:
+    async def store_file(name: _ANY_NAME, workspace: _ByHeader, request: Request) -> StoredFile:
         """Keep a file."""
         name = checked_name(name)
         content = await request.body()
@@ -225,7 +234,7 @@ def _files(api: FastAPI, workspaces: Workspaces) -> None:
         return StoredFile(name=name, size=len(content))
 
     @api.delete("/api/files/{name}", status_code=204, responses={404: {"model": Told}})
-    def remove_file(name: _ANY_NAME, workspace: ByHeader) -> None:
+    def remove_file(name: _ANY_NAME, workspace: _ByHeader) -> None:
         """Remove a file."""
         if not workspace.remove(checked_name(name)):
             raise HTTPException(404, f"There is no file {name}.")
@@ -235,7 +244,7 @@ def _files(api: FastAPI, workspaces: Workspaces) -> None:
         response_class=Response,
         responses={404: {"model": Told}, 200: {"content": {"application/octet-stream": {}}}},
     )
-    def download(name: _ANY_NAME, workspace: Annotated[Workspace, Depends(of_query)]) -> Response:
+    def download(name: _ANY_NAME, workspace: _ByQuery) -> Response:
         """Fetch what a job made."""
         path = workspace.downloads / checked_name(name)
         if not path.is_file():
@@ -243,7 +252,7 @@ def _files(api: FastAPI, workspaces: Workspaces) -> None:
         return FileResponse(path, filename=path.name, headers={"cache-control": "no-store"})
 
 
-def _jobs(api: FastAPI, workspaces: Workspaces, children: Children) -> None:
+def _jobs(api: FastAPI, children: Children) -> None:
     @api.get("/api/status")
     async def status() -> Status:
         """Tell how the server fares."""
@@ -254,9 +263,8 @@ def _jobs(api: FastAPI, workspaces: Workspaces, children: Children) -> None:
         response_class=Response,
         responses={404: {"model": Told}, 200: {"content": {_NDJSON: {"schema": {"type": "string"}}}}},
     )
-    async def run_job(kind: _ANY_NAME, job: JobRequest, x_workspace: Annotated[str, Header(pattern=KEY)]) -> Response:
+    async def run_job(kind: _KIND, job: JobRequest, workspace: _ByHeader) -> Response:
         """Have something computed; closing the connection cancels it."""
         if kind not in KINDS:
             raise HTTPException(404, f"There is no job {kind}; there are {', '.join(KINDS)}.")
-        folder = workspaces.get(x_workspace).folder
-        return JobStream(children.run(kind, job.study, job.options, key=x_workspace, folder=folder))
+        return JobStream(children.run(kind, job.study, job.options, workspace.folder))

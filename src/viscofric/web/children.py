@@ -152,7 +152,7 @@ class Children:
             self._idle.append(child)
 
     async def run(
-        self, kind: str, study: dict[str, Any], options: dict[str, Any], *, key: str, folder: Path
+        self, kind: str, study: dict[str, Any], options: dict[str, Any], folder: Path
     ) -> AsyncIterator[bytes]:
         """Have a job done; yield what is told of it, one JSON object a line.
 
@@ -161,10 +161,8 @@ class Children:
         kind : str
             Of `KINDS`.
         study, options : dict
-        key : str
-            Of the workspace: its next job goes to the same process, if that is free.
         folder : Path
-            Of the workspace.
+            Of the workspace: its next job goes to the same process, if that is free.
 
         Notes
         -----
@@ -174,7 +172,7 @@ class Children:
         if self._closed:
             yield line("error", message=_STOPPED, field=None)
             return
-        child = await self._lend(key)
+        child = await self._lend(str(folder))
         number = child.number = next(self._numbers)
         child.messages = asyncio.Queue()
         finished = False

@@ -26,7 +26,9 @@ _PREFIX = "viscofric-web-"
 _LOCK = "lock"
 _YOUNG = 60.0  # s; a folder without its lock may be one that is being made
 # Marks that file systems or patterns of file names give a meaning to, and those that cannot be seen.
-_NOT_IN_NAMES = re.compile(r'[\x00-\x1f\x7f-\x9f/\\<>:"|?*\u200b-\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]')
+_NOT_IN_NAMES = re.compile(
+    r'[\x00-\x1f\x7f-\x9f/\\<>:"|?*\u200b-\u200f\u2028-\u202e\u2066-\u2069\ufeff\ufffd\ud800-\udfff]'
+)
 _DEVICE = re.compile(r"^(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
 
 

@@ -1,0 +1,271 @@
+"""The page is its user's alone: who else asks, from where and with how much, is refused in one sentence."""
+
+from __future__ import annotations
+
+import json
+import re
+import socket
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import httpx
+import pytest
+
+from viscofric.web.access import Door, Limits
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from web.served_page import Server
+
+_SAFE = {
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-resource-policy": "same-origin",
+}
+
+
+@contextmanager
+def raw(server: Server) -> Iterator[socket.socket]:
+    """Connect as something that is no browser."""
+    host, port = server.base.removeprefix("http://").split(":")
+    with socket.create_connection((host, int(port)), timeout=10.0) as connection:
+        yield connection
+
+
+def said(connection: socket.socket) -> bytes:
+    """Return all that comes until the connection is closed or rests."""
+    found = b""
+    connection.settimeout(2.0)
+    try:
+        while piece := connection.recv(65536):
+            found += piece
+    except TimeoutError:
+        pass
+    return found
+
+
+def test_address_with_the_token_lets_the_browser_in(server: Server) -> None:
+    with httpx.Client(base_url=server.base, trust_env=False) as browser:
+        assert browser.get("/").status_code == 403
+        welcome = browser.get(server.address)
+        assert (welcome.status_code, welcome.headers["location"]) == (303, "/")
+        cookie = welcome.headers["set-cookie"]
+        assert "HttpOnly" in cookie
+        assert "SameSite=Strict" in cookie
+        assert cookie.startswith(f"viscofric-{server.base.rpartition(':')[2]}=")
+        page = browser.get("/")
+        assert page.status_code == 200
+        assert "<title>viscofric" in page.text
+        assert browser.get("/api/status").json()["running"] == 0
+        # followed from a page of another site, a redirection would not carry the cookie
+        elsewhere = browser.get(server.address, headers={"Sec-Fetch-Site": "cross-site"})
+        assert (elsewhere.status_code, elsewhere.headers["refresh"]) == (200, "0; url=/")
+
+
+@pytest.mark.parametrize("path", ["/", "/?token=wrong", "/?token=", "/static/js/main.js", "/api/start", "/nothing"])
+@pytest.mark.parametrize("authorization", [None, "Bearer wrong", "Basic eDp5", "Bearer \xfc"])
+def test_without_the_token_nothing_is_answered(server: Server, path: str, authorization: str | None) -> None:
+    headers = {} if authorization is None else {"Authorization": authorization.encode("latin-1")}
+    answer = httpx.get(server.base + path, headers=headers, trust_env=False)
+    assert answer.status_code == 403
+    assert "viscofric web" in answer.text
+    assert answer.text.count(".") <= 1
+    assert_safe(answer)
+
+
+def assert_safe(answer: httpx.Response) -> None:
+    assert _SAFE.items() <= dict(answer.headers).items()
+    policy = answer.headers["content-security-policy"]
+    assert "default-src 'none'" in policy
+    assert "script-src 'self';" in policy
+    assert "frame-ancestors 'none'" in policy
+    assert "access-control-allow-origin" not in answer.headers
+    assert "server" not in answer.headers
+
+
+@pytest.mark.parametrize(
+    ("host", "origin", "status"),
+    [
+        ("127.0.0.1:PORT", None, 200),
+        ("localhost:PORT", "http://localhost:PORT", 200),
+        ("127.0.0.1:PORT", "http://127.0.0.1:PORT", 200),
+        ("evil.example:PORT", None, 403),
+        ("127.0.0.1", None, 403),
+        ("127.0.0.1:1", None, 403),
+        ("127.0.0.1.evil.example:PORT", None, 403),
+        ("", None, 403),
+        ("127.0.0.1:PORT", "null", 403),
+        ("127.0.0.1:PORT", "https://127.0.0.1:PORT", 403),
+        ("127.0.0.1:PORT", "http://evil.example", 403),
+        ("127.0.0.1:PORT", "http://127.0.0.1:1", 403),
+    ],
+)
+def test_foreign_host_or_origin_is_refused(server: Server, host: str, origin: str | None, status: int) -> None:
+    port = server.base.rpartition(":")[2]
+    headers = {"Authorization": f"Bearer {server.token}", "Host": host.replace("PORT", port)}
+    if origin is not None:
+        headers["Origin"] = origin.replace("PORT", port)
+    answer = httpx.get(f"{server.base}/api/status", headers=headers, trust_env=False)
+    assert answer.status_code == status
+    assert_safe(answer)
+
+
+def test_server_for_all_hosts_answers_to_addresses_but_not_to_any_name() -> None:
+    door = Door(8765, "0.0.0.0")
+    assert door.address.startswith("http://127.0.0.1:8765/?token=")
+    assert door.is_host("192.168.1.2:8765")
+    assert door.is_host("[::1]:8765")
+    assert door.is_host(f"{socket.gethostname()}:8765")
+    assert not door.is_host("evil.example:8765")
+    assert not Door(8765).is_host("192.168.1.2:8765")
+    assert Door(80).is_host("127.0.0.1")
+    assert Door(8765, "::1").address.startswith("http://[::1]:8765/")
+    assert Door(8765, "::1").is_host("[::1]:8765")
+
+
+def test_tokens_differ_and_are_long() -> None:
+    tokens = {Door(1).token for _ in range(100)}
+    assert len(tokens) == 100
+    assert min(map(len, tokens)) >= 32
+
+
+@pytest.mark.parametrize(
+    "path", ["/static/../app.py", "/static/..%2fapp.py", "/static/%2e%2e/app.py", "/static//etc/passwd"]
+)
+def test_static_files_lead_nowhere_else(server: Server, path: str) -> None:
+    with raw(server) as connection:
+        head = f"GET /static/{path} HTTP/1.1\r\nHost: {server.base[7:]}\r\nAuthorization: Bearer {server.token}\r\n"
+        connection.sendall(f"{head}Connection: close\r\n\r\n".encode())
+        assert b" 404 " in said(connection).splitlines()[0]
+
+
+def test_static_files_are_packed_and_sent_once(server: Server) -> None:
+    with server.client() as client:
+        first = client.get("/static/vendor/plotly-cartesian.min.js")
+        assert first.headers["content-encoding"] == "gzip"
+        assert first.headers["content-type"] == "text/javascript; charset=utf-8"
+        again = client.get(first.url, headers={"If-None-Match": first.headers["etag"]})
+        assert (again.status_code, again.content) == (304, b"")
+        bare = client.get(first.url, headers={"Accept-Encoding": "identity"})
+        assert bare.content == first.content
+        assert "content-encoding" not in bare.headers
+
+
+def test_page_asks_no_other_host(server: Server) -> None:
+    """Not in what it loads; the policy that is sent with it forbids the rest."""
+    foreign = re.compile(rb"""(?:src|href|url)\s*[=(]\s*["']?(?:https?:)?//(?!www\.w3\.org)""")
+    with server.client() as client:
+        for name in ("/", "/static/css/page.css", "/static/js/main.js"):
+            assert not foreign.search(client.get(name).content), name
+
+
+@pytest.mark.parametrize("chunked", [False, True], ids=["announced", "chunked"])
+def test_body_that_is_too_large_is_refused_before_it_is_read(server: Server, chunked: bool) -> None:
+    def forever() -> Iterator[bytes]:
+        for _ in range(100):
+            yield b"0" * 1_000_000
+
+    with server.client(f"workspace-huge-{chunked}") as client:
+        for path in ("/api/jobs/check", "/api/files/huge.csv", "/api/status"):
+            method = "PUT" if "files" in path else "POST"
+            content = forever() if chunked else b"0" * 20_000_001
+            try:
+                answer = client.request(method, path, content=content)
+            except (httpx.WriteError, httpx.RemoteProtocolError, httpx.ReadError):
+                continue  # the server hung up while we were sending
+            assert answer.status_code in (405, 413)
+        assert client.get("/api/files").json() == []
+        assert client.put("/api/files/largest.csv", content=b"0" * 20_000_000).json()["size"] == 20_000_000
+
+
+def test_slow_and_partial_requests_keep_nobody_waiting(server: Server) -> None:
+    head = f"POST /api/jobs/check HTTP/1.1\r\nHost: {server.base[7:]}\r\nAuthorization: Bearer {server.token}\r\n"
+    partial = [b"G", b"GET / HTTP/1.1\r\nHost: ", f"{head}Content-Length: 1000\r\n\r\n{{".encode(), b"\x16\x03\x01\x02"]
+    open_ones = []
+    try:
+        for number in range(100):
+            host, port = server.base[7:].split(":")
+            connection = socket.create_connection((host, int(port)), timeout=10.0)
+            connection.sendall(partial[number % len(partial)])
+            open_ones.append(connection)
+        begun = time.monotonic()
+        with server.client() as client:
+            assert client.get("/api/status").status_code == 200
+        assert time.monotonic() - begun < 2.0
+    finally:
+        for connection in open_ones:
+            connection.close()
+
+
+def test_body_that_does_not_come_is_given_up() -> None:
+    import asyncio
+
+    async def application(scope: object, receive: object, send: object) -> None:
+        await receive()  # type: ignore[operator]
+
+    async def silence() -> dict[str, object]:
+        await asyncio.sleep(30.0)
+        return {}
+
+    told: list[dict[str, object]] = []
+
+    async def send(message: dict[str, object]) -> None:
+        told.append(message)
+
+    scope = {"type": "http", "path": "/api/jobs/check", "headers": []}
+    asyncio.run(Limits(application, lambda path: 10, pause=0.05)(scope, silence, send))  # type: ignore[arg-type]
+    assert told[0]["status"] == 408
+    assert json.loads(told[1]["body"]) == {"message": "Nothing of the body came for 0.05 s."}  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        b"",
+        b"[]",
+        b"null",
+        b"{",
+        b'{"study": 1}',
+        b'{"study": {}, "more": 1}',
+        b"[" * 100_000,
+        b'{"study":' * 50_000,
+        b'{"study": {"a": ' + b"9" * 10_000 + b"}}",
+        b"\xff\xfe",
+        b'{"\\ud800": 1}',
+    ],
+    ids=range(11),
+)
+def test_odd_bodies_are_refused_in_a_sentence(server: Server, body: bytes) -> None:
+    with server.client("workspace-odd") as client:
+        answer = client.post("/api/jobs/check", content=body, headers={"Content-Type": "application/json"})
+        assert answer.status_code in (400, 422), answer.text
+        assert answer.json()["message"]
+
+
+@pytest.mark.parametrize(
+    "study",
+    [
+        {"conditions": {"load": float("nan")}},
+        {"material": None},
+        {"\ud800": "\udfff"},
+        {"material": {"dma": "../../secret.csv"}},
+        {"material": {"dma": ["/etc/passwd"]}},
+        {"material": {"file": "C:\\secret.json"}},
+        {"material": {"dma": "**"}},
+        {"measurement": {"mtm": ".."}},
+        {"surface": {"file": "..\\secret.txt"}},
+        {"material": [{"dma": "a.csv"}, {"dma": "x/../b.csv"}]},
+        {"a": {"b": {"c": {"d": {"e": {"f": {"g": {"h": {"i": {"j": {"k": {"l": 1}}}}}}}}}}}},
+    ],
+    ids=range(11),
+)
+def test_odd_studies_end_in_a_sentence(server: Server, study: dict[str, object]) -> None:
+    with server.client("workspace-odd") as client:
+        content = json.dumps({"study": study})
+        answer = client.post("/api/jobs/check", content=content, headers={"Content-Type": "application/json"})
+        last = json.loads(answer.text.splitlines()[-1])
+        assert answer.status_code == 422 or last["event"] == "error"
+        assert last["message"]
+        assert "error of viscofric" not in last["message"]
