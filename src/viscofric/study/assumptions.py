@@ -26,6 +26,12 @@ _OF_HALF_SPACES = "half-space"
 
 
 def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[str, xarray.Dataset]:
+    """Return what `assumption_checks` finds as a group of results; none where there is nothing to check."""
+    found = assumption_checks(contacts, asked, at_points)
+    return {"/assumptions": labels.assumption_data(found)} if found else {}
+
+
+def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> list[AssumptionCheck]:
     """Check thickness, small strain and warming of all contacts; of each, what is told is the worst.
 
     Parameters
@@ -36,8 +42,7 @@ def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[st
         Cases asked for, and those at the measured points.
     """
     if contacts.study.indenter is None:
-        of_surface = surface_checks(contacts.study, asked.of_records)
-        return {"/assumptions": labels.assumption_data(of_surface)} if of_surface else {}
+        return surface_checks(contacts.study, asked.of_records)
     alike: dict[object, list[tuple[Case, CaseRecord]]] = {}
     for case, record in zip(asked.of_records, asked.records, strict=True):
         alike.setdefault(case.alike, []).append((case, record))
@@ -51,7 +56,7 @@ def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[st
         solved = np.array([not hasattr(outcome, "reason") for outcome in at_points.outcomes], dtype=bool)
         curves = contacts.measured.curves.select(solved)
         _keep_worst(found, _checked(contacts, at_points.of_records[0], curves, at_points.records))
-    return {"/assumptions": labels.assumption_data(list(found.values()))} if found else {}
+    return list(found.values())
 
 
 def _checked(

@@ -36,6 +36,8 @@ KINDS: dict[str, Kind] = {
     "moduli": Kind("viscofric.web.jobs.moduli", seconds=300.0, memory=3 * _GB),
     "isotherm_misfit": Kind("viscofric.web.jobs.isotherm_misfit", seconds=60.0, memory=3 * _GB),
     # contacts and curves
+    "contact": Kind("viscofric.web.jobs.contact", seconds=600.0, memory=6 * _GB),
+    "curve": Kind("viscofric.web.jobs.curve", seconds=3600.0, memory=6 * _GB),
     # measured friction
     # what is taken away
     "export-run-file": Kind("viscofric.web.jobs.export_run_file", seconds=60.0, memory=2 * _GB),
@@ -44,4 +46,4 @@ KINDS: dict[str, Kind] = {
 }
 
 #: What a process imports before its first job, the most urgent first.
-WARM = ("viscofric.contact.steady", "viscofric.study.run_file")
+WARM = ("viscofric.contact.steady", "viscofric.study.run_file", "viscofric.web.jobs.warm")

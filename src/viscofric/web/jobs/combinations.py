@@ -1,0 +1,81 @@
+"""What a study varies besides speed and temperature: one friction curve for each combination of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from viscofric.study.places import place, place_in
+from viscofric.web.jobs.context import JobError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from viscofric.study.run_file import Study
+    from viscofric.study.sweep import AnyCase, Sweep
+
+#: Cases that the page solves at most; a browser shows no more.
+MOST_CASES = 2_000
+
+
+def page_sweep(study: Study) -> Sweep:
+    """Return the cases of a study as the page solves them: with the best estimate of the rubber, and nothing measured.
+
+    Raises
+    ------
+    JobError
+        If there are more than a page can show.
+    """
+    bare = study.uncertainty.model_copy(update={"members": 0})
+    sweep = study.model_copy(update={"uncertainty": bare}).sweep()
+    if len(sweep.cases) > MOST_CASES:
+        raise JobError(
+            f"conditions: {len(sweep.cases):,} cases are more than the {MOST_CASES:,} that the page solves; take fewer "
+            "speeds, temperatures or loads here, or export the run file and solve it with viscofric run.",
+            "conditions",
+        )
+    return sweep
+
+
+def combinations(sweep: Sweep) -> tuple[dict[object, int], list[str]]:
+    """Return the number of each combination by `Case.alike`, and what tells it from the others, in words.
+
+    Parameters
+    ----------
+    sweep : Sweep
+
+    Returns
+    -------
+    dict
+        In the order of the cases.
+    list of str
+        Empty words where there is one combination only.
+    """
+    numbers: dict[object, int] = {}
+    words: list[str] = []
+    for number, case in enumerate(sweep.cases):
+        if case.alike not in numbers:
+            numbers[case.alike] = len(numbers)
+            words.append(place_in(sweep, number).removeprefix(place(case)).removeprefix(", "))
+    return numbers, words
+
+
+def of_combination(sweep: Sweep, number: int) -> AnyCase:
+    """Return the first case of a combination.
+
+    Raises
+    ------
+    JobError
+        If there is none.
+    """
+    cases: dict[object, AnyCase] = {}
+    for case in sweep.cases:
+        cases.setdefault(case.alike, case)
+    if number >= len(cases):
+        raise JobError(f"combination = {number}: the study has {len(cases)} of them, counted from 0.")
+    return list(cases.values())[number]
+
+
+def of_material(study: Mapping[str, object], number: int) -> dict[str, object]:
+    """Return the tables of a study with one of its rubbers only."""
+    material = study.get("material")
+    return {**study, "material": material[number]} if isinstance(material, list) else dict(study)

@@ -1,0 +1,258 @@
+"""Job ``curve``: friction over speeds and temperatures, told point by point while it is solved; then its doubts."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict
+
+from viscofric.study.assumptions import assumption_checks
+from viscofric.study.contacts import Contacts, doubts
+from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.running import Serial, run_plan
+from viscofric.study.store import CaseStore
+from viscofric.study.study_rubber import band_columns
+from viscofric.study.surface_words import surface_notes
+from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
+from viscofric.web.jobs.context import JobError, plain
+from viscofric.web.jobs.rubbers import study_rubber
+from viscofric.web.study_text import study_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from viscofric.study.contacts import Solved
+    from viscofric.study.planning.plan import Outcome
+    from viscofric.study.record import Record
+    from viscofric.study.run_file import Study
+    from viscofric.study.running import Event
+    from viscofric.study.study_rubber import StudyRubber
+    from viscofric.web.jobs.context import Context
+
+_BETWEEN_PARTS = 0.12  # s
+#: Friction counts as unresolved where its error is more than so many times what was asked for.
+_UNRESOLVED = 2.0
+#: Numbers of a contact that are told besides its friction, where it has them.
+_COLUMNS = (
+    "indentation",
+    "contact_area",
+    "front",
+    "rear",
+    "max_pressure",
+    "centre_of_pressure",
+    "contact_area_fraction",
+    "mean_gap",
+)
+_DIGITS = 6
+
+
+class Options(BaseModel):
+    """There are none."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Solve all cases of a study, as ``viscofric run`` does.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file; what it measured is not looked at.
+    options : Options
+    context : Context
+        The first part has ``layout``: for each case ``combination``, ``temperature`` (K), ``speed`` (m/s) and
+        ``reduced_speed`` (m/s), with the ``combinations`` in words, ``kind``, ``accuracy`` and the ``reference``
+        temperature.  Those that follow have ``cases`` (numbers), ``friction`` and ``known``: whether it is to the
+        accuracy already, or lies between contacts that may be too far apart.
+
+    Returns
+    -------
+    dict
+        For each case ``friction``, ``error``, ``lower``, ``upper``, ``material_error``, ``interpolated`` and what else
+        is known of it (null where it is not), and ``doubts``, a list of words: "extrapolated", "shift", "strain",
+        "unresolved", "failed".  Then ``master`` (friction along the master curve), ``failures``, ``warnings``,
+        ``notes`` and ``checks``, in sentences.
+
+    Raises
+    ------
+    ViscofricError
+        If the study is wrong, or none of its cases can be solved.
+    """
+    _, checked = study_of(study, context.files)
+    contacts = _contacts(checked, study, context)
+    layout = _layout(contacts)
+    context.part({"layout": layout})
+    progress = _Telling(contacts, context)
+    store = CaseStore(context.cache / "cases")
+    store.prepare()
+    with Serial() as executor:
+        run_plan(contacts.plan, store, executor, progress)
+    asked, at_points, along = contacts.results()
+    if not asked.records:
+        raise JobError(f"No case could be solved; the first one failed: {asked.failures[0]}")
+    return {
+        **layout,
+        **_columns(contacts, asked),
+        "master": _master(contacts, along),
+        "failures": [str(one) for one in asked.failures],
+        "warnings": [*_of_rubbers(contacts, known=True), *doubts((asked,), contacts.rubbers)],
+        "notes": _notes(contacts, checked),
+        "checks": [
+            {
+                "name": one.name,
+                "value": plain(one.value),
+                "limit": one.limit,
+                "holds": one.holds,
+                "sentence": one.sentence,
+            }
+            for one in assumption_checks(contacts, asked, at_points)
+        ],
+    }
+
+
+def _contacts(checked: Study, study: dict[str, Any], context: Context) -> Contacts:
+    page_sweep(checked)  # refuses what is too much
+    bare = checked.uncertainty.model_copy(update={"members": 0, **({} if checked.indenter else {"draws": 0})})
+    checked = checked.model_copy(update={"uncertainty": bare, "measurement": None})
+    tables = {**study, "uncertainty": bare.model_dump(mode="json")}
+    temperatures = checked.conditions.temperature
+    rubbers = [
+        study_rubber(of_material(tables, number), context, temperatures) for number in range(len(checked.materials))
+    ]
+    return Contacts(checked, rubbers, None)
+
+
+def _layout(contacts: Contacts) -> dict[str, Any]:
+    cases, rubbers = contacts.sweep.cases, contacts.rubbers
+    numbers, words = combinations(contacts.sweep)
+    alpha = {(case.material, case.temperature): float(rubbers[case.material].shift(case.temperature)) for case in cases}
+    study = contacts.study
+    kind = "rough" if study.indenter is None else "line" if study.indenter.LINE else "point"
+    return {
+        "kind": kind,
+        "accuracy": study.solver.accuracy,
+        "reference": plain(rubbers[0].shift.reference),
+        "combinations": words,
+        "combination": [numbers[case.alike] for case in cases],
+        "temperature": plain([case.temperature for case in cases], 9),
+        "speed": plain([case.speed for case in cases], 9),
+        "reduced_speed": plain([alpha[case.material, case.temperature] * case.speed for case in cases], 9),
+    }
+
+
+class _Telling:
+    """Hands over what is known of the cases while they are solved, each number once.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    context : Context
+    """
+
+    def __init__(self, contacts: Contacts, context: Context) -> None:
+        self._contacts, self._context = contacts, context
+        self._told: dict[int, tuple[float, bool]] = {}
+        self._last = -math.inf
+
+    def __call__(self, event: Event) -> None:
+        if event.event not in ("solved", "stored", "failed"):
+            return
+        if not self._told or time.monotonic() - self._last > _BETWEEN_PARTS:
+            self._tell()
+            self._last = time.monotonic()
+        # What lies between contacts that may be too far apart counts half.
+        done = sum(1.0 if known else 0.5 for _, known in self._told.values())
+        self._context.progress(done, len(self._contacts.sweep.cases), event.label or "")
+
+    def _tell(self) -> None:
+        new: list[tuple[int, float, bool]] = []
+        for number, outcome, known in self._contacts.plan.so_far():
+            # After the cases asked for come those along the master curve.
+            if number >= len(self._contacts.sweep.cases) or isinstance(outcome, Failure):
+                continue
+            found = float(f"{outcome.friction_coefficient:.{_DIGITS}g}"), known
+            if self._told.get(number) != found:
+                self._told[number] = found
+                new.append((number, *found))
+        if new:
+            cases, friction, known_ones = zip(*new, strict=True)
+            self._context.part({"cases": list(cases), "friction": list(friction), "known": list(known_ones)})
+
+
+def _columns(contacts: Contacts, asked: Solved) -> dict[str, Any]:
+    """Return what is known of all cases, each number a column."""
+    bands = band_columns(contacts.rubbers, asked.of_records, asked.records)
+    rows = [number for number, outcome in enumerate(asked.outcomes) if not isinstance(outcome, Failure)]
+
+    def column(values: Iterable[float]) -> Any:
+        whole = np.full(len(asked.cases), np.nan)
+        whole[rows] = list(values)
+        return plain(whole, _DIGITS)
+
+    records = asked.records
+    found = {
+        "friction": column(one.friction_coefficient for one in records),
+        "error": column(one.friction_error for one in records),
+        "interpolated": [getattr(outcome, "interpolated", False) for outcome in asked.outcomes],
+        "lower": None if bands is None else column(bands.viscoelastic_lower),
+        "upper": None if bands is None else column(bands.viscoelastic_upper),
+        "material_error": None if bands is None else column(bands.material_error),
+        "doubts": [_doubts(contacts, case, outcome) for case, outcome in zip(asked.cases, asked.outcomes, strict=True)],
+    }
+    has = [name for name in _COLUMNS if hasattr(records[0], name)]
+    return found | {name: column(getattr(one, name) for one in records) for name in has}
+
+
+def _doubts(contacts: Contacts, case: Any, outcome: Outcome) -> list[str]:
+    """Name what is doubtful about a point."""
+    if isinstance(outcome, Failure):
+        return ["failed"]
+    rubber: StudyRubber = contacts.rubbers[case.material]
+    asked = contacts.study.solver.accuracy * abs(outcome.friction_coefficient)
+    found = {
+        "extrapolated": not rubber.is_within(case, outcome),
+        "shift": bool(np.any(rubber.shift.extrapolates(np.array([case.temperature])))),
+        "strain": _strains(outcome),
+        "unresolved": outcome.friction_error > _UNRESOLVED * asked,
+    }
+    return [name for name, doubtful in found.items() if doubtful]
+
+
+def _strains(record: Record) -> bool:
+    return bool(record.warnings)
+
+
+def _master(contacts: Contacts, along: Solved) -> dict[str, Any] | None:
+    """Return friction along the master curve, at the reference temperature; None where there is more than one."""
+    if not along.records:
+        return None
+    records: list[CaseRecord] = along.records
+    curves = contacts.rubbers[0].bands.curves(records)
+    columns = {
+        "reduced_speed": curves.speed,
+        "friction": curves.viscoelastic,
+        "lower": curves.viscoelastic_lower,
+        "upper": curves.viscoelastic_upper,
+    }
+    return {name: None if values is None else plain(values, _DIGITS) for name, values in columns.items()}
+
+
+def _of_rubbers(contacts: Contacts, *, known: bool) -> list[str]:
+    """Tell what is doubtful of the rubbers whose measured frequencies are known, or of the others."""
+    temperatures = contacts.study.conditions.temperature
+    return [
+        words
+        for one in contacts.rubbers
+        if (one.frequency_range is not None) == known
+        for words in one.doubts(temperatures)
+    ]
+
+
+def _notes(contacts: Contacts, study: Study) -> list[str]:
+    notes = [note for one in contacts.rubbers for note in (*one.rubber.notes, *one.bands.notes)]
+    notes += _of_rubbers(contacts, known=False)
+    return list(dict.fromkeys([*notes, *surface_notes(study)]))

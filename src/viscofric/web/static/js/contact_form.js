@@ -1,0 +1,192 @@
+// The form of a contact: shape, load, layer, speeds and temperatures, all of them keys of the study's document.
+
+const SHAPES = [
+  ["ball", "Ball"],
+  ["cylinder", "Cylinder (line contact)"],
+  ["ellipsoid", "Ellipsoid"],
+  ["cone", "Cone"],
+  ["made", "Rough surface, made"],
+  ["scan", "Rough surface, measured"],
+];
+
+// What each shape begins with; a study keeps what it had of another shape as long as the page is open.
+const FIRST = {
+  ball: { indenter: { shape: "ball", radius: "9.525 mm" }, load: "25 N" },
+  cylinder: { indenter: { shape: "cylinder", radius: "9.525 mm" }, load: "2 N/mm" },
+  ellipsoid: { indenter: { shape: "ellipsoid", radius_x: "5 mm", radius_y: "10 mm" }, load: "25 N" },
+  cone: { indenter: { shape: "cone", angle: "10 deg" }, load: "25 N" },
+  made: {
+    surface: { hurst: 0.8, rms_slope: 0.2, shortest: "80 um", rolloff: "640 um", points: 128, spacing: "10 um", seed: 1 },
+    pressure: "0.5 MPa",
+  },
+  scan: { surface: { file: "", prepare: ["fill", "remove tilt", "window"] }, pressure: "0.5 MPa" },
+};
+
+/** What is in contact: "ball" … "cone", "made" or "scan". */
+export function shapeOf(study) {
+  if (study.surface) return study.surface.file === undefined ? "made" : "scan";
+  return study.indenter?.shape ?? "ball";
+}
+
+/** Its name in a sentence. */
+export function nounOf(study) {
+  const shape = shapeOf(study);
+  return shape === "made" || shape === "scan" ? "rough surface" : shape;
+}
+
+/** Build the form; returns its cards. */
+export function contactForm({ state, fields, api, announce }) {
+  const { h, card, quantityField, numberField, rangeField, choiceField, toggleField } = fields;
+  const left = new Map(); // what the study had of other shapes
+
+  const select = h("select", { id: "contact-shape" }, SHAPES.map(([value, text]) => h("option", { value }, text)));
+  select.addEventListener("change", () => become(select.value));
+
+  function become(shape) {
+    const { study } = state;
+    const conditions = { ...study.conditions };
+    const { load, pressure } = conditions;
+    left.set(shapeOf(study), { indenter: study.indenter, surface: study.surface, load, pressure });
+    const next = left.get(shape) ?? FIRST[shape];
+    for (const key of ["load", "pressure", "direction"]) delete conditions[key];
+    if (next.load !== undefined) conditions.load = sameLoad(next, load, shapeOf(study), shape);
+    if (next.pressure !== undefined) conditions.pressure = next.pressure;
+    state.change({ indenter: next.indenter, surface: next.surface, conditions });
+  }
+
+  /** Point contacts share their load; that of a line is per length. */
+  function sameLoad(next, load, before, after) {
+    const points = ["ball", "ellipsoid", "cone"];
+    return points.includes(before) && points.includes(after) && load !== undefined ? load : next.load;
+  }
+
+  // Every group is made once, and shown for its shapes.
+  const groups = [];
+  const group = (shapes, ...children) => {
+    const element = h("div", { class: "form" }, ...children);
+    groups.push([shapes, element]);
+    return element;
+  };
+  const indenters = ["ball", "cylinder", "ellipsoid", "cone"];
+  const shape = [
+    group(["ball", "cylinder"], quantityField({ path: "indenter.radius", label: "Radius", kind: "length" })),
+    group(
+      ["ellipsoid"],
+      quantityField({ path: "indenter.radius_x", label: "Radius along the motion", kind: "length" }),
+      quantityField({ path: "indenter.radius_y", label: "Radius across", kind: "length" }),
+    ),
+    group(["cone"], quantityField({ path: "indenter.angle", label: "Angle of the flank", kind: "angle", help: "to the undeformed surface" })),
+    group(
+      ["made"],
+      numberField({ path: "surface.hurst", label: "Hurst exponent", min: 0, max: 1, step: 0.05 }),
+      numberField({ path: "surface.rms_slope", label: "Rms slope", min: 0, step: 0.01 }),
+      quantityField({ path: "surface.rolloff", label: "Roll-off wavelength", kind: "length" }),
+      quantityField({ path: "surface.shortest", label: "Shortest wavelength", kind: "length" }),
+      numberField({ path: "surface.points", label: "Points along an edge", min: 8, step: 1 }),
+      quantityField({ path: "surface.spacing", label: "Distance of points", kind: "length" }),
+      numberField({ path: "surface.seed", label: "Seed", min: 0, step: 1, help: "of the random numbers" }),
+    ),
+    group(["scan"], ...scan()),
+  ];
+
+  function scan() {
+    const told = fields.note([]);
+    const take = async (files) => {
+      try {
+        const [name] = await api.uploadFiles(files.slice(0, 1));
+        state.set("surface.file", name);
+        announce(`${name} was uploaded.`);
+        told.set([]);
+      } catch (error) {
+        told.set([error.message], "error");
+      }
+    };
+    const drop = fields.fileDrop({ label: "Drop a height map", help: "text matrix, x y z points, or a microscope's file", multiple: false, onFiles: take });
+    const steps = [["fill", "fill gaps"], ["remove tilt", "remove tilt"], ["remove curvature", "remove curvature"], ["window", "window the edges"]];
+    const boxes = steps.map(([step, text]) => {
+      const box = h("input", { type: "checkbox" });
+      const show = () => (box.checked = [state.get("surface.prepare") ?? []].flat().includes(step));
+      box.addEventListener("change", () => {
+        const now = [state.get("surface.prepare") ?? []].flat();
+        const next = steps.map(([one]) => one).filter((one) => (one === step ? box.checked : now.includes(one)));
+        state.set("surface.prepare", [...next, ...now.filter((one) => !steps.some(([known]) => known === one))]);
+      });
+      state.subscribe("surface", show);
+      show();
+      return h("label", { class: "row" }, box, text);
+    });
+    return [
+      drop,
+      told,
+      fields.textField({ path: "surface.file", label: "File", placeholder: "none yet" }),
+      h("fieldset", {}, h("legend", { class: "field-label" }, "Preparation"), boxes),
+      fields.textField({ path: "surface.unit", label: "Unit of heights", placeholder: "as the file says" }),
+      quantityField({ path: "surface.spacing", label: "Distance of points", kind: "length", placeholder: "as the file says" }),
+    ];
+  }
+
+  const load = [
+    group(["ball", "ellipsoid", "cone"], quantityField({ path: "conditions.load", label: "Load", kind: "load" })),
+    group(["cylinder"], quantityField({ path: "conditions.load", label: "Load per length", kind: "line_load" })),
+    group(
+      ["made", "scan"],
+      quantityField({ path: "conditions.pressure", label: "Mean pressure", kind: "pressure" }),
+      quantityField({ path: "conditions.direction", label: "Direction of motion", kind: "angle", placeholder: "along x" }),
+    ),
+  ];
+
+  /** Fields that are there only with their table or key. */
+  function optional(path, ...children) {
+    const element = h("div", { class: "form" }, ...children);
+    const show = () => (element.hidden = state.get(path) === undefined);
+    state.subscribe(path, show);
+    show();
+    return element;
+  }
+
+  const layer = [
+    toggleField({ path: "layer", label: "Rubber is a layer on a rigid base", value: { thickness: "2 mm" } }),
+    optional(
+      "layer",
+      quantityField({ path: "layer.thickness", label: "Thickness", kind: "length" }),
+      choiceField({ path: "layer.base", label: "Base", otherwise: "bonded", options: [["bonded", "bonded"], ["sliding", "sliding, no friction"]] }),
+    ),
+  ];
+  const elastic = ["indenter", "surface"].map((table) =>
+    group(
+      table === "indenter" ? indenters : ["made", "scan"],
+      toggleField({ path: `${table}.modulus`, label: table === "indenter" ? "Elastic indenter" : "Elastic surface", value: "200 GPa" }),
+      optional(
+        `${table}.modulus`,
+        quantityField({ path: `${table}.modulus`, label: "Young's modulus", kind: "modulus" }),
+        numberField({ path: `${table}.poisson_ratio`, label: "Poisson's ratio", min: 0, max: 0.5, step: 0.01, placeholder: "0.3" }),
+      ),
+    ),
+  );
+
+  const accuracy = choiceField({
+    path: "solver.accuracy",
+    label: "Accuracy of friction",
+    otherwise: 1e-3,
+    options: [[0.05, "5 %"], [0.02, "2 %"], [0.01, "1 %"], [1e-3, "0.1 %"], [1e-4, "0.01 %, slow"]],
+    help: "of the numerics; how well the rubber is known is the band's",
+  });
+
+  const show = () => {
+    const now = shapeOf(state.study);
+    select.value = now;
+    for (const [shapes, element] of groups) element.hidden = !shapes.includes(now);
+  };
+  state.subscribe(["indenter", "surface"], show);
+  show();
+
+  return [
+    card("What slides", h("div", { class: "field" }, h("label", { for: select.id, class: "field-label" }, "Shape"), select), ...shape, ...load, ...elastic, ...layer),
+    card(
+      "Speeds and temperatures",
+      rangeField({ path: "conditions.speed", label: "Speed", kind: "speed", otherwise: { to: "1 m/s", points: 25 } }),
+      rangeField({ path: "conditions.temperature", label: "Temperature", kind: "temperature", spacing: ["linear"], otherwise: { to: "90 degC", points: 3 } }),
+      accuracy,
+    ),
+  ];
+}

@@ -1,0 +1,172 @@
+"""Friction curves of the page: the numbers of ``viscofric run``, told while they are solved, with their doubts."""
+
+from __future__ import annotations
+
+import shutil
+from importlib.resources import as_file, files
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import ViscofricError
+from viscofric.study.surface_record import SurfaceRecord
+from viscofric.web.jobs import curve
+from viscofric.web.study_text import study_text
+from web.contact_studies import BALL, ROUGH, Desk
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+#: Numbers are told to six digits.
+ROUNDING = 1e-5
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    return Desk(tmp_path)
+
+
+def ran(document: dict[str, Any], folder: Path) -> Any:
+    """Return the prediction of what ``viscofric run`` makes of the page's run file."""
+    path = folder / "study.toml"
+    path.write_text(study_text(document), encoding="utf-8")
+    return vf.run_study(path).dataset
+
+
+def test_curve_is_that_of_the_exported_run_file(desk: Desk, tmp_path: Path) -> None:
+    study = {**BALL, "solver": {"accuracy": 0.1, "master_curve_points": 5}}
+    answer = desk.run(curve, study)
+    stored = ran(study, tmp_path)
+    for column, name in (
+        ("friction", "friction_coefficient"),
+        ("indentation", "indentation"),
+        ("error", "friction_error"),
+    ):
+        np.testing.assert_allclose(answer[column], stored[name].values.ravel(), rtol=ROUNDING)
+    np.testing.assert_allclose(answer["speed"], np.tile(stored["speed"].values, 2), rtol=ROUNDING)
+    np.testing.assert_allclose(answer["temperature"], np.repeat(stored["temperature"].values, 6))
+    assert any(answer["interpolated"])
+    assert answer["interpolated"] == stored["interpolated"].values.ravel().astype(bool).tolist()
+    # Along the master curve α(T)·v counts, at the reference temperature.
+    assert answer["reference"] == pytest.approx(303.15)
+    assert answer["reduced_speed"][:6] == answer["speed"][:6]
+    assert answer["master"]["reduced_speed"][-1] == pytest.approx(max(answer["reduced_speed"]), rel=ROUNDING)
+
+
+def test_a_rubber_made_of_sweeps_has_the_bands_and_doubts_of_the_run_file(desk: Desk, tmp_path: Path) -> None:
+    study = {
+        **BALL,
+        "material": {"dma": "dma.csv", "deformation": "tension", "reference_temperature": "30 degC", "shift": "wlf"},
+        "conditions": {**BALL["conditions"], "speed": ["20 mm/s", "1e9 m/s"], "temperature": ["60 degC", "240 degC"]},
+        "solver": {"accuracy": 0.1, "master_curve_points": 2},
+        "uncertainty": {"draws": 50},
+    }
+    with as_file(files("viscofric.example") / "dma.csv") as sweeps:
+        for folder in (desk.context.files, tmp_path):
+            shutil.copy(sweeps, folder / "dma.csv")
+    answer = desk.run(curve, study)
+    stored = ran(study, tmp_path)
+    np.testing.assert_allclose(answer["lower"], stored["friction_lower"].values.ravel(), rtol=ROUNDING)
+    np.testing.assert_allclose(answer["upper"], stored["friction_upper"].values.ravel(), rtol=ROUNDING)
+    assert np.all(np.array(answer["lower"]) < answer["friction"])
+    assert np.all(np.array(answer["friction"]) < answer["upper"])
+    # At 1e9 m/s the rubber is a glass that no sweep reached; 220 °C is the last sweep.
+    extrapolated = ["extrapolated" in words for words in answer["doubts"]]
+    assert extrapolated == [not within for within in stored["within_measured_frequencies"].values.ravel()]
+    assert extrapolated[:2] == [False, True]
+    assert ["shift" in words for words in answer["doubts"]] == [False, False, True, True]
+    assert any("240 °C the shift factor is extrapolated" in sentence for sentence in answer["warnings"])
+
+
+def test_points_come_before_the_end_and_are_then_what_was_told(desk: Desk) -> None:
+    speeds = {"from": "1 mm/s", "to": "1 m/s", "points": 20}
+    study = {**BALL, "conditions": {**BALL["conditions"], "speed": speeds, "temperature": "60 degC"}}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(curve, "_BETWEEN_PARTS", 0.0)
+        answer = desk.run(curve, study)
+    layout, *parts = desk.parts
+    assert layout["layout"] == {name: answer[name] for name in layout["layout"]}
+    assert len(parts) > 10
+    # A few at a time: the first of them after two contacts.
+    assert 0 < len(parts[0]["cases"]) < 10
+    told: dict[int, tuple[float, bool]] = {}
+    for part in parts:
+        told |= {at: pair for at, *pair in zip(part["cases"], part["friction"], part["known"], strict=True)}  # type: ignore[misc]
+    assert sorted(told) == list(range(20))
+    for at, (friction, known) in told.items():
+        # Within the accuracy where it was said to be; drafts lie between contacts a factor of e² apart.
+        assert friction == pytest.approx(answer["friction"][at], rel=0.01 if known else 0.2)
+    progress = [message["done"] for event, message in desk.told if event == "progress"]
+    assert progress == sorted(progress)
+    assert progress[-1] <= 20
+
+
+def test_the_same_again_takes_what_was_solved(desk: Desk) -> None:
+    solved: list[object] = []
+    first = desk.run(curve, BALL)
+    denser = {
+        **BALL,
+        "conditions": {**BALL["conditions"], "speed": {"from": "20 mm/s", "to": "200 mm/s", "points": 11}},
+    }
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("viscofric.study.solving.solve_steady", lambda *given, **more: solved.append(given))
+        assert desk.run(curve, BALL) == first
+    assert solved == []
+    # Points that were there are as they were, to the accuracy; contacts about them serve those between.
+    again = desk.run(curve, denser)
+    np.testing.assert_allclose(again["friction"][0:11:2], first["friction"][:6], rtol=0.01)
+
+
+def test_each_combination_is_a_curve_of_its_own(desk: Desk) -> None:
+    study = {
+        **BALL,
+        "indenter": {"radius": ["5 mm", "9.525 mm"]},
+        "conditions": {**BALL["conditions"], "load": ["10 N", "25 N"], "speed": ["20 mm/s", "50 mm/s"]},
+        "sweep": {"together": [["load", "radius"]]},
+        "solver": {"accuracy": 0.1},
+    }
+    answer = desk.run(curve, study)
+    assert answer["combinations"] == ["10 N, radius 5 mm", "25 N, radius 9.525 mm"]
+    assert answer["combination"] == [0] * 4 + [1] * 4
+    assert answer["master"] is None  # there are two
+
+
+def test_wide_contacts_and_failed_ones_are_marked(desk: Desk) -> None:
+    # The rubber is a glass at the higher speed and the lower temperature only.
+    conditions = {"load": "40 kN", "speed": ["20 mm/s", "10 m/s"], "temperature": ["-30 degC", "60 degC"]}
+    study = {**BALL, "conditions": conditions, "solver": {"accuracy": 0.1, "cases": "each", "master_curve_points": 2}}
+    answer = desk.run(curve, study)
+    failed = [words == ["failed"] for words in answer["doubts"]]
+    assert any(failed)
+    assert [friction is None for friction in answer["friction"]] == failed
+    assert len(answer["failures"]) == failed.count(True)
+    assert all("wider than the ball" in sentence for sentence in answer["failures"])
+    assert answer["doubts"][1] == ["strain"]
+    assert any("small strain" in sentence for sentence in answer["warnings"])
+    assert [one["holds"] for one in answer["checks"] if one["name"] == "small contact"] == [False]
+    with pytest.raises(ViscofricError, match=r"No case could be solved; the first one failed: .*wider than the ball"):
+        desk.run(curve, {**study, "conditions": {**conditions, "load": "1 GN"}})
+
+
+def test_surfaces_whose_grid_is_too_coarse_are_marked(desk: Desk) -> None:
+    coarse = {**ROUGH["surface"], "points": 32, "spacing": "40 um", "shortest": "100 um"}
+    study = {**ROUGH, "surface": coarse, "solver": {"accuracy": 1e-3}}
+    answer = desk.run(curve, study)
+    assert answer["kind"] == "rough"
+    unresolved = ["unresolved" in words for words in answer["doubts"]]
+    relative = np.array(answer["error"]) / answer["friction"]
+    assert unresolved == (relative > 2e-3).tolist()
+    assert any(unresolved)
+    assert answer["lower"] is None
+    assert any("no linearised 95 % bands" in note for note in answer["notes"])
+    assert set(SurfaceRecord.numbers()) >= {"contact_area_fraction", "mean_gap"}
+    assert len(answer["contact_area_fraction"]) == 12
+
+
+def test_more_than_a_page_can_show_is_refused(desk: Desk) -> None:
+    many = {**BALL["conditions"], "speed": {"from": "1 mm/s", "to": "1 m/s", "points": 1001}}
+    with pytest.raises(ViscofricError, match=r"2,002 cases are more than the 2,000 .* viscofric run"):
+        desk.run(curve, {**BALL, "conditions": many})
+    assert desk.parts == []
