@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
-#: A table of friction curves has a column of one of these, the files of a tribometer have none.
-_MARKS = ("viscoelastic", "friction_coefficient")
 #: Of the sentence that refuses a table as one of traction runs.
 _WITHOUT = "no column for"
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
@@ -39,9 +37,9 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
     """
     from viscofric.cli.separation_options import refuse_settings
     from viscofric.errors import DataFileError, InputError
-    from viscofric.friction.curve_files import read_friction_curves
+    from viscofric.friction.curve_files import holds_friction_curves, read_friction_curves
 
-    tables = [path for path in paths if _holds_curves(path)]
+    tables = [path for path in paths if holds_friction_curves(path)]
     if not tables:
         try:
             return separated(paths, settings)
@@ -86,17 +84,6 @@ def _plain(curves: FrictionCurves) -> FrictionCurves:
     from viscofric.cli.files import plainly
 
     return replace(curves, source=plainly(curves.source), notes=tuple(map(plainly, curves.notes)))
-
-
-def _holds_curves(path: Path) -> bool:
-    from viscofric.errors import DataFileError
-    from viscofric.files import read_text
-
-    try:
-        lines = [line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#")]
-        return any(mark in line for line in lines for mark in _MARKS)
-    except DataFileError:
-        return False  # what is wrong with it is told by the reader of runs
 
 
 def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:

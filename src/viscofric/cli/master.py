@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _LAWS = ("best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none")
-#: Temperatures that tell laws of two constants from each other, beside the scatter about them.
-_COMPARABLE = 5
 _EXAMPLE = """\b
 Such as
   viscofric master curves.csv --shift rubber.json --reference "30 degC" --out alpha.csv
@@ -74,12 +72,14 @@ def command(
     settings = settings_of(asked)
     with told():
         from viscofric.cli.friction_sources import friction_curves, shifts
-        from viscofric.report.shift_summary import shift_record
+        from viscofric.report.shift_summary import law_of, shift_record
 
         curves = friction_curves(sources, settings)
         known, vertical = (None, None) if asked["known"] is None else shifts(asked["known"])
         master = _shifted(curves, known, vertical, asked)
-        law, why = _law(master, asked["law"])
+        law, why, refused = law_of(master, asked["law"])
+        if refused:
+            click.echo(f"Note: {refused}", err=True)
         agreement = _agreement(master, known)
         if out is not None and not master.found:
             raise click.ClickException(f"{out} is not written, for friction tells no shift factors.")
@@ -123,27 +123,6 @@ def _shifted(
             raise
         click.echo(f"Note: No shift factors from friction: {error} The modulus's are taken.", err=True)
         return shift_friction(curves, shift=known, reference=reference, **options)
-
-
-def _law(master: FrictionMasterCurve, kind: str) -> tuple[ParametricLaw | None, str]:
-    """Fit a law to the shift factors, the best one only where one describes them, and say why it was chosen."""
-    from viscofric.errors import InputError
-
-    if kind == "none" or not master.found:
-        return None, ""
-    if kind != "best":
-        return master.shift_factors.law(kind), ""
-    factors = master.shift_factors
-    if len(factors.temperatures) < _COMPARABLE:
-        few = f"{len(factors.temperatures)} temperatures are too few to compare laws, which takes {_COMPARABLE}"
-        click.echo(f"Note: No law is fitted: {few}; --law fits one that you choose.", err=True)
-        return None, ""
-    try:
-        compared = factors.compare_laws()
-    except InputError as error:
-        click.echo(f"Note: No law is fitted: {error}", err=True)
-        return None, ""
-    return compared.best, compared.explanation
 
 
 def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgreement | None:

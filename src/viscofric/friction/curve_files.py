@@ -59,6 +59,8 @@ _NEEDED = ("speed", "temperature", "load", "viscoelastic")
 #: What is infinite where it is not known, an empty cell in the file.
 _OPEN = ("_error", "_scatter", "_freedom")
 _MOST_REPLICATES = 1e9
+#: A table of friction curves has a column of one of these, the files of a tribometer have none.
+_MARKS = ("viscoelastic", "friction_coefficient")
 
 
 def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> None:
@@ -147,6 +149,21 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
         )
     except InputError as error:
         raise DataFileError(path, f"holds no friction curves: {error}") from None
+
+
+def holds_friction_curves(path: str | PathLike[str]) -> bool:
+    """Whether a file is a table of friction curves, and not one of a tribometer's runs; told by its headings.
+
+    Parameters
+    ----------
+    path : str or path
+        What cannot be read at all counts as none: its reader tells why.
+    """
+    try:
+        lines = [line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#")]
+    except DataFileError:
+        return False
+    return any(mark in line for line in lines for mark in _MARKS)
 
 
 def _cell(value: float) -> str:

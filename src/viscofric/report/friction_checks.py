@@ -19,8 +19,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import xarray as xr
+    from numpy.typing import NDArray
 
     from viscofric.report.check import Verdict
+
+    Array = NDArray[np.float64]
 
 # What still counts as sound
 _COMPLEMENTARITY = 1e-6  # over the indentation
@@ -139,13 +142,25 @@ def _measurement(tree: xr.DataTree) -> Iterator[Check]:
     measurement = group(tree, "measurement")
     if measurement is None:
         return
-    left_over, error = values(measurement, "consistency"), values(measurement, "consistency_error")
+    check = consistency_check(values(measurement, "consistency"), values(measurement, "consistency_error"))
+    if check is not None:
+        yield check
+
+
+def consistency_check(left_over: Array, error: Array) -> Check | None:
+    """Judge whether the sign configurations of a traction test agree; None where there is nothing to judge by.
+
+    Parameters
+    ----------
+    left_over, error : (n,) array
+        What the configurations leave over at each point, relative to the load, and its standard error.
+    """
     told = consistency_words(left_over, error)
     if told is None:
-        return
+        return None
     known = np.isfinite(left_over) & np.isfinite(error)
     sound = np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]
-    yield Check.of(
+    return Check.of(
         "Consistency of the four configurations",
         bool(np.mean(sound) >= _CONSISTENT),
         f"The combination of the four sign configurations that should vanish is {told}.",

@@ -40,7 +40,7 @@ _MEGAPASCAL = 1e6
 _BEYOND = 10.0
 _POINTS = 300
 #: Shift factors of the modulus are drawn so far beyond those of friction, K.
-_FARTHER = 20.0
+FARTHER = 20.0
 
 
 def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -> None:
@@ -92,7 +92,7 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
 
 def _between(table: ShiftTable, temperatures: Array) -> ShiftTable:
     """Leave out what lies far from temperatures, for a rubber's sweeps reach farther than friction."""
-    low, high = temperatures.min() - _FARTHER, temperatures.max() + _FARTHER
+    low, high = temperatures.min() - FARTHER, temperatures.max() + FARTHER
     near = (table.temperature >= low) & (table.temperature <= high)
     return table._replace(temperature=table.temperature[near], log10=table.log10[near], error=table.error[near])
 
@@ -112,6 +112,12 @@ def _points(axes: Axes, table: ShiftTable, colour: str, marker: str, label: str)
     )
 
 
+def drawn_frequencies(found: IdentifiedMaterial) -> Array:
+    """Return the frequencies over which an identified modulus is drawn, rad/s: those of the contacts, and beyond."""
+    (first, last), band = found.frequency_range, found.identified
+    return np.geomspace(min(first, band.low) / _BEYOND, max(last, band.high) * _BEYOND, _POINTS)
+
+
 def plot_identified_modulus(axes: Axes, found: IdentifiedMaterial, known: Material | Master | None = None) -> None:
     """Draw the modulus that friction identifies with its 95 % band, the identified frequencies marked.
 
@@ -123,9 +129,8 @@ def plot_identified_modulus(axes: Axes, found: IdentifiedMaterial, known: Materi
     known : Material, MasterCurve, Superposition or xarray.Dataset, optional
         The same rubber as a DMA knows it, at the same reference temperature: a line, or points.
     """
-    first, last = found.frequency_range
     low, high = found.identified.low, found.identified.high
-    frequency = np.geomspace(min(first, low) / _BEYOND, max(last, high) * _BEYOND, _POINTS)
+    frequency = drawn_frequencies(found)
     modulus = np.asarray(found.material.complex_modulus(frequency))
     bounds = modulus_band(found.samples, frequency)
     reference = found.material.reference

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -29,6 +29,45 @@ _UNITS = {"temperature": "K", "reference": "K", "log10_shift_factor": "1", "stan
 
 #: Errors are printed with three decimals, and not as zero.
 _SMALLEST = 1e-3
+#: Temperatures that tell laws of two constants from each other, beside the scatter about them.
+_COMPARABLE = 5
+
+
+class ChosenLaw(NamedTuple):
+    """A law of the shift factors that friction tells: the law, why it was chosen, or why there is none."""
+
+    law: ParametricLaw | None
+    why: str = ""
+    refused: str = ""
+
+
+def law_of(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
+    """Fit a law to shift factors that were found from friction, the best one only where one describes them.
+
+    Parameters
+    ----------
+    master : FrictionMasterCurve
+    kind : str
+        "best", "none", or a law that `ShiftFactors.law` fits.
+
+    Raises
+    ------
+    InputError
+        If a law that is asked for by its name cannot be fitted.
+    """
+    if kind == "none" or not master.found:
+        return ChosenLaw(None)
+    factors = master.shift_factors
+    if kind != "best":
+        return ChosenLaw(factors.law(kind))
+    if len(factors.temperatures) < _COMPARABLE:
+        few = f"{len(factors.temperatures)} temperatures are too few to compare laws, which takes {_COMPARABLE}"
+        return ChosenLaw(None, refused=f"No law is fitted: {few}; choose one (in the shell --law).")
+    try:
+        compared = factors.compare_laws()
+    except InputError as error:
+        return ChosenLaw(None, refused=f"No law is fitted: {error}")
+    return ChosenLaw(compared.best, compared.explanation)
 
 
 def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str]:
@@ -46,7 +85,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
         ["log10 α", *_pairs(found, doubt)],
     ]
     if known is not None and master.found:
-        values, errors = _answers(known.at_reference(master.reference), temperatures)
+        values, errors = answers(known.at_reference(master.reference), temperatures)
         columns.append(["of the modulus", *_pairs(values, errors)])
         columns.append(["difference", *_pairs(found - values, np.hypot(errors, doubt))])
     return aligned(zip(*columns, strict=True))
@@ -58,10 +97,18 @@ def _factors(master: FrictionMasterCurve) -> tuple[Array, Array, Array]:
         factors = master.shift_factors
         return factors.temperatures, factors.log10_values, factors.standard_errors
     temperatures = master.curves.temperatures
-    return temperatures, *_answers(master.shift, temperatures)
+    return temperatures, *answers(master.shift, temperatures)
 
 
-def _answers(law: ShiftLaw, temperatures: Array) -> tuple[Array, Array]:
+def answers(law: ShiftLaw, temperatures: Array) -> tuple[Array, Array]:
+    """Return log10 α of a law and its standard error; NaN where the law refuses, errors of exact ones are zero.
+
+    Parameters
+    ----------
+    law : ShiftLaw
+    temperatures : (n,) array
+        K.
+    """
     values, errors = np.array([_answer(law, float(kelvin)) for kelvin in temperatures]).T
     return values, errors
 

@@ -92,7 +92,7 @@ def run_study(
         rubbers, measured = _inputs(study, _staged(progress))
         contacts = Contacts(study, rubbers, measured)
         run_plan(contacts.plan, store, executor, progress)
-        tree = _tree(contacts)
+        tree = tree_of(contacts)
         tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)
         results = StudyResults(tree, folder)
@@ -130,8 +130,14 @@ def _inputs(
     return rubbers, stage("shift", lambda: Measurement(curves, rubbers[0].material, first.indenter, load))
 
 
-def _tree(contacts: Contacts) -> xarray.DataTree:
-    """Lay out everything that a study found."""
+def tree_of(contacts: Contacts) -> xarray.DataTree:
+    """Lay out everything that a study found, from its contacts, whose plan has been carried out.
+
+    Raises
+    ------
+    StudyError
+        If no case at all could be solved.
+    """
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured

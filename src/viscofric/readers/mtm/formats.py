@@ -31,3 +31,8 @@ def read(source: Source, thermometer: Thermometer) -> TractionReadings:
         what = f"what can be read: {pcs_text.NAME} and {delimited.NAME}"
         raise DataFileError(source.path, f"is a binary file of no known kind; {what}.")
     return delimited.read(source)
+
+
+def name_of(source: Source) -> str:
+    """Return what a file is taken for, in words."""
+    return pcs_text.NAME if pcs_text.recognises(source) else delimited.NAME
