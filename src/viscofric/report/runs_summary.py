@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.nominal import SAME_TEMPERATURE, numbered
-from viscofric.report.numbers import several, short, speed
+from viscofric.report.numbers import several, short
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -37,11 +37,10 @@ def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
     return [
         ("readings", f"{len(runs)}{steps}"),
         ("temperatures", _temperatures(runs.temperature)),
-        ("speed of the disc", f"{_range(np.abs(runs.disc_speed), speed)}{_both(runs.disc_speed)}"),
-        ("slip", f"{_range(np.abs(slip), speed)}{_both(slip)}"),
-        ("load", _range(runs.load, lambda newtons: f"{short(newtons, 3)} N")),
+        ("speed of the disc", f"{_range(1e3 * np.abs(runs.disc_speed))} mm/s{_both(runs.disc_speed)}"),
+        ("slip", f"{_range(1e3 * np.abs(slip))} mm/s{_both(slip)}"),
+        ("load", f"{_range(runs.load)} N"),
         ("sign configurations", _configurations(runs.disc_speed, slip)),
-        ("repetitions", str(len(np.unique(runs.replicate)))),
     ]
 
 
@@ -54,8 +53,8 @@ def _temperatures(kelvin: Array) -> str:
     return f"{several(told)} °C"
 
 
-def _range(values: Array, text: object) -> str:
-    low, high = text(float(values.min())), text(float(values.max()))  # type: ignore[operator]
+def _range(values: Array) -> str:
+    low, high = short(float(values.min()), 3), short(float(values.max()), 3)
     return low if low == high else f"{low} to {high}"
 
 

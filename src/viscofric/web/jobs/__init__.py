@@ -39,6 +39,10 @@ KINDS: dict[str, Kind] = {
     "contact": Kind("viscofric.web.jobs.contact", seconds=600.0, memory=6 * _GB),
     "curve": Kind("viscofric.web.jobs.curve", seconds=3600.0, memory=6 * _GB),
     # measured friction
+    "measured": Kind("viscofric.web.jobs.measured", seconds=120.0),
+    "agreement": Kind("viscofric.web.jobs.agreement"),
+    "master": Kind("viscofric.web.jobs.master", seconds=120.0),
+    "identify": Kind("viscofric.web.jobs.identify"),
     # what is taken away
     "export-run-file": Kind("viscofric.web.jobs.export_run_file", seconds=60.0, memory=2 * _GB),
     "export-study": Kind("viscofric.web.jobs.export_study", seconds=24 * 3600.0, memory=8 * _GB),

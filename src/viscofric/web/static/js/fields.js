@@ -87,12 +87,10 @@ export function quantityField({ path, label, kind = "plain", help, placeholder }
   return field({ path, label, help }, input);
 }
 
-/** Free text, such as a title or a name. */
-export function textField({ path, label, help, placeholder }) {
-  return field(
-    { path, label, help },
-    box(path, { read: (text) => text.trim(), write: (value) => value ?? "", placeholder }),
-  );
+/** Free text, such as a title or a name; `read` turns it into a document's value, `write` the reverse. */
+export function textField({ path, label, help, placeholder, read, write }) {
+  const ways = { read: read ?? ((text) => text.trim()), write: write ?? ((value) => value ?? "") };
+  return field({ path, label, help }, box(path, { ...ways, placeholder }));
 }
 
 /** A plain number: numberField({path: "solver.accuracy", label: "Accuracy", min, max, step}). */

@@ -164,7 +164,7 @@ async function begin() {
     summarise();
     showSynthetic();
   });
-  for (const key of ["sweeps", "rubber", "shift", "spectrum", "curve", "contact", "measured", "export"])
+  for (const key of ["sweeps", "rubber", "shift", "spectrum", "curve", "contact", "measured", "agreement", "export"])
     state.onResult(key, summarise);
   summarise();
   showSynthetic();

@@ -1,0 +1,182 @@
+"""Job ``agreement``: measured friction beside the prediction for the page's rubber and ball."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.study.contacts import Contacts
+    from viscofric.study.running import Event
+    from viscofric.web.jobs.context import Context
+
+#: Tables of the run file that the comparison rests on; what else is asked for is of other steps.
+_TABLES = ("material", "indenter", "surface", "layer", "measurement", "solver", "uncertainty", "data_origin")
+#: Predicted lines reach so far beyond the measured speeds, as a factor, with so many points.
+_BEYOND, _POINTS = 1.25, 25
+_CASES = "friction cases"
+
+
+class Options(BaseModel):
+    """Options of the job.
+
+    Attributes
+    ----------
+    accuracy : float, optional
+        Relative error of the predicted friction; that of [solver] without.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+    accuracy: float | None = Field(None, ge=1e-4, le=0.1)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Predict friction where it was measured, and say how well both agree.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file.  [conditions] are those of the measurement, but for the rubber's thickness.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``points``: by temperature ``measured``, ``predicted``, ``lower``, ``upper``, ``difference`` (relative),
+        ``reduced_speed`` and ``remark``; ``lines``: by temperature ``friction``, ``lower``, ``upper`` and
+        ``extrapolated``; ``along``: the same at the ``reference`` over the reduced speed, or null; ``sentences``: how
+        well both agree; ``key``: name, value and remark of the most important numbers; ``table`` by temperature;
+        ``checks`` (name, verdict, words); ``warnings``, ``failures``, ``notes``; ``band``: whether there is any.
+
+    Raises
+    ------
+    StudyError, DataFileError, InputError
+        If a table is wrong, or the measurement is not of a ball on a half-space.
+    """
+    from viscofric.study.execution import tree_of
+    from viscofric.study.running import Serial, run_plan
+    from viscofric.study.store import CaseStore
+    from viscofric.web.jobs.friction_data import texts
+    from viscofric.web.jobs.friction_input import friction_curves
+
+    curves = friction_curves(study, context)
+    context.progress(0, 1, "Making the rubber")
+    contacts = _contacts(_as_measured(study, curves, options), curves, context)
+
+    def tell(event: Event) -> None:
+        if event.total:
+            context.progress(event.done or 0, event.total, event.label or "")
+
+    with Serial() as executor:
+        run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, tell)
+    # What is to be said of the rubber and of the measurement, other steps say.
+    told = _told(tree_of(contacts)) | {"notes": texts(contacts.rubbers[0].bands.notes)}
+    plain: dict[str, Any] = context.plain(told)
+    return plain
+
+
+def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options) -> dict[str, Any]:
+    """Return a study of the conditions that were measured."""
+    import numpy as np
+
+    from viscofric.report.results import nominal_temperatures
+
+    asked = {name: study[name] for name in _TABLES if name in study}
+    conditions = {
+        "load": f"{float(np.median(curves.load)):.9g} {curves.load_unit}",
+        "speed": {
+            "from": f"{curves.speed.min() / _BEYOND:.9g} m/s",
+            "to": f"{curves.speed.max() * _BEYOND:.9g} m/s",
+            "points": _POINTS,
+            "spacing": "log",
+        },
+        "temperature": [f"{float(kelvin):.9g} K" for kelvin in nominal_temperatures(curves.temperature)],
+    }
+    thickness = study.get("conditions", {}).get("thickness")
+    if thickness is not None:
+        conditions["thickness"] = thickness
+    solver = {**asked.get("solver", {}), "cases": "curves"}
+    if options.accuracy is not None:
+        solver["accuracy"] = options.accuracy
+    uncertainty = {**asked.get("uncertainty", {}), "members": 0}
+    return {
+        **asked,
+        "conditions": conditions,
+        "solver": solver,
+        "uncertainty": uncertainty,
+        "outputs": {"fields": "none"},
+    }
+
+
+def _contacts(asked: dict[str, Any], curves: FrictionCurves, context: Context) -> Contacts:
+    """Return the contacts to solve, of those asked for and those measured."""
+    from viscofric.study.contacts import Contacts
+    from viscofric.study.measurement import Measurement
+    from viscofric.web.jobs.rubbers import study_rubber
+    from viscofric.web.study_text import study_of
+
+    _, checked = study_of(asked, context.files)
+    rubber = study_rubber(asked, context, checked.conditions.temperature)
+    ball: Any = checked.sweep().cases[0]
+    measured = Measurement(curves, rubber.material, ball.indenter, float(checked.conditions.load[0]))
+    return Contacts(checked, [rubber], measured)
+
+
+def _told(tree: xarray.DataTree) -> dict[str, Any]:
+    from viscofric.report.friction_checks import friction_checks
+    from viscofric.report.friction_data import predicted
+    from viscofric.report.friction_tables import agreement_table
+    from viscofric.report.results import group, reference_temperature, sentences
+    from viscofric.report.sweeps import cases_of
+    from viscofric.report.words import key_numbers
+    from viscofric.web.jobs.friction_data import by_temperature, drawn_line, texts, told_table
+
+    asked, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
+    assert asked is not None
+    lines = predicted(cases_of(asked))
+    kinds = {"friction": lines.friction, "lower": lines.lower, "upper": lines.upper, "extrapolated": lines.extrapolated}
+    about = [number for number in key_numbers(tree) if number.name == "Prediction less measurement"]
+    told = [] if agreement is None else sentences(agreement.attrs, "sentences")
+    at_reference = None
+    if along is not None:
+        at_reference = {"reference": reference_temperature(tree), **(drawn_line(predicted(along)) or {})}
+    return {
+        "points": _points(tree),
+        "lines": by_temperature(lines.temperature, lines.speed, **kinds),
+        "along": at_reference,
+        "sentences": texts(told),
+        "key": [number._asdict() for number in about],
+        "table": told_table(agreement_table(tree)),
+        "checks": [{"name": one.name, "verdict": one.verdict, "words": one.words} for one in friction_checks(tree)],
+        "band": lines.has_band,
+        **{name: texts(sentences(tree.attrs, name)) for name in ("warnings", "failures")},
+    }
+
+
+def _points(tree: xarray.DataTree) -> list[dict[str, Any]]:
+    """Return measured points beside their prediction, with what is doubtful about each."""
+    import numpy as np
+
+    from viscofric.report.doubts import remarks
+    from viscofric.report.results import group, values
+    from viscofric.web.jobs.friction_data import by_temperature
+
+    points = group(tree, "measurement")
+    assert points is not None
+    measured, found = values(points, "viscoelastic"), values(points, "predicted")
+    return by_temperature(
+        values(points, "temperature"),
+        values(points, "speed"),
+        measured=measured,
+        predicted=found,
+        lower=values(points, "predicted_lower"),
+        upper=values(points, "predicted_upper"),
+        difference=np.divide(found, measured, out=np.full(found.shape, np.nan), where=measured > 0.0) - 1.0,
+        reduced_speed=values(points, "reduced_speed"),
+        remark=np.array(remarks(tree, points), dtype=object),
+    )

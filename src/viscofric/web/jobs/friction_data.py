@@ -1,0 +1,100 @@
+"""Friction as the page's figures draw it: columns in ascending speed, temperature after temperature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.report.results import nearest, nominal_temperatures
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.report.friction_data import Predicted
+    from viscofric.report.table import Table
+
+    Array = NDArray[np.float64]
+
+_MEASURED = (
+    "load",
+    "slip",
+    "replicates",
+    "viscoelastic",
+    "viscoelastic_error",
+    "viscoelastic_scatter",
+    "coulomb",
+    "coulomb_error",
+    "coulomb_scatter",
+    "consistency",
+    "consistency_error",
+    "offset",
+)
+
+
+def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dict[str, Any]]:
+    """Sort points into isotherms.
+
+    Parameters
+    ----------
+    temperature, speed : (n,) array
+        K, m/s.
+    **columns : (n,) array
+        What else is known of the points.
+
+    Returns
+    -------
+    list of dict
+        For each nominal temperature, ascending: ``temperature`` (a number), ``speed`` and the other columns, in
+        ascending speed.
+    """
+    nominal = nominal_temperatures(temperature)
+    which = nearest(nominal, temperature) if nominal.size else np.zeros(0, dtype=np.int64)
+    found = []
+    for place, kelvin in enumerate(nominal.tolist()):
+        rows = np.flatnonzero(which == place)
+        rows = rows[np.argsort(speed[rows], kind="stable")]
+        sorted_columns = {name: np.asarray(column)[rows] for name, column in columns.items()}
+        found.append({"temperature": kelvin, "speed": speed[rows], **sorted_columns})
+    return found
+
+
+def measured_points(curves: FrictionCurves) -> list[dict[str, Any]]:
+    """Return measured friction by temperature, with the 95 % limits of its means; see `by_temperature`."""
+    columns = {name: getattr(curves, name) for name in _MEASURED if getattr(curves, name) is not None}
+    for name in ("viscoelastic", "coulomb"):
+        if getattr(curves, name) is not None:
+            columns[f"{name}_lower"], columns[f"{name}_upper"] = curves.interval(of=name)
+    return by_temperature(curves.temperature, curves.speed, **columns)
+
+
+def drawn_line(line: Predicted | None) -> dict[str, Any] | None:
+    """Return a line over the speed with its 95 % band; NaN where it has a gap."""
+    if line is None:
+        return None
+    line = line.rows(np.ones(line.speed.shape, dtype=bool))
+    names = ("speed", "friction", "lower", "upper", "extrapolated")
+    return {name: getattr(line, name) for name in names}
+
+
+def told_table(table: Table | None) -> dict[str, Any] | None:
+    """Return a table of the report in plain texts."""
+    if table is None:
+        return None
+    return {"caption": table.caption, "headings": table.headings, "rows": table.rows, "note": table.note}
+
+
+def pairs(lines: Iterable[tuple[str, str]]) -> list[dict[str, str]]:
+    """Return pairs of name and value as the page lists them."""
+    return [{"name": name, "value": value} for name, value in lines]
+
+
+def texts(sentences: Sequence[str]) -> list[str]:
+    """Return sentences ready for readers, each once."""
+    from viscofric.report.messages import readable
+    from viscofric.web.jobs.friction_words import for_the_page
+
+    return [for_the_page(readable(one)) for one in dict.fromkeys(sentences)]

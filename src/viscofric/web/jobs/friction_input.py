@@ -1,0 +1,266 @@
+"""Friction of the page's run file: the files that were dropped, read and separated once for the jobs that follow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from pydantic import ValidationError
+
+from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.files import read_text
+from viscofric.friction.curve_files import holds_friction_curves
+from viscofric.study.contact_tables import IndenterTable  # noqa: TC001 - pydantic looks at it
+from viscofric.study.material_table import files_of
+from viscofric.study.measurement_table import MeasurementTable  # noqa: TC001 - pydantic looks at it
+from viscofric.study.run_file import TABLES
+from viscofric.study.run_file_errors import sentences
+from viscofric.study.table import Table
+from viscofric.web.jobs.friction_words import for_the_page
+from viscofric.web.jobs.rubbers import kept, without_folder
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.traction import TractionRuns
+    from viscofric.web.jobs.rubbers import Folders
+
+_ABOUT = "drop the files of a tribometer, or a table of friction curves, on the page first"
+
+
+class _MeasurementTables(Table):
+    """The table of a run file that tells of measured friction."""
+
+    measurement: MeasurementTable
+
+
+class _IndenterTables(Table):
+    """The table of a run file that tells what friction was measured with."""
+
+    indenter: IndenterTable
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """What was recognised in the files of [measurement], and the friction in them.
+
+    Attributes
+    ----------
+    runs : bool
+        Whether they are runs of a tribometer, not friction curves that are ready.
+    lines : list of (str, str)
+        What was recognised, as pairs of name and value.
+    steps : list of (int, str)
+        Number and description of each step of the test.
+    synthetic : bool
+        Whether a file says that it was made up.
+    curves : FrictionCurves or None
+        None where runs cannot be separated.
+    refusal : str
+        Why they cannot.
+    notes : tuple of str
+        What was doubtful.
+    """
+
+    runs: bool
+    lines: list[tuple[str, str]]
+    steps: list[tuple[int, str]]
+    synthetic: bool
+    curves: FrictionCurves | None
+    refusal: str
+    notes: tuple[str, ...]
+
+
+def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[str]) -> dict[str, Any]:
+    """Return [measurement] as it stands with other files: runs or friction curves, as they are recognised.
+
+    Parameters
+    ----------
+    study : mapping
+        Tables of a run file; how runs are to be separated is kept.
+    folders : Folders
+    names : sequence of str
+        Of uploaded files.
+
+    Raises
+    ------
+    StudyError
+        If a file is none of the uploaded ones, or the kinds are mixed.
+    """
+    for name in names:
+        _insist_on_upload("mtm", folders.files / name, folders.files)
+    tables = [name for name in names if holds_friction_curves(folders.files / name)]
+    if not tables:
+        before = {key: value for key, value in study.get("measurement", {}).items() if key != "curves"}
+        return {**before, "mtm": names[0] if len(names) == 1 else list(names)}
+    if len(names) > 1:
+        other = next((name for name in names if name not in tables), None)
+        said = f"{other} is none: drop either" if other else "there are several: drop"
+        raise StudyError(
+            f"measurement.curves: {tables[0]} is a table of friction curves, and {said} one such table, or the runs "
+            "of a tribometer."
+        )
+    return {"curves": tables[0]}
+
+
+def measurement_table(study: Mapping[str, Any], folders: Folders) -> MeasurementTable:
+    """Check [measurement] of a run file, without the other tables.
+
+    Parameters
+    ----------
+    study : mapping
+        Tables of a run file.
+    folders : Folders
+
+    Returns
+    -------
+    MeasurementTable
+        With the paths of uploaded files.
+
+    Raises
+    ------
+    StudyError
+        With every wrong key, unit and range, or if a file is none of the uploaded ones.
+    """
+    if not study.get("measurement"):
+        raise StudyError(f"measurement: there is none; {_ABOUT}.")
+    values = {"measurement": study["measurement"]}
+    try:
+        table = _MeasurementTables.model_validate(values).measurement
+    except ValidationError as error:
+        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _MeasurementTables}))) from None
+    for key, given in (("mtm", table.mtm), ("curves", () if table.curves is None else (table.curves,))):
+        for path in given:
+            if path.is_absolute() or len(path.parts) != 1:
+                raise StudyError(f"measurement.{key}: '{path}' is not one of the page's files; drop it on the page.")
+            for one in files_of(folders.files, path):
+                _insist_on_upload(key, one, folders.files)
+    return table.beside(folders.files)
+
+
+def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
+    """Return what [indenter] says that friction was measured with; None where there is no such table.
+
+    Raises
+    ------
+    StudyError
+        If the table is wrong, or says more than one size.
+    """
+    if not study.get("indenter"):
+        return None
+    values = {"indenter": study["indenter"]}
+    try:
+        table = _IndenterTables.model_validate(values).indenter
+    except ValidationError as error:
+        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _IndenterTables}))) from None
+    for name, sizes in table.axes.items():
+        if len(sizes) > 1:
+            raise StudyError(f"indenter.{name}: has {len(sizes)} values; friction was measured with one.")
+    return table.indenter(*(sizes[0] for sizes in table.axes.values()))
+
+
+def _insist_on_upload(key: str, path: Path, folder: Path) -> None:
+    """Refuse files outside the folder of uploads: a page reads nothing else of the machine that it runs on."""
+    if path.parent != folder or not path.is_file():
+        raise StudyError(f"measurement.{key}: '{path.name}' is not one of the page's files; drop it on the page.")
+
+
+def measured(study: Mapping[str, Any], folders: Folders) -> Measured:
+    """Return what the files of [measurement] hold, read here or found where an earlier job left it.
+
+    Parameters
+    ----------
+    study : mapping
+        Tables of a run file.
+    folders : Folders
+
+    Raises
+    ------
+    StudyError
+        As `measurement_table` does.
+    DataFileError
+        If a file cannot be read; it is named without its folder.
+    """
+    table = measurement_table(study, folders)
+    return kept("measured", [table], table.inputs, folders, lambda: _measured(table, folders))
+
+
+def friction_curves(study: Mapping[str, Any], folders: Folders) -> FrictionCurves:
+    """Return the friction curves of [measurement].
+
+    Raises
+    ------
+    StudyError, DataFileError, InputError
+        As `measured` does, or if the runs cannot be separated.
+    """
+    found = measured(study, folders)
+    if found.curves is None:
+        raise InputError(found.refusal)
+    return found.curves
+
+
+def _measured(table: MeasurementTable, folders: Folders) -> Measured:
+    try:
+        return _of_curves(table.curves, folders) if table.curves is not None else _of_runs(table, folders)
+    except DataFileError as error:
+        problem = for_the_page(without_folder(error.problem, folders))
+        raise DataFileError(without_folder(error.path, folders), problem, error.row) from None
+
+
+def _of_curves(path: Path, folders: Folders) -> Measured:
+    from viscofric.friction.curve_files import read_friction_curves
+
+    curves = _named(read_friction_curves(path), folders)
+    lines = [("file", path.name), ("recognised as", "a table of friction curves, separated already")]
+    return Measured(False, lines, [], _is_made_up(path), curves, "", curves.notes)
+
+
+def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
+    from viscofric.readers import read_mtm
+    from viscofric.report.runs_summary import runs_lines
+
+    runs = read_mtm(*table.mtm)
+    lines = [("files" if len(table.mtm) > 1 else "file", ", ".join(path.name for path in table.mtm))]
+    lines += [("recognised as", _kinds(table.mtm)), *runs_lines(runs)]
+    steps = [(step.number, without_folder(str(step), folders)) for step in runs.steps]
+    made_up = any(_is_made_up(path) for path in table.mtm)
+    try:
+        curves = _named(_separated(runs, table), folders)
+    except InputError as error:
+        notes = tuple(without_folder(note, folders) for note in runs.notes)
+        return Measured(True, lines, steps, made_up, None, for_the_page(without_folder(str(error), folders)), notes)
+    return Measured(True, lines, steps, made_up, curves, "", curves.notes)
+
+
+def _separated(runs: TractionRuns, table: MeasurementTable) -> FrictionCurves:
+    from viscofric.friction.measurement.tribometry import separate
+
+    if table.except_steps:
+        runs = runs.select(except_steps=table.except_steps)
+    return separate(runs, **table.settings)
+
+
+def _kinds(paths: Sequence[Path]) -> str:
+    from viscofric.files import read_bytes
+    from viscofric.readers.mtm import formats
+    from viscofric.readers.source import Source
+
+    return "; ".join(dict.fromkeys(formats.name_of(Source(str(path), read_bytes(path))) for path in paths))
+
+
+def _named(curves: FrictionCurves, folders: Folders) -> FrictionCurves:
+    """Return curves that name uploaded files as the user knows them."""
+    notes = tuple(for_the_page(without_folder(note, folders)) for note in curves.notes)
+    return replace(curves, source=without_folder(curves.source, folders), notes=notes)
+
+
+def _is_made_up(path: Path) -> bool:
+    """Whether a file says of itself that it was not measured."""
+    try:
+        remarks = [line for line in read_text(str(path)).splitlines()[:50] if line.startswith("#")]
+    except DataFileError:
+        return False
+    return any("synthetic" in line.lower() for line in remarks)

@@ -1,0 +1,228 @@
+"""Job ``identify``: the rubber behind measured friction, as far as friction tells it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from viscofric.web.jobs.anchors import AnchorOptions  # noqa: TC001 - pydantic looks at it
+
+if TYPE_CHECKING:
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.identification.anchors import Anchor
+    from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
+    from viscofric.rheology.material import Material
+    from viscofric.web.jobs.context import Context
+
+_DOWNLOAD = "rubber_from_friction.json"
+#: Steps that settle it as a rule, before the family of levels.
+_STEPS = 4
+
+
+class Options(BaseModel):
+    """Options of the job.
+
+    Attributes
+    ----------
+    shift : {"friction", "rubber"}
+        Where α(T) comes from.
+    anchor : AnchorOptions, optional
+        What fixes the level of the modulus.
+    beside : bool
+        Whether the page's rubber is laid beside.
+    accuracy : float
+        Of each contact that is solved.
+    samples : int
+        Rubbers drawn for the bands.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+    shift: Literal["friction", "rubber"] = "friction"
+    anchor: AnchorOptions | None = None
+    beside: bool = True
+    accuracy: float = Field(1e-2, ge=1e-4, le=0.1)
+    samples: int = Field(200, ge=20, le=1_000)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Identify the rubber behind the friction of [measurement].
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file; [measurement] and [indenter] are looked at, and [material] where it is asked for.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``reference``; ``modulus``: ``angular_frequency``, ``storage``, ``loss`` and the limits of their 95 % bands;
+        ``identified``, ``identified_storage``, ``identified_loss``: ``low``, ``high``, ``limit``, ``relative`` and
+        ``decades``; ``frequency_range`` of the contacts, ``middle`` of it; ``anchored``; ``anchor`` (its modulus,
+        angular frequency and temperature, or null); ``factors`` (temperature, log10, error; null where there is one
+        temperature only); ``known``: ``name``, ``storage``, ``loss``, ``factors`` of the page's rubber, or null;
+        ``fit``: by temperature ``measured``, ``fitted``, ``lower``, ``upper`` and ``residual``; ``family``; ``rms``;
+        ``sentences``; ``download``.
+
+    Raises
+    ------
+    StudyError, DataFileError, InputError, ConvergenceError
+        If a table is wrong, or the friction does not suffice.
+    """
+    from viscofric.friction.identification.identify import LEVELS, identify_material
+    from viscofric.web.jobs.context import JobError
+    from viscofric.web.jobs.friction_input import friction_curves, indenter_of
+    from viscofric.web.jobs.rubbers import made_rubber
+
+    curves = friction_curves(study, context)
+    indenter = indenter_of(study)
+    if indenter is None:
+        raise JobError("indenter: is missing; say what slid over the rubber, such as a ball.", "indenter")
+    wants_rubber = options.beside or options.shift == "rubber" or (options.anchor and options.anchor.of == "rubber")
+    rubber = made_rubber(study, context).material if wants_rubber else None
+    chosen: dict[str, Any] = {"accuracy": options.accuracy, "samples": options.samples}
+    if options.shift == "rubber":
+        if rubber is None or rubber.shift is None:
+            raise JobError("The page's rubber has no shift factors: let them be found from friction.", "material")
+        chosen["shift"] = rubber.shift
+    anchor = None if options.anchor is None else _anchor(options.anchor, rubber, curves)
+    steps = _STEPS + (len(LEVELS) if anchor is None else 0)
+
+    def tell(step: int, done: int, total: int) -> None:
+        whole = max(steps, step) * total
+        context.progress((step - 1) * total + done, whole, f"step {step}, contact {done} of {total}")
+
+    context.progress(0, 1, "Finding shift factors from friction" if options.shift == "friction" else "Setting up")
+    found = identify_material(
+        curves,
+        indenter=indenter,
+        anchor=anchor,
+        poisson_ratio=_poisson_ratio(study, rubber),
+        name="rubber identified from friction",
+        progress=tell,
+        **chosen,
+    )
+    plain: dict[str, Any] = context.plain(_told(found, curves, rubber if options.beside else None, anchor, context))
+    return plain
+
+
+def _anchor(asked: AnchorOptions, rubber: Material | None, curves: FrictionCurves) -> Anchor:
+    from viscofric.web.jobs.anchors import make_anchor
+
+    return make_anchor(asked, rubber, curves.load_unit)
+
+
+def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:
+    """Return that of the page's rubber, for contacts of the same kind."""
+    if rubber is not None:
+        return float(rubber.poisson_ratio)
+    material = study.get("material")
+    given = material.get("poisson_ratio", 0.5) if isinstance(material, dict) else 0.5
+    return float(given) if isinstance(given, int | float) else 0.5
+
+
+def _told(
+    found: IdentifiedMaterial, curves: FrictionCurves, rubber: Material | None, anchor: Anchor | None, context: Context
+) -> dict[str, Any]:
+    from viscofric.rheology.cards import write_card
+    from viscofric.web.jobs.friction_data import texts
+
+    write_card(found.material, context.downloads / _DOWNLOAD, format="json")
+    modulus = _modulus(found)
+    at = None
+    if anchor is not None and hasattr(anchor, "modulus"):
+        at = {name: getattr(anchor, name) for name in ("modulus", "angular_frequency", "temperature", "error")}
+    return {
+        "reference": found.material.reference,
+        "modulus": modulus,
+        "identified": _band(found.identified),
+        "identified_storage": _band(found.identified_storage),
+        "identified_loss": _band(found.identified_loss),
+        "frequency_range": found.frequency_range,
+        "middle": found.middle,
+        "anchored": found.anchored,
+        "anchor": at,
+        "factors": _factors(found),
+        "known": None if rubber is None else _known(rubber, found, modulus["angular_frequency"]),
+        "fit": _fit(found, curves),
+        "family": [
+            {name: getattr(fit, name) for name in ("factor", "modulus", "rms", "penalty")} for fit in found.family
+        ],
+        "level_range": found.level_range,
+        "rms": found.rms,
+        "sentences": texts(found.sentences),
+        "download": _DOWNLOAD,
+    }
+
+
+def _modulus(found: IdentifiedMaterial) -> dict[str, Any]:
+    """Return E(ω) with its 95 % band over the frequencies that the report draws."""
+    import numpy as np
+
+    from viscofric.report.figure_data import modulus_band
+    from viscofric.report.inverse_figures import drawn_frequencies
+
+    frequency = drawn_frequencies(found)
+    modulus, band = np.asarray(found.material.complex_modulus(frequency)), modulus_band(found.samples, frequency)
+    return {
+        "angular_frequency": frequency,
+        "storage": modulus.real,
+        "loss": modulus.imag,
+        "storage_lower": band.storage[0],
+        "storage_upper": band.storage[1],
+        "loss_lower": band.loss[0],
+        "loss_upper": band.loss[1],
+    }
+
+
+def _band(band: IdentifiedBand) -> dict[str, Any]:
+    names = ("low", "high", "limit", "relative", "decades")
+    return {name: getattr(band, name) for name in names}
+
+
+def _factors(found: IdentifiedMaterial) -> dict[str, Any] | None:
+    """Return α(T) of the identified rubber at the temperatures of the friction; None where there is one only."""
+    from viscofric.report.shift_summary import answers
+
+    temperatures = found.friction.temperatures
+    if found.shift_factors is None or len(temperatures) < 2:
+        return None
+    known = getattr(found.shift_factors, "temperatures", temperatures)
+    log10, error = answers(found.shift_factors, known)
+    return {"temperature": known, "log10": log10, "error": error, "found": found.shift_found}
+
+
+def _known(rubber: Material, found: IdentifiedMaterial, frequency: Any) -> dict[str, Any]:
+    """Return the page's rubber at the temperature at which the identified one is described."""
+    import numpy as np
+
+    from viscofric.report.shift_summary import answers
+
+    reference = found.material.reference
+    if rubber.shift is not None and reference is not None:
+        rubber = rubber.at_reference(reference)
+    modulus = np.asarray(rubber.complex_modulus(frequency))
+    told: dict[str, Any] = {"name": rubber.name, "storage": modulus.real, "loss": modulus.imag, "factors": None}
+    if rubber.shift is not None:
+        warm = found.friction.temperatures
+        kelvin = np.linspace(warm.min(), warm.max(), 100)
+        told["factors"] = {"temperature": kelvin, "log10": answers(rubber.shift, kelvin)[0]}
+    return told
+
+
+def _fit(found: IdentifiedMaterial, curves: FrictionCurves) -> list[dict[str, Any]]:
+    """Return how well the identified rubber meets the friction, by temperature."""
+    from viscofric.web.jobs.friction_data import by_temperature
+
+    fit = found.friction
+    # ln μ is what is fitted, so that a residual times its error is a relative difference.
+    return by_temperature(
+        fit.temperature,
+        fit.speed,
+        fitted=fit.viscoelastic,
+        lower=fit.viscoelastic_lower,
+        upper=fit.viscoelastic_upper,
+        residual=found.residuals,
+    )

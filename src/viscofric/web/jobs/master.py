@@ -1,0 +1,202 @@
+"""Job ``master``: measured friction of all temperatures on one curve, by the rubber's shift and by its own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+if TYPE_CHECKING:
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.web.jobs.context import Context
+
+_DOWNLOAD = "shift_factors_from_friction.csv"
+
+
+class Options(BaseModel):
+    """Options of the job.
+
+    Attributes
+    ----------
+    beside : bool
+        Whether the page's rubber is laid beside.
+    reference : str, optional
+        Temperature at which α is 1, with its unit; that of the rubber without, or one that is found.
+    law : str
+        To be fitted to the shift factors that friction tells.
+    level_error : float
+        Relative standard error of friction that all points of a temperature share.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+    beside: bool = True
+    reference: str | None = Field(None, max_length=100)
+    law: Literal["best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none"] = "best"
+    level_error: float = Field(0.0, ge=0.0, lt=1.0)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Shift measured friction curves onto one, by the rubber's shift factors, and by those that friction tells.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file; [measurement], [indenter] and, laid beside, [material] are looked at.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``by_rubber`` and ``found``, each a master curve or null: ``reference``, ``load``, ``load_unit``, ``points``
+        (by temperature over the reduced speed), ``line`` (smoothed, with its band), ``overlap`` (a sentence) and
+        ``words`` (name and value).  ``found`` has ``factors`` (temperature, log10, error), ``law`` (temperature,
+        log10, lower, upper; or null), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
+        friction tells no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
+        (or null) and ``line``; null without a rubber.  ``notes``.
+
+    Raises
+    ------
+    StudyError, DataFileError, InputError
+        If a table is wrong, or friction curves can be shifted neither way.
+    """
+    from viscofric.errors import SuperpositionError
+    from viscofric.web.jobs.friction_data import texts
+    from viscofric.web.jobs.friction_input import friction_curves, indenter_of
+    from viscofric.web.jobs.friction_words import for_the_page
+    from viscofric.web.jobs.rubbers import made_rubber
+
+    curves = friction_curves(study, context)
+    rubber = made_rubber(study, context).material if options.beside else None
+    known = None if rubber is None else rubber.shift
+    settings = _settings(curves, indenter_of(study), rubber)
+    notes: list[str] = []
+    result: dict[str, Any] = {"by_rubber": None, "found": None, "refusal": None, "known": None}
+    if known is not None:
+        context.progress(0, 2, "Shifting by the rubber's factors")
+        by_rubber = _shifted(curves, settings, shift=known, reference=options.reference)
+        result["by_rubber"] = _curve(by_rubber) | {"words": _words(by_rubber)}
+        notes += by_rubber.notes
+    context.progress(1, 2, "Finding shift factors from friction")
+    reference = _reference(curves, known) if options.reference is None else options.reference
+    try:
+        found = _shifted(curves, settings, reference=reference, level_error=options.level_error)
+    except SuperpositionError as error:
+        if known is None:
+            raise
+        result["refusal"] = for_the_page(str(error))
+    else:
+        result["found"], told = _found(found, known, options, context)
+        notes += told
+    if known is not None:
+        result["known"] = _known(known, result["found"] or result["by_rubber"])
+    plain: dict[str, Any] = context.plain(result | {"notes": texts(notes)})
+    return plain
+
+
+def _settings(curves: FrictionCurves, indenter: Any, rubber: Material | None) -> dict[str, Any]:
+    """Return how friction at several loads is reduced to one, where there is an indenter that tells."""
+    if indenter is None or indenter.geometry.load_unit != curves.load_unit:
+        return {}
+    return {"indenter": indenter, "vertical_shift": None if rubber is None else rubber.vertical_shift}
+
+
+def _reference(curves: FrictionCurves, known: ShiftLaw | None) -> float | None:
+    """Return the rubber's reference, where friction reaches it."""
+    if known is None or not curves.temperature.min() <= known.reference <= curves.temperature.max():
+        return None
+    return float(known.reference)
+
+
+def _shifted(curves: FrictionCurves, settings: dict[str, Any], **chosen: Any) -> FrictionMasterCurve:
+    from viscofric.friction.shifting.shift import shift_friction
+
+    return shift_friction(curves, **settings, **chosen)
+
+
+def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
+    from viscofric.report.friction_data import measured_line
+    from viscofric.web.jobs.friction_data import by_temperature, drawn_line
+
+    columns = {"friction": master.friction, "error": master.error, "scatter": master.scatter}
+    return {
+        "reference": master.reference,
+        "load": master.load,
+        "load_unit": master.curves.load_unit,
+        "points": by_temperature(master.temperature, master.reduced_speed, **columns),
+        "line": drawn_line(measured_line(master)),
+        "overlap": master.overlap_sentence,
+    }
+
+
+def _words(master: FrictionMasterCurve, *found: Any) -> list[dict[str, str]]:
+    from viscofric.report.shift_summary import shift_words
+    from viscofric.web.jobs.friction_data import pairs
+
+    law, agreement, why = found or (None, None, "")
+    told = [(name, words) for name, words in shift_words(master, law, agreement, why) if name != "reduced speed"]
+    return pairs((name or "law, why", words) for name, words in told)
+
+
+def _found(
+    master: FrictionMasterCurve, known: ShiftLaw | None, options: Options, context: Context
+) -> tuple[dict[str, Any], list[str]]:
+    """Return what friction tells by itself, and what is to be noted of it."""
+    from viscofric.errors import InputError
+    from viscofric.friction.shifting.shift_agreement import compare_shift_factors
+    from viscofric.report.shift_summary import law_of
+
+    law, why, refused = law_of(master, options.law)
+    notes, agreement = [*master.notes, *([refused] if refused else [])], None
+    if known is not None:
+        try:
+            agreement = compare_shift_factors(master, known)
+        except InputError as error:
+            notes.append(str(error))
+    factors = master.shift_factors
+    factors.save(context.downloads / _DOWNLOAD)
+    told = {
+        "words": _words(master, law, agreement, why),
+        "factors": {
+            "temperature": factors.temperatures,
+            "log10": factors.log10_values,
+            "error": factors.standard_errors,
+        },
+        "law": None if law is None else _line(law, factors.temperatures),
+        "agreement": None if agreement is None else agreement.sentence,
+        "download": _DOWNLOAD,
+    }
+    return _curve(master) | told, notes
+
+
+def _line(law: ShiftLaw, temperatures: Any) -> dict[str, Any]:
+    """Return a law between temperatures, with its 95 % band where it has one."""
+    import numpy as np
+
+    from viscofric.report.shift_figures import LEVEL_95
+    from viscofric.report.shift_summary import answers
+
+    kelvin = np.linspace(temperatures.min(), temperatures.max(), 100)
+    log10, error = answers(law, kelvin)
+    doubt = LEVEL_95 * np.where(error > 0.0, error, np.nan)
+    return {"temperature": kelvin, "log10": log10, "lower": log10 - doubt, "upper": log10 + doubt}
+
+
+def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any]:
+    """Return the rubber's shift factors about the reference of a master curve, and not far from its temperatures."""
+    import numpy as np
+
+    from viscofric.report.inverse_figures import FARTHER
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+
+    law = known.at_reference(beside["reference"])
+    warm = np.array([one["temperature"] for one in beside["points"]])
+    points = None
+    if isinstance(law, ShiftFactors):
+        near = (law.temperatures >= warm.min() - FARTHER) & (law.temperatures <= warm.max() + FARTHER)
+        columns = (law.temperatures, law.log10_values, law.standard_errors)
+        points = dict(zip(("temperature", "log10", "error"), (column[near] for column in columns), strict=True))
+    return {"points": points, "line": _line(law, warm)}

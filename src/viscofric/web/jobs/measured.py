@@ -1,0 +1,104 @@
+"""Job ``measured``: what was recognised in the files of [measurement], and the friction separated from them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+if TYPE_CHECKING:
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.web.jobs.context import Context
+
+_DOWNLOAD = "friction_curves.csv"
+
+
+class Options(BaseModel):
+    """Options of the job.
+
+    Attributes
+    ----------
+    files : tuple of str
+        Uploaded files that were dropped; those of [measurement] without.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+    files: tuple[str, ...] = Field((), max_length=1_000)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Read and separate the files of [measurement]; no other table is looked at.
+
+    Parameters
+    ----------
+    study : dict
+        The tables of a run file.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``table`` ([measurement], with the dropped files in it), ``recognised`` and ``lines`` (name and value),
+        ``steps`` (number and text of each), ``synthetic``, ``runs`` (whether they are a tribometer's), ``refusal``
+        (why they cannot be separated, or null), ``notes``, and unless refused ``curves`` (by temperature, see
+        `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and ``download``.
+
+    Raises
+    ------
+    StudyError, DataFileError
+        If [measurement] is wrong, or a file cannot be read.
+    """
+    from viscofric.web.jobs.friction_data import measured_points, pairs, texts
+    from viscofric.web.jobs.friction_input import measured, table_of_files
+
+    table = table_of_files(study, context, options.files) if options.files else study.get("measurement")
+    context.progress(0, 1, "Reading the files")
+    found = measured({**study, "measurement": table}, context)
+    synthetic = found.synthetic or study.get("data_origin") == "synthetic"
+    result: dict[str, Any] = {
+        "table": table,
+        "recognised": pairs(found.lines),
+        "steps": [{"number": number, "text": text} for number, text in found.steps],
+        "runs": found.runs,
+        "synthetic": synthetic,
+        "refusal": found.refusal or None,
+        "notes": texts(found.notes),
+        "curves": None,
+    }
+    if found.curves is not None:
+        result |= {
+            "curves": measured_points(found.curves),
+            "points": len(found.curves),
+            "load_unit": found.curves.load_unit,
+            "assumption": found.curves.assumption or None,
+            "lines": pairs(_lines(found.curves)),
+            "checks": _checks(found.curves),
+            "download": _written(found.curves, context),
+        }
+    plain: dict[str, Any] = context.plain(result)
+    return plain
+
+
+def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
+    """Return what is to be said of the friction as a whole, but for what notes and checks tell."""
+    from viscofric.report.friction_summary import friction_lines
+
+    return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "left over")]
+
+
+def _checks(curves: FrictionCurves) -> list[dict[str, str]]:
+    """Judge whether the four sign configurations agree with each other."""
+    from viscofric.report.friction_checks import consistency_check
+
+    if curves.consistency is None or curves.consistency_error is None:
+        return []
+    check = consistency_check(curves.consistency, curves.consistency_error)
+    return [] if check is None else [{"name": check.name, "verdict": check.verdict, "words": check.words}]
+
+
+def _written(curves: FrictionCurves, context: Context) -> str:
+    from viscofric.friction.curve_files import write_friction_curves
+
+    write_friction_curves(curves, context.downloads / _DOWNLOAD)
+    return _DOWNLOAD

@@ -1,0 +1,113 @@
+"""The page's identification: the rubber behind friction, its anchor, what is told while it is at work."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.web.jobs.context import JobError
+from web.friction_workspace import STUDY, done, workspace
+
+if TYPE_CHECKING:
+    from viscofric.web.jobs.context import Context
+
+CURVES = {**STUDY, "measurement": {"curves": "curves.csv"}}
+ANCHOR = {"of": "rubber", "frequency": "1 Hz", "temperature": "40 degC"}
+QUICK: dict[str, Any] = {"accuracy": 0.05, "samples": 40}
+
+
+@pytest.fixture(scope="module")
+def context(tmp_path_factory: pytest.TempPathFactory) -> Context:
+    return workspace(tmp_path_factory.mktemp("identify") / "workspace")
+
+
+@pytest.fixture(scope="module")
+def heard() -> list[dict[str, Any]]:
+    return []
+
+
+@pytest.fixture(scope="module")
+def identified(context: Context, heard: list[dict[str, Any]]) -> dict[str, Any]:
+    context.tell = lambda event, message: heard.append(message) if event == "progress" else None
+    return done("identify", context, CURVES, anchor=ANCHOR, **QUICK)
+
+
+def test_the_planted_modulus_lies_in_the_band(identified: dict[str, Any]) -> None:
+    band, modulus = identified["identified"], identified["modulus"]
+    omega = np.array(modulus["angular_frequency"])
+    told = (omega >= band["low"]) & (omega <= band["high"])
+    assert band["decades"] > 2.0
+    for part in ("storage", "loss"):
+        planted, low, high = (np.array(values)[told] for values in (
+            identified["known"][part], modulus[f"{part}_lower"], modulus[f"{part}_upper"]
+        ))  # fmt: skip
+        # A band of 95 % at each frequency; neighbours err together, and the contacts are solved to 5 %.
+        assert np.mean((planted > low) & (planted < high)) > 0.6
+        np.testing.assert_allclose(np.array(modulus[part])[told], planted, rtol=0.15)
+
+
+def test_the_anchor_is_the_rubbers_own_modulus(identified: dict[str, Any]) -> None:
+    expected = abs(complex(vf.synthetic_fluoroelastomer().complex_modulus(2.0 * np.pi, "40 degC")))
+    assert identified["anchor"]["modulus"] == pytest.approx(expected, rel=1e-5)
+    assert identified["anchored"]
+    assert identified["family"] == []
+
+
+def test_shift_factors_and_fit_are_told_at_all_temperatures(identified: dict[str, Any]) -> None:
+    assert identified["factors"]["found"]
+    assert len(identified["factors"]["temperature"]) == len(identified["fit"]) == 5
+    assert identified["rms"] < 0.03
+    assert "points is met to" in identified["sentences"][0]
+
+
+def test_progress_runs_from_begin_to_end(identified: dict[str, Any], heard: list[dict[str, Any]]) -> None:
+    assert identified["sentences"]
+    shares = [message["done"] / message["total"] for message in heard if message["total"] > 1]
+    assert len(shares) > 5
+    assert shares == sorted(shares)
+    assert shares[-1] <= 1.0
+    assert heard[-1]["label"].startswith("step ")
+
+
+def test_the_rubber_can_be_fetched(context: Context, identified: dict[str, Any]) -> None:
+    rubber = vf.read_card(context.downloads / identified["download"])
+    modulus = identified["modulus"]
+    found = np.asarray(rubber.complex_modulus(np.array(modulus["angular_frequency"])))
+    np.testing.assert_allclose(found.real, modulus["storage"], rtol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("anchor", "words"),
+    [
+        ({"of": "modulus", "frequency": "1 Hz", "temperature": "40 degC"}, "the modulus of the anchor is missing"),
+        ({**ANCHOR, "of": "modulus", "modulus": "8 N"}, "'8 N': has the wrong kind of unit"),
+        ({**ANCHOR, "temperature": "warm"}, "warm"),
+        ({"of": "indentation", "temperature": "40 degC"}, "the measured size and the speed and the load"),
+        ({**ANCHOR, "of": "half_width", "size": "1 kg", "speed": "1 m/s", "load": "25 N"}, "'1 kg'"),
+    ],
+)
+def test_an_anchor_that_cannot_be_used_is_told(context: Context, anchor: dict[str, Any], words: str) -> None:
+    with pytest.raises(JobError, match=words) as refused:
+        done("identify", context, CURVES, anchor=anchor)
+    assert refused.value.field == "anchor"
+
+
+def test_what_is_missing_is_told(context: Context) -> None:
+    with pytest.raises(JobError, match="indenter: is missing") as refused:
+        done("identify", context, {"measurement": CURVES["measurement"]}, beside=False)
+    assert refused.value.field == "indenter"
+
+
+@pytest.mark.slow
+def test_friction_without_a_rubber_leaves_the_level_open(context: Context) -> None:
+    alone = {name: CURVES[name] for name in ("measurement", "indenter")}
+    found = done("identify", context, alone, beside=False, **QUICK)
+    assert found["known"] is None
+    assert not found["anchored"]
+    assert found["identified"]["relative"]
+    assert len(found["family"]) == 7
+    low, high = found["level_range"]
+    assert high > 3.0 * low

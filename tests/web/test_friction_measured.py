@@ -1,0 +1,182 @@
+"""The page's measured friction: what is recognised in dropped files, what is separated, what is refused and how."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.web.jobs.friction_words import for_the_page
+from web.friction_workspace import STUDY, column, curves, done, workspace
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from viscofric.web.jobs.context import Context
+
+
+@pytest.fixture(scope="module")
+def context(tmp_path_factory: pytest.TempPathFactory) -> Context:
+    return workspace(tmp_path_factory.mktemp("measured") / "workspace")
+
+
+@pytest.fixture(scope="module")
+def example(context: Context) -> dict[str, Any]:
+    return done("measured", context, STUDY, files=["mtm.csv"])
+
+
+def test_traction_runs_are_recognised_and_called_synthetic(example: dict[str, Any]) -> None:
+    assert example["table"] == {"mtm": "mtm.csv"}
+    assert example["runs"]
+    assert example["synthetic"]
+    told = {one["name"]: one["value"] for one in example["recognised"]}
+    assert told["readings"] == "960"
+    assert told["temperatures"] == "30.0, 60.0 and 90.0 °C"
+    assert told["sign configurations"].startswith("all four (I: 240 readings")
+
+
+def test_separated_friction_is_that_of_the_library(example: dict[str, Any], context: Context) -> None:
+    separated = vf.separate(vf.read_mtm(context.files / "mtm.csv"))
+    order = np.lexsort([separated.speed, separated.temperature.round()])
+    for name in ("speed", "viscoelastic", "viscoelastic_error", "coulomb", "consistency", "offset"):
+        expected = getattr(separated, name)[order]
+        np.testing.assert_allclose(column(example["curves"], name), expected, rtol=1e-5)  # six digits are sent
+    lower, _ = separated.interval()
+    np.testing.assert_allclose(column(example["curves"], "viscoelastic_lower"), lower[order], rtol=1e-5)
+
+
+def test_four_configurations_that_agree_pass(example: dict[str, Any]) -> None:
+    (check,) = example["checks"]
+    assert check["verdict"] == "passed"
+    assert "configurations that should vanish" in check["words"]
+
+
+def test_friction_curves_are_recognised_and_can_be_fetched(context: Context) -> None:
+    before = {**STUDY, "measurement": {"mtm": "mtm.csv", "zero": "0.1 N"}}
+    found = done("measured", context, before, files=["curves.csv"])
+    assert found["table"] == {"curves": "curves.csv"}  # a zero is nothing that curves have
+    assert not found["runs"]
+    np.testing.assert_allclose(column(found["curves"], "viscoelastic"), curves().viscoelastic, rtol=1e-5)
+    fetched = vf.read_friction_curves(context.downloads / found["download"])
+    np.testing.assert_array_equal(fetched.viscoelastic, curves().viscoelastic)
+
+
+def test_settings_of_the_separation_stay_and_count(context: Context) -> None:
+    before = {"measurement": {"mtm": "other.csv", "zero": "0.5 N"}}
+    found = done("measured", context, before, files=["mtm.csv"])
+    assert found["table"] == {"mtm": "mtm.csv", "zero": "0.5 N"}
+    # The test tells its own zero, 0.12 N; one that contradicts it is told.
+    assert any("0.5" in note for note in found["notes"]), found["notes"]
+
+
+def test_what_is_read_once_is_not_read_again(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = {"measurement": {"mtm": "mtm.csv"}}
+    first = done("measured", context, study)
+    monkeypatch.setattr("viscofric.readers.read_mtm", lambda *_: pytest.fail("read again"))
+    assert done("measured", context, study) == first
+
+
+def one_direction(context: Context, name: str) -> None:
+    """Write a test in which disc and ball run one way only, and the ball slower: one configuration of four."""
+    head = "temperature (degC),replicate,disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)"
+    rows = [f"30,{n},{v},{0.9 * v:.4g},25,{1.1 + 0.01 * n}" for v in (20, 50, 100) for n in (1, 2, 3)]
+    (context.files / name).write_text("\n".join([head, *rows]), encoding="utf-8")
+
+
+def test_a_test_that_cannot_be_separated_says_what_to_do_on_the_page(context: Context) -> None:
+    one_direction(context, "one.csv")
+    found = done("measured", context, STUDY, files=["one.csv"])
+    assert found["curves"] is None
+    assert "“" in found["refusal"]
+    assert "--" not in found["refusal"]
+    assert "in the shell" not in found["refusal"]
+    assert found["recognised"][1]["name"] == "recognised as"
+    given = {"mtm": "one.csv", "coulomb": 0.04, "zero": "0 N"}
+    assert done("measured", context, {"measurement": given})["curves"] is not None
+
+
+@pytest.mark.parametrize(
+    ("files", "error", "words"),
+    [
+        (["curves.csv", "mtm.csv"], StudyError, "mtm.csv is none"),
+        (["dma.csv"], DataFileError, "drop it at the step “Data”"),
+        (["none.csv"], StudyError, "'none.csv' is not one of the page's files"),
+        (["../cache/x.csv"], StudyError, "is not one of the page's files"),
+        (["/etc/hostname"], StudyError, "is not one of the page's files"),
+    ],
+)
+def test_files_that_are_no_measurement_are_refused(
+    context: Context, files: list[str], error: type[InputError], words: str
+) -> None:
+    with pytest.raises(error) as refused:
+        done("measured", context, STUDY, files=files)
+    assert words in str(refused.value)
+    assert str(context.files) not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({"mtm": "mtm.csv", "zero": "5 mm"}, "measurement.zero: '5 mm'"),
+        ({"mtm": "mtm.csv", "coulomb": "much"}, "measurement.coulomb: 'much'"),
+        ({"mtm": "/etc/hostname"}, "'/etc/hostname' is not one of the page's files"),
+        ({"mtm": "mtm.csv", "curves": "curves.csv"}, "measurement: mtm and curves are both given"),
+        ({}, "measurement: there is none"),
+    ],
+)
+def test_wrong_tables_are_told_with_their_field(context: Context, table: dict[str, Any], words: str) -> None:
+    with pytest.raises(StudyError, match=words):
+        done("measured", context, {"measurement": table})
+
+
+def refusal(call: Any) -> str:
+    with pytest.raises(InputError) as refused:
+        call()
+    return for_the_page(str(refused.value))
+
+
+def test_the_librarys_advice_becomes_the_pages(tmp_path: Path) -> None:
+    """Each sentence is the library's own, so that one that is worded anew is noticed."""
+    speeds, count = np.full(40, 0.1), 40
+    columns: dict[str, Any] = {
+        "disc_speed": speeds,
+        "ball_speed": 0.5 * speeds,
+        "traction_force": np.ones(count),
+        "load": np.full(count, 25.0),
+        "temperature": np.full(count, 300.0),
+        "replicate": np.arange(count),
+    }
+    runs = vf.TractionRuns(**columns)
+    drifting = vf.TractionRuns(**{**columns, "temperature": np.linspace(300.0, 310.0, count)})
+    unsteady = vf.TractionRuns(
+        **{**columns, "load": np.r_[np.full(20, 10.0), np.geomspace(11.0, 25.0, 20)]}, step=np.repeat([1, 2], 20)
+    )
+    told = [
+        refusal(lambda: vf.separate(runs)),
+        refusal(lambda: vf.separate(drifting)),
+        refusal(lambda: vf.separate(unsteady)),
+        refusal(lambda: runs.select(except_steps=(1,))),
+        refusal(lambda: vf.shift_friction(replace(curves(), load=np.linspace(5.0, 25.0, len(curves()))))),
+    ]
+    assert all("--" not in one and "shell" not in one and "Python" not in one for one in told), told
+    assert "“Zero of the force cell”" in told[0]
+    assert "“Gap between temperatures” = " in told[1]
+    assert "“Steps to leave out”: 2" in told[2]
+    assert "“Steps to leave out” = 1" in told[3]
+    assert "give a ball" in told[4]
+
+
+def test_exports_of_instruments_are_recognised(real_data: Path, context: Context) -> None:
+    for path in sorted((real_data / "mtm").glob("demo*.txt")):
+        (context.files / path.name).write_bytes(path.read_bytes())
+        found = done("measured", context, STUDY, files=[path.name])
+        told = {one["name"]: one["value"] for one in found["recognised"]}
+        assert "PCS Instruments" in told["recognised as"]
+        assert found["steps"]
+        # None of them was run in both directions of slip, which the page must say in its own words.
+        assert found["refusal"]
+        assert "--" not in found["refusal"]
