@@ -18,7 +18,9 @@ from viscofric.cli import main
 from viscofric.report import drawing
 
 ROOT = Path(__file__).parents[1]
-PAGES = sorted(path for path in [ROOT / "README.md", *ROOT.glob("docs/**/*.md")] if path.exists())
+#: What building the site leaves there.
+MADE = {"_build", "_generated", "auto_examples"}
+PAGES = sorted([ROOT / "README.md", *(path for path in ROOT.glob("docs/**/*.md") if not MADE & set(path.parts))])
 FENCE = re.compile(r"^```([\w-]*)([^\n`]*)\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
 OUTPUT = {"", "text", "mermaid"}
 SHELL = {"console", "bash", "sh", "shell"}
@@ -107,9 +109,9 @@ def run_command(words: list[str], folder: Path) -> str:
     if program in FETCHES_OR_MOVES:
         return ""
     if program == "./run":
-        known = subcommands() | {"test", "--help", "--help-all"}
+        known = subcommands() | {"test", "docs", "--help", "--help-all"}
         assert not arguments or arguments[0] in known, f"./run does not know {arguments[0]}"
-        if arguments and arguments[0] not in ("demo", "test"):
+        if arguments and arguments[0] not in ("demo", "test", "docs"):
             return viscofric(arguments)
         return ""
     assert Path(program).name == "viscofric", f"a command that this test cannot run: {shlex.join(words)}"

@@ -26,7 +26,7 @@ _TITLE = "viscofric friction curves"
 _REMARKS = ("source", "assumption", "note")
 
 #: field -> (SI unit, empty for a pure number; the heading that is written; others that are understood)
-_COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
+COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "speed": ("m/s", "speed", ("v", "sliding speed", "disc speed", "disk speed")),
     "temperature": ("K", "temperature", ("T", "temp", "temp.")),
     "load": ("N", "load", ("normal load", "normal force")),
@@ -89,7 +89,7 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
     text.write(f"# {_TITLE}\n")
     text.writelines(f"# {name}: {' '.join(words.split())}\n" for name, words in remarks if words.strip())
     columns = {}
-    for name, (unit, heading, _) in _COLUMNS.items():
+    for name, (unit, heading, _) in COLUMNS.items():
         values = getattr(curves, name)
         if values is None:
             continue
@@ -177,11 +177,11 @@ def _exact_in_celsius(kelvin: Array) -> bool:
 def _places(table: Table) -> dict[str, int]:
     """Find each column, and insist on those that are needed."""
     places = {}
-    for name, (_, heading, others) in _COLUMNS.items():
+    for name, (_, heading, others) in COLUMNS.items():
         place = table.find(frozenset({heading, heading.lower(), *others}), heading)
         if place is not None:
             places[name] = place
-    missing = [_COLUMNS[name] for name in _NEEDED if name not in places]
+    missing = [COLUMNS[name] for name in _NEEDED if name not in places]
     if missing:
         unit, heading, _ = missing[0]
         example = {"m/s": "mm/s", "K": "degC"}.get(unit, unit)
@@ -201,7 +201,7 @@ def _load_unit(table: Table, place: int) -> str:
 
 
 def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
-    unit = load_unit if name == "load" else _COLUMNS[name][0]
+    unit = load_unit if name == "load" else COLUMNS[name][0]
     column = table.columns[place]
     values = table.numbers_or_missing(place) if name.endswith(_OPEN) else table.numbers(place)
     if unit:

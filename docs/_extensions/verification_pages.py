@@ -1,20 +1,13 @@
-"""Write the tables and figures of docs/verification.md from the checks of `viscofric verify`.
-
-    python scripts/make_verification.py
-
-Tables stand between `<!-- table: NAME -->` and `<!-- end -->`; the words around them are written by hand.
-"""
+"""Tables and figures of the verification page, from the checks of `viscofric verify` themselves."""
 
 from __future__ import annotations
 
 import io
-import math
-import re
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
+from markdown import digest, is_made_of, made_of, table, write
 
 from viscofric.report.house_style import STYLE, new_figure
 from viscofric.report.verification_figures import plot_errors, plot_hunter, plot_orders, plot_windows
@@ -25,21 +18,10 @@ from viscofric.verification.refinement import REFINEMENTS, Refinement
 from viscofric.verification.windows import Windows, windows
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from matplotlib.figure import Figure
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
 #: Errors below this are called round-off: their digits differ from machine to machine.
 ROUND_OFF = 1e-9
-
-
-def table(headings: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table in Markdown, numbers to the right."""
-    heads, lines = list(headings), [list(row) for row in rows]
-    counts = [any(line[index][:1] in "−0123456789" and line[index] for line in lines) for index in range(len(heads))]
-    sides = ["---:" if numbers and index > 0 else "---" for index, numbers in enumerate(counts)]
-    return "\n".join("| " + " | ".join(row) + " |" for row in [heads, sides, *lines])
 
 
 def number(value: float) -> str:
@@ -116,6 +98,14 @@ def ball_table(outcome: Outcome) -> str:
     return table(heads, rows)
 
 
+def energy_table(outcome: Outcome) -> str:
+    rows = [
+        [one.case, one.quantity, number(one.computed), number(one.expected), error(one), bound(one)]
+        for one in outcome.comparisons
+    ]
+    return table(["problem", "compared", "computed", "expected", "error", "bound"], rows)
+
+
 def orders_table(found: list[Refinement]) -> str:
     rows = []
     for one in found:
@@ -179,51 +169,68 @@ def windows_figure(found: Windows) -> Figure:
     return figure
 
 
-def with_tables(page: str, tables: dict[str, str]) -> str:
-    """Put tables between their marks."""
-
-    def filled(match: re.Match[str]) -> str:
-        return f"<!-- table: {match[1]} -->\n\n{tables[match[1]]}\n\n<!-- end -->"
-
-    filled_page, count = re.subn(r"<!-- table: (\w+) -->.*?<!-- end -->", filled, page, flags=re.DOTALL)
-    assert count == len(tables), "each table has one place in the page"
-    return filled_page
+#: What all of it depends on, of the package.
+DEPENDS_ON = ("contact", "rheology", "verification", "report/verification_figures.py", "report/house_style.py")
 
 
-def save(figure: Figure, name: str) -> None:
+def drawn(figure: Figure, name: str, letters: str = "none") -> bytes:
+    """Return a figure as SVG that is the same from run to run.
+
+    Letters are text ("none": a tenth of the size), or "path", which formulas need.
+    """
     target = io.BytesIO()
-    figure.savefig(target, format="svg", metadata={"Creator": "viscofric", "Date": None})
-    (DOCS / "figures").mkdir(exist_ok=True)
-    (DOCS / "figures" / f"{name}.svg").write_bytes(target.getvalue())
+    with matplotlib.rc_context({**STYLE, "svg.hashsalt": f"viscofric {name}", "svg.fonttype": letters}):
+        figure.savefig(target, format="svg", metadata={"Creator": "viscofric", "Date": None})
+    return target.getvalue()
 
 
-def main() -> None:
-    outcomes = list(run_checks(CHECKS, lambda check: print(check.name, flush=True)))
+def tables(outcomes: list[Outcome], refinements: list[Refinement], limit: Windows) -> dict[str, str]:
+    """Return every table of the page by the name that the page includes it under."""
     named = {outcome.check.name: outcome for outcome in outcomes}
-    failed = [name for name, outcome in named.items() if not outcome.passed]
-    assert not failed, f"not to be published: {failed}"
-    refinements, limit = [make() for make in REFINEMENTS], windows()
-    page = DOCS / "verification.md"
-    tables = {
+    return {
         "checks": summary(outcomes),
         "reasons": reasons(outcomes),
         "hunter": hunter_table(named["hunter"]),
         "ball": ball_table(named["ball-reference"]),
+        "energy": energy_table(named["energy-balance"]),
         "orders": orders_table(refinements),
         "windows": windows_table(limit),
     }
-    page.write_text(with_tables(page.read_text(encoding="utf-8"), tables), encoding="utf-8")
-    for name, draw in (
-        ("hunter", lambda: hunter_figure(named["hunter"])),
-        ("orders", lambda: orders_figure(refinements)),
-        ("windows", lambda: windows_figure(limit)),
-    ):
-        # Letters as text: a tenth of the size, and they are found by a search.
-        with matplotlib.rc_context({**STYLE, "svg.hashsalt": f"viscofric {name}", "svg.fonttype": "none"}):
-            save(draw(), name)
-    seconds = math.fsum(outcome.seconds for outcome in outcomes)
-    print(f"{page} and its figures written; the checks took {seconds:.0f} s.")
 
 
-if __name__ == "__main__":
-    main()
+def figures(outcomes: list[Outcome], refinements: list[Refinement], limit: Windows) -> dict[str, bytes]:
+    """Return every figure of the page by its name."""
+    (hunter_outcome,) = [outcome for outcome in outcomes if outcome.check.name == "hunter"]
+    makers = {
+        "hunter": lambda: hunter_figure(hunter_outcome),
+        "orders": lambda: orders_figure(refinements),
+        "windows": lambda: windows_figure(limit),
+    }
+    made = {}
+    for name, maker in makers.items():
+        with matplotlib.rc_context(STYLE):
+            made[name] = drawn(maker(), name)
+    return made
+
+
+def generate() -> None:
+    """Call all checks, unless their code is what it was, and write what they say.
+
+    Raises
+    ------
+    RuntimeError
+        If a check fails: it is not to be published.
+    """
+    state = digest(*DEPENDS_ON)
+    if is_made_of("verification", state):
+        return
+    outcomes = list(run_checks(CHECKS, lambda check: None))
+    failed = [outcome.check.name for outcome in outcomes if not outcome.passed]
+    if failed:
+        raise RuntimeError(f"checks of the verification page failed: {', '.join(failed)}")
+    refinements, limit = [make() for make in REFINEMENTS], windows()
+    for name, text in tables(outcomes, refinements, limit).items():
+        write(f"verification/{name}.md", text)
+    for name, image in figures(outcomes, refinements, limit).items():
+        write(f"verification/{name}.svg", image)
+    made_of("verification", state)

@@ -1,0 +1,95 @@
+"""The layout of results.nc as Markdown: groups, variables, dimensions and units of studies that are run for it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from markdown import SOURCE, cell, digest, is_made_of, made_of, table, write
+
+import viscofric
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.study import StudyResults
+
+#: Groups that are alike for every number in their name.
+_NUMBERED = re.compile(r"^/(fields|materials)/\d+")
+_WORDS = {
+    "/": "The study itself; it holds attributes only.",
+    "/isotherms": "The measured moduli (tensile) that were used.",
+    "/shift_factors": "log10 α of each isotherm.",
+    "/superposition": "Whether superposition holds: what was checked, in numbers and sentences.",
+    "/master_curve": "The isotherms shifted to the reference temperature, and the fit at the same points.",
+    "/laws": "Every law that describes the shift factors, compared.",
+    "/shift_law": "The law that is used, or the best one, over the same temperatures.",
+    "/spectrum": "The retardation spectrum at the reference temperature.",
+    "/spectrum_curve": "Its storage and loss modulus over a wider range, with the 95 % band.",
+    "/prediction": "All cases over the axes that have more than one point; the others are single coordinates.",
+    "/prediction_master": "Friction at the reference temperature over the reduced speeds α(T)·v.",
+    "/measurement": "The separated measurement, and the prediction at the same points.",
+    "/measurement_master": "Measured friction over the reduced speed, at the load of the master curve.",
+    "/agreement": "Prediction against measurement, at each temperature.",
+    "/assumptions": "What the predictions take for granted, as checked.",
+    "/fields/<n>": "Pressure and displacement of the case with the number n, where they were kept.",
+    "/materials/<n>/…": "Of several rubbers, the groups of each from `/isotherms` to `/spectrum_curve`.",
+}
+
+
+def example(folder: Path) -> StudyResults:
+    """Run the built-in example at two speeds, so coarse that it takes seconds."""
+    for file in (SOURCE / "example").iterdir():
+        shutil.copy(file, folder)
+    study = folder / "study.toml"
+    text = re.sub(r"\bpoints = \d+", "points = 2", study.read_text(encoding="utf-8"), count=1)
+    text = re.sub(r"(?m)^accuracy = .*$", "accuracy = 0.1\nmaster_curve_points = 3", text)
+    study.write_text(text, encoding="utf-8")
+    runs = folder / "mtm.csv"
+    lines = runs.read_text(encoding="utf-8").splitlines(keepends=True)
+    cooler = ("29.", "30.", "59.", "60.")  # °C: one temperature of three is enough
+    runs.write_text("".join(line for line in lines if not line.startswith(cooler)), encoding="utf-8")
+    return viscofric.run_study(study)
+
+
+def section(name: str, group: xarray.Dataset) -> str:
+    """Return what the page says of one group."""
+    rows = [
+        [
+            f"`{variable}`" + (" (coordinate)" if variable in group.coords else ""),
+            ", ".join(f"`{dimension}`" for dimension in values.dims) or "one value",
+            cell(values.attrs.get("units", "")),
+            cell(values.attrs.get("long_name", "")),
+        ]
+        for variable, values in group.variables.items()
+    ]
+    shown = [f"## `{name}`", _WORDS[name]]
+    if rows:
+        shown.append(table(["variable", "dimensions", "unit", "meaning"], rows, numbers=False))
+    if group.attrs:
+        shown.append("Attributes: " + ", ".join(f"`{attribute}`" for attribute in group.attrs) + ".")
+    return "\n\n".join(shown)
+
+
+def page(results: StudyResults) -> str:
+    """Return all groups, numbered ones once."""
+    shown = {}
+    for group in results.tree.subtree:
+        name = _NUMBERED.sub(r"/\1/<n>", group.path)
+        if group.ds.variables or group.ds.attrs:
+            shown.setdefault(name, section(name, group.to_dataset(inherit=False)))
+    shown["several"] = "## `/materials/<n>/…`\n\n" + _WORDS["/materials/<n>/…"]
+    return "\n\n".join(shown.values())
+
+
+def generate() -> None:
+    """Write the page's tables unless they are made of the present code."""
+    state = digest("study", "example")
+    if is_made_of("results", state):
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        write("results.md", page(example(Path(folder))))
+    made_of("results", state)

@@ -1,0 +1,175 @@
+"""The reference is complete, pages are in the contents, and what is generated for them says what the code says."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+import pytest
+
+import viscofric as vf
+from viscofric.cli import main
+from viscofric.study import run_file
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import ModuleType
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+MADE = {"_build", "_generated", "auto_examples"}
+
+
+def pages() -> list[Path]:
+    found = [path.relative_to(DOCS) for path in DOCS.rglob("*.md")]
+    return sorted(path for path in found if not MADE & set(path.parts) and "api" not in path.parts[:-1])
+
+
+@pytest.fixture(scope="module")
+def extensions() -> dict[str, ModuleType]:
+    """Import the modules that make pages."""
+    sys.path.insert(0, str(DOCS / "_extensions"))
+    try:
+        import command_pages
+        import curve_file_pages
+        import markdown
+        import results_pages
+        import run_file_pages
+    finally:
+        sys.path.remove(str(DOCS / "_extensions"))
+    modules = (command_pages, curve_file_pages, markdown, results_pages, run_file_pages)
+    return {module.__name__: module for module in modules}
+
+
+def test_every_public_name_is_in_the_reference_once() -> None:
+    listed = re.findall(r"(?m)^   (\w+)$", (DOCS / "reference" / "api.md").read_text(encoding="utf-8"))
+    assert len(listed) == len(set(listed))
+    assert set(listed) == set(vf.__all__) - {"__version__"}
+
+
+def test_every_page_is_in_the_contents() -> None:
+    named: set[Path] = set()
+    for page in pages():
+        text = (DOCS / page).read_text(encoding="utf-8")
+        for block in re.findall(r"```\{toctree\}\n(.*?)```", text, re.DOTALL):
+            lines = [line for line in block.splitlines() if line and not line.startswith(":")]
+            targets = [re.sub(r".*<(.*)>$", r"\1", line) for line in lines]
+            for target in targets:
+                named |= {path.relative_to(DOCS) for path in (DOCS / page).parent.glob(f"{target}.md")}
+    assert set(pages()) - named == {Path("index.md")}
+
+
+def test_links_between_pages_lead_somewhere() -> None:
+    """Sphinx sees to links within the site; these are read in a checkout, too."""
+    texts = [*(DOCS / page for page in pages()), *ROOT.glob("*.md"), *ROOT.glob("benchmarks/**/*.md")]
+    dead = [
+        f"{path.relative_to(ROOT)}: {link}"
+        for path in texts
+        for link in re.findall(r"\]\(([^)\s#]+)[^)]*\)", path.read_text(encoding="utf-8"))
+        if not link.startswith(("http://", "https://", "_generated")) and not (path.parent / link).exists()
+    ]
+    assert not dead
+
+
+def test_every_command_is_in_the_reference_with_all_its_options(extensions: dict[str, ModuleType]) -> None:
+    page = extensions["command_pages"].page()
+
+    def walk(command: click.Command, context: click.Context, name: str) -> Iterator[tuple[str, click.Command]]:
+        if isinstance(command, click.Group):
+            for each in command.list_commands(context):
+                below = command.get_command(context, each)
+                assert below is not None
+                yield f"{name} {each}", below
+                yield from walk(below, click.Context(below, parent=context, info_name=each), f"{name} {each}")
+
+    found = list(walk(main, click.Context(main, info_name="viscofric"), "viscofric"))
+    assert len(found) > 15
+    parts = dict(re.findall(r"(?ms)^### (viscofric [^\n]+)\n(.*?)(?=^#|^\(|\Z)", page))
+    assert set(parts) == {name for name, _ in found}
+    for name, command in found:
+        for option in command.params:
+            if isinstance(option, click.Option) and not option.hidden:
+                assert all(f"`{one}" in parts[name] for one in option.opts), f"{name} {option.opts}"
+
+
+def test_every_key_of_a_run_file_is_in_the_reference(extensions: dict[str, ModuleType]) -> None:
+    page = extensions["run_file_pages"].page()
+    tables = dict(re.findall(r"(?ms)^## \[(\w+)\]\n(.*?)(?=^## |\Z)", page))
+    models = {
+        "material": run_file.MaterialTable,
+        "surface": run_file.SurfaceTable,
+        "layer": run_file.LayerTable,
+        "conditions": run_file.ConditionsTable,
+        "sweep": run_file.SweepTable,
+        "measurement": run_file.MeasurementTable,
+        "solver": run_file.SolverTable,
+        "uncertainty": run_file.UncertaintyTable,
+        "outputs": run_file.OutputsTable,
+        "cluster": run_file.ClusterTable,
+    }
+    assert set(tables) == {*models, "indenter"}
+    for name, model in models.items():
+        for key, field in model.model_fields.items():
+            row = next(line for line in tables[name].splitlines() if line.startswith(f"| `{field.alias or key}` |"))
+            assert field.description is not None
+            # what Markdown would take for markup is escaped
+            assert field.description in re.sub(r"\\(.)", r"\1", row)
+    for key in {key for shape in run_file.SHAPES.values() for key in shape.model_fields}:
+        assert f"| `{key}` |" in tables["indenter"]
+    assert "| `accuracy` | number from 0.0001 to 0.1 | `0.001` |" in tables["solver"]
+    assert '| `load` | quantity, such as `"25 N"`, `"2 N/mm"`, a list or a range |' in tables["conditions"]
+
+
+def test_columns_of_friction_curves_are_in_the_reference(extensions: dict[str, ModuleType], tmp_path: Path) -> None:
+    curves = vf.FrictionCurves([0.1], [300.0], [25.0], [0.01], [0.001], [0.002], [4], source="SYNTHETIC")
+    vf.write_friction_curves(curves, tmp_path / "curves.csv")
+    lines = (tmp_path / "curves.csv").read_text(encoding="utf-8").splitlines()
+    (headings,) = [line for line in lines if line.startswith("speed")]
+    page = extensions["curve_file_pages"].page()
+    assert all(f"| `{heading}` |" in page for heading in headings.split(","))
+
+
+def test_layout_of_results_tells_units_dimensions_and_meaning(extensions: dict[str, ModuleType]) -> None:
+    import xarray
+
+    group = xarray.Dataset(
+        {"load": (("case",), [1.0, 2.0], {"units": "N", "long_name": "normal load"})},
+        {"speed": ((), 3.0, {"units": "m/s", "long_name": "speed"})},
+        {"accuracy": 1e-3},
+    )
+    told = extensions["results_pages"].section("/prediction", group)
+    assert "| `load` | `case` | N | normal load |" in told
+    assert "| `speed` (coordinate) | one value | m/s | speed |" in told
+    assert "Attributes: `accuracy`." in told
+
+
+def test_only_what_has_changed_is_written(
+    extensions: dict[str, ModuleType], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    markdown = extensions["markdown"]
+    monkeypatch.setattr(markdown, "GENERATED", tmp_path)
+    markdown.write("a/page.md", "one")
+    before = (tmp_path / "a" / "page.md").stat().st_mtime_ns
+    markdown.write("a/page.md", "one")
+    assert (tmp_path / "a" / "page.md").stat().st_mtime_ns == before
+    markdown.write("a/page.md", "two")
+    assert (tmp_path / "a" / "page.md").read_text(encoding="utf-8") == "two"
+    assert not markdown.is_made_of("a", "state")
+    markdown.made_of("a", "state")
+    assert markdown.is_made_of("a", "state")
+    assert markdown.digest("units.py") != markdown.digest("errors.py")
+
+
+def test_cells_of_tables_are_safe(extensions: dict[str, ModuleType]) -> None:
+    markdown = extensions["markdown"]
+    assert markdown.cell("|E*|\n  <b> [x]") == r"\|E\*\| \<b\> \[x\]"
+    assert markdown.table(["a", "b"], [["x", "1"], ["y", "−2"]]).splitlines()[1] == "| --- | ---: |"
+
+
+def test_run_tells_of_the_site() -> None:
+    told = subprocess.run([sys.executable, str(ROOT / "run"), "--help"], capture_output=True, text=True, check=True)
+    assert "./run docs" in told.stdout
