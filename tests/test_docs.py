@@ -36,12 +36,12 @@ def extensions() -> dict[str, ModuleType]:
     try:
         import command_pages
         import curve_file_pages
-        import markdown
+        import page_parts
         import results_pages
         import run_file_pages
     finally:
         sys.path.remove(str(DOCS / "_extensions"))
-    modules = (command_pages, curve_file_pages, markdown, results_pages, run_file_pages)
+    modules = (command_pages, curve_file_pages, page_parts, results_pages, run_file_pages)
     return {module.__name__: module for module in modules}
 
 
@@ -150,24 +150,24 @@ def test_layout_of_results_tells_units_dimensions_and_meaning(extensions: dict[s
 def test_only_what_has_changed_is_written(
     extensions: dict[str, ModuleType], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    markdown = extensions["markdown"]
-    monkeypatch.setattr(markdown, "GENERATED", tmp_path)
-    markdown.write("a/page.md", "one")
+    parts = extensions["page_parts"]
+    monkeypatch.setattr(parts, "GENERATED", tmp_path)
+    parts.write("a/page.md", "one")
     before = (tmp_path / "a" / "page.md").stat().st_mtime_ns
-    markdown.write("a/page.md", "one")
+    parts.write("a/page.md", "one")
     assert (tmp_path / "a" / "page.md").stat().st_mtime_ns == before
-    markdown.write("a/page.md", "two")
+    parts.write("a/page.md", "two")
     assert (tmp_path / "a" / "page.md").read_text(encoding="utf-8") == "two"
-    assert not markdown.is_made_of("a", "state")
-    markdown.made_of("a", "state")
-    assert markdown.is_made_of("a", "state")
-    assert markdown.digest("units.py") != markdown.digest("errors.py")
+    assert not parts.is_made_of("a", "state")
+    parts.made_of("a", "state")
+    assert parts.is_made_of("a", "state")
+    assert parts.digest("units.py") != parts.digest("errors.py")
 
 
 def test_cells_of_tables_are_safe(extensions: dict[str, ModuleType]) -> None:
-    markdown = extensions["markdown"]
-    assert markdown.cell("|E*|\n  <b> [x]") == r"\|E\*\| \<b\> \[x\]"
-    assert markdown.table(["a", "b"], [["x", "1"], ["y", "−2"]]).splitlines()[1] == "| --- | ---: |"
+    parts = extensions["page_parts"]
+    assert parts.cell("|E*|\n  <b> [x]") == r"\|E\*\| \<b\> \[x\]"
+    assert parts.table(["a", "b"], [["x", "1"], ["y", "−2"]]).splitlines()[1] == "| --- | ---: |"
 
 
 def test_run_tells_of_the_site() -> None:

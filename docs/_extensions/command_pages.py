@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 import click
-from markdown import cell, table
+from page_parts import cell, table
 
 from viscofric.cli import main
 from viscofric.cli.overview import GROUPS

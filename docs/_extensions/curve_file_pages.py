@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from markdown import cell, table
+from page_parts import cell, table
 
 from viscofric.friction.curve_files import COLUMNS
 

@@ -10,7 +10,7 @@ import overview_figure
 import results_pages
 import run_file_pages
 import verification_pages
-from markdown import write
+from page_parts import write
 from sphinx.util import logging
 
 if TYPE_CHECKING:

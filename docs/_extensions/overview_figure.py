@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import matplotlib
 import numpy as np
-from markdown import SOURCE, digest, is_made_of, made_of, write
+from page_parts import SOURCE, digest, is_made_of, made_of, write
 from verification_pages import drawn
 
 import viscofric

@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from markdown import SOURCE, cell, digest, is_made_of, made_of, table, write
+from page_parts import SOURCE, cell, digest, is_made_of, made_of, table, write
 
 import viscofric
 

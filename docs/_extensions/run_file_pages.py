@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from markdown import cell, table
+from page_parts import cell, table
 
 from viscofric.study.json_schema import json_schema
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
-from markdown import digest, is_made_of, made_of, table, write
+from page_parts import digest, is_made_of, made_of, table, write
 
 from viscofric.report.house_style import STYLE, new_figure
 from viscofric.report.verification_figures import plot_errors, plot_hunter, plot_orders, plot_windows

@@ -100,7 +100,7 @@ def test_a_check_that_fails_is_not_published(
 ) -> None:
     wrong = Check("wrong", "", "", "", "", lambda: [Comparison("case", "what", 2.0, 1.0, 0.1)])
     monkeypatch.setattr(pages, "CHECKS", (wrong,))
-    monkeypatch.setattr("markdown.GENERATED", tmp_path)
+    monkeypatch.setattr("page_parts.GENERATED", tmp_path)
     with pytest.raises(RuntimeError, match="wrong"):
         pages.generate()
     assert not list(tmp_path.iterdir())
