@@ -39,6 +39,7 @@ show_warning_types = True
 # Markdown
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath", "fieldlist"]
 myst_heading_anchors = 4
+numfig = True  # equations are numbered through, over all pages
 
 # docstrings
 add_module_names = False

@@ -1,4 +1,4 @@
-"""What README and docs show is run: Python, commands and run files, in their order, in an empty folder."""
+"""What README, ARCHITECTURE and docs show is run: Python, commands, run files, in their order, in an empty folder."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ from viscofric.report import drawing
 ROOT = Path(__file__).parents[1]
 #: What building the site leaves there.
 MADE = {"_build", "_generated", "auto_examples"}
-PAGES = sorted([ROOT / "README.md", *(path for path in ROOT.glob("docs/**/*.md") if not MADE & set(path.parts))])
+WRITTEN = [path for path in ROOT.glob("docs/**/*.md") if not MADE & set(path.parts)]
+PAGES = sorted([ROOT / "README.md", ROOT / "ARCHITECTURE.md", *WRITTEN])
 FENCE = re.compile(r"^```([\w-]*)([^\n`]*)\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
 OUTPUT = {"", "text", "mermaid"}
 SHELL = {"console", "bash", "sh", "shell"}
