@@ -1,0 +1,61 @@
+"""
+The shape of a contact, from slow to fast
+=========================================
+
+At rest a ball touches rubber in Hertz's circle. In motion the contact first loses its rear, where the rubber comes back
+too late to touch; it becomes short and leans forward. Fast enough, the rubber answers everywhere with its glassy
+modulus, and the contact is a circle again, only smaller.
+"""
+
+# %%
+# Five speeds of the same ball under the same load on a made-up rubber. Zero and infinity are speeds like any other: the
+# two elastic limits.
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import viscofric as vf
+from viscofric.report.house_style import sequential_looks
+
+rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="1 ms")
+ball = vf.Ball(radius="10 mm")
+speeds = {"at rest": 0.0, "0.1 m/s": 0.1, "1 m/s": 1.0, "10 m/s": 10.0, "infinite": np.inf}
+solutions = {name: vf.solve_steady(rubber, ball, speed=speed, load="1 N") for name, speed in speeds.items()}
+
+print("speed      ahead   behind  half width (mm)      μ")
+for name, one in solutions.items():
+    print(f"{name:9s} {1e3 * one.front:6.3f}  {1e3 * one.rear:6.3f}  {1e3 * one.half_width:6.3f}", end="")
+    print(f"           {one.friction_coefficient:8.5f}")
+
+# %%
+# Outlines from above, where a twentieth of the mean pressure is reached, and pressures along the centre line. The ball
+# moves to the right; its axis is at zero. Slow contacts have a peak at their leading edge, which meets rubber that is
+# still glassy; it may be narrower than any cell, in which case ``diagnostics.peak_resolved`` is false and the largest
+# pressure is a lower bound.
+
+figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained")
+for (name, one), look in zip(solutions.items(), sequential_looks(len(solutions)), strict=True):
+    edge = 0.05 * one.load / one.contact_area
+    left.contour(1e3 * one.x, 1e3 * one.y, one.pressure.T, levels=[edge], colors=[look.colour])
+    middle = one.pressure.shape[1] // 2
+    right.plot(1e3 * one.x, 1e-3 * one.pressure[:, middle], color=look.colour, label=name)
+left.plot(0.0, 0.0, "k+")
+left.set_aspect("equal")
+left.set_ylabel("across the motion (mm)")
+for axes in (left, right):
+    axes.set_xlim(-2.2, 2.2)
+    axes.set_xlabel("along the motion (mm)")
+left.set_ylim(-2.2, 2.2)
+right.set_yscale("log")
+right.set_ylim(10.0, 2e4)
+right.set_ylabel("pressure (kPa)")
+right.legend(title="speed", frameon=False)
+
+# %%
+# Hertz's formulae give both ends: the radius of the contact shrinks by :math:`(E_\infty/E_0)^{1/3}`, here 4.64. At 10
+# m/s the rear edge has passed the axis: nothing but the front of the ball carries the load.
+
+shrinkage = solutions["at rest"].half_width / solutions["infinite"].half_width
+print(f"half width at rest over that at infinite speed: {shrinkage:.4f}")
+
+plt.show()

@@ -1,0 +1,66 @@
+"""
+A cylinder, and an exact solution
+=================================
+
+A long cylinder that rolls across its axis makes a line contact, a problem of plane strain. For a rubber with one
+retardation time it was solved exactly by Hunter in 1961. Numbers of a numerical method deserve trust where they meet
+such a solution; here they are laid on top of each other.
+"""
+
+# %%
+# The load of a line contact is a force per length. Rubber and cylinder are made up.
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import viscofric as vf
+from viscofric.contact.reference import hunter_line
+from viscofric.report.house_style import BLUE, VERMILION
+
+E0, E_inf, tau = "1 MPa", "10 MPa", "1 ms"
+radius, load = "10 mm", "1 N/mm"
+rubber = vf.Material.standard_linear_solid(E0=E0, E_inf=E_inf, tau=tau, poisson_ratio=0.5)
+cylinder = vf.Cylinder(radius=radius)
+speeds = np.geomspace(1e-2, 1e2, 7)
+solutions = [vf.solve_steady(rubber, cylinder, speed=speed, load=load) for speed in speeds]
+
+
+def exact(speed):
+    """Hunter's solution of the same contact."""
+    return hunter_line(load, radius, E0, E_inf, tau, speed, poisson_ratio=0.5)
+
+
+# %%
+# Friction over four decades of speed, and the pressure at one of them. The line is the exact solution, the marks are
+# solved contacts; the axis of the cylinder is at zero and it moves to the right.
+
+fine = np.geomspace(speeds[0], speeds[-1], 200)
+one = solutions[3]
+figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
+left.semilogx(fine, [exact(speed).friction_coefficient for speed in fine], color=VERMILION, label="Hunter, exact")
+left.semilogx(speeds, [each.friction_coefficient for each in solutions], "o", color=BLUE, label="solved")
+left.set_xlabel("speed (m/s)")
+left.set_ylabel("friction coefficient")
+left.set_ylim(bottom=0.0)
+left.legend(frameon=False)
+x = np.linspace(-5e-3, 5e-3, 600)
+every = slice(None, None, max(1, len(one.x) // 60))
+right.plot(1e3 * x, 1e-3 * exact(speeds[3]).pressure(x), color=VERMILION, label="Hunter, exact")
+right.plot(1e3 * one.x[every], 1e-3 * one.pressure[every, 0], "o", markersize=3.5, color=BLUE, label="solved")
+right.set_xlim(-5.0, 5.0)
+right.set_xlabel("along the motion (mm)")
+right.set_ylabel(f"pressure at {speeds[3]:.0f} m/s (kPa)")
+right.legend(frameon=False)
+
+# %%
+# How far they are apart, over the whole range:
+
+errors = [
+    each.friction_coefficient / exact(speed).friction_coefficient - 1.0
+    for speed, each in zip(speeds, solutions, strict=True)
+]
+friction = one.friction_coefficient
+print(f"friction at {speeds[3]:.0f} m/s: solved {friction:.6f}, exact {exact(speeds[3]).friction_coefficient:.6f}")
+print(f"largest relative difference at any speed: {np.max(np.abs(errors)):.1e}")
+
+plt.show()

@@ -1,0 +1,57 @@
+"""
+A thin layer on a rigid base
+============================
+
+Rubber on a metal core, a coating, the disc of a tribometer: few rubbers are endlessly deep. A base holds the rubber
+from below, so that the ball is pressed in less and friction falls. How thick must a layer be to pass for a half-space?
+"""
+
+# %%
+# The same ball on the half-space, and on layers that stick to their base, from a quarter of half the contact's width to
+# sixteen times as thick. The rubber is made up.
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import viscofric as vf
+from viscofric.report.house_style import BLUE, GREEN, GREY
+
+rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+ball = vf.Ball(radius="10 mm")
+contact = {"speed": "1 m/s", "load": "0.1 N", "accuracy": 3e-3}
+half_space = vf.solve_steady(rubber, ball, **contact)
+
+relative = np.geomspace(0.25, 16.0, 7)
+thickness = relative * half_space.half_width  # m
+layers = [vf.solve_steady(rubber, ball, layer=vf.Layer(one, bonded=True), **contact) for one in thickness]
+
+# %%
+# Friction forgets the base much sooner than the indentation does: what is lost is lost near the contact, but the rubber
+# gives way far below it. On a layer of four half widths (dashed) friction is 2 % low and the indentation 24 %, on one
+# of eight 0.4 % and 13 %.
+
+figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")
+for name, colour, marker, values, limit in (
+    ("friction coefficient", BLUE, "o", [one.friction_coefficient for one in layers], half_space.friction_coefficient),
+    ("indentation", GREEN, "s", [one.indentation for one in layers], half_space.indentation),
+):
+    axes.semilogx(relative, np.array(values) / limit, marker=marker, color=colour, label=name)
+axes.axhline(1.0, color=GREY, linewidth=0.8)
+axes.axvline(4.0, color=GREY, linewidth=0.8, linestyle="--")
+axes.set_xticks(relative, [f"{one:g}" for one in relative], minor=False)
+axes.set_xticks([], minor=True)
+axes.set_ylim(0.0, 1.05)
+axes.set_xlabel("thickness of the layer over half the width of the contact on the half-space")
+axes.set_ylabel("of the value on the half-space")
+axes.legend(frameon=False)
+
+# %%
+# The same in numbers:
+
+for depth, one in zip(relative, layers, strict=True):
+    friction, indentation = one.friction_coefficient, 1e3 * one.indentation
+    print(f"{depth:5g} half widths: friction {friction:.5f}, indentation {indentation:.4f} mm")
+print(f"on the half-space: friction {half_space.friction_coefficient:.5f}")
+friction_on_thinnest = layers[0].friction_coefficient
+
+plt.show()

@@ -1,0 +1,56 @@
+"""
+The friction master curve (the paper's Figure 7)
+================================================
+
+If temperature shifts the modulus along the frequencies, it shifts friction along the speeds, by the same factor:
+:math:`\\mu(v, T) = \\mu(\\alpha(T)\\,v, T_0)` under the same load. Measurements at a few temperatures then make one
+curve over more speeds than any tribometer reaches.
+"""
+
+# %%
+# **Synthetic** data of the built-in fluoroelastomer again: runs of a traction machine, and sweeps that tell the shift
+# factors. Friction itself is not used to find them.
+
+from importlib.resources import files
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import viscofric as vf
+from viscofric import report
+from viscofric.report.house_style import mark_synthetic
+
+example = files("viscofric") / "example"
+measured = vf.separate(vf.read_mtm(example / "mtm.csv"))
+fit = vf.superpose(vf.read_dma(example / "dma.csv", deformation="tension"), reference="30 degC")
+rubber = vf.Material(vf.fit_retardation_spectrum(fit.master_curve), shift=fit.shift_factors, poisson_ratio=0.5)
+
+# %%
+# Shifted to 30 °C, friction at 90 °C becomes that at half a millimetre per minute and more.
+
+master = vf.shift_friction(measured, shift=fit.shift_factors, reference="30 degC")
+slowest, fastest = master.reduced_range
+print(f"measured from 20 to 200 mm/s; as reduced speeds from {1e3 * slowest:.1e} to {1e3 * fastest:.0f} mm/s")
+
+# %%
+# The line is predicted at 30 °C, over the whole range: it goes through all temperatures, and on through the gaps
+# between them and beyond.
+
+ball = vf.Ball(radius="9.525 mm")
+predicted = vf.predict_friction(
+    rubber, ball, speeds=np.geomspace(1e-7, 1.0, 29), temperatures="30 degC", load="25 N", accuracy=3e-3
+)
+figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
+report.plot_friction_master_curve(axes, predicted, master)
+mark_synthetic([axes])
+
+# %%
+# So friction is known where it was not measured. At 65 °C, which nobody tested, the measured curve answers for all
+# speeds whose reduced speed it covers:
+
+speed, temperature = "60 mm/s", "65 degC"
+from_the_curve = float(master(speed, temperature))
+solved = vf.solve_steady(rubber, ball, speed=speed, load="25 N", temperature=temperature).friction_coefficient
+print(f"friction at {speed} and {temperature}: {from_the_curve:.4f} read from the curve, {solved:.4f} solved")
+
+plt.show()

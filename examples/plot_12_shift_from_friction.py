@@ -1,0 +1,70 @@
+"""
+Shift factors from friction
+===========================
+
+The way back: where friction curves of neighbouring temperatures overlap after a shift, they tell the shift factor
+:math:`\\alpha(T)` by themselves, without any analyser. A tribometer becomes an instrument for the rubber.
+"""
+
+# %%
+# Friction of a ball between 20 and 200 mm/s, **synthetic**: solved for the built-in fluoroelastomer at seven
+# temperatures, with 1 % of noise. The temperatures lie close enough for neighbouring curves to share some values.
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import viscofric as vf
+from viscofric import report
+from viscofric.report.house_style import mark_synthetic
+
+rubber = vf.synthetic_fluoroelastomer()
+exact = vf.predict_friction(
+    rubber,
+    vf.Ball(radius="15 mm"),
+    speeds=np.geomspace(0.02, 0.2, 8),
+    temperatures=[f"{celsius} degC" for celsius in (40, 46, 52, 60, 68, 78, 90)],
+    load="20 N",
+    accuracy=1e-2,
+)
+noise = 0.01 * exact.viscoelastic
+measured = vf.FrictionCurves(
+    speed=exact.speed,
+    temperature=exact.temperature,
+    load=exact.load,
+    viscoelastic=exact.viscoelastic + noise * np.random.default_rng(4).standard_normal(len(exact)),
+    viscoelastic_error=noise,
+    viscoelastic_scatter=3.0 * noise,
+    replicates=np.full(len(exact), 9),
+    source="SYNTHETIC",
+)
+
+# %%
+# All temperatures are sought at once on one smooth curve. Each shift factor comes with a standard error.
+
+master = vf.shift_friction(measured, reference="60 degC")
+found = master.shift_factors
+print(master.overlap_sentence)
+
+figure, (left, right) = plt.subplots(1, 2, figsize=(11.0, 4.2), layout="constrained")
+report.plot_friction_curves(left, measurement=measured)
+report.plot_friction_master_curve(right, measurement=master)
+mark_synthetic([left, right])
+
+# %%
+# Beside them, the law of the modulus that the friction was made with. Do both agree within their errors?
+
+agreement = vf.compare_shift_factors(master, rubber.shift)
+print(agreement)
+
+figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")
+report.plot_shift_comparison(axes, found, rubber.shift)
+
+# %%
+# To a table of factors belongs a law, with which temperatures between and beyond can be reached:
+
+law = found.law("wlf")
+log10_at_90 = float(found.log10("90 degC"))
+print(f"log10 α from 60 to 90 °C: {log10_at_90:.3f} from friction, ", end="")
+print(f"{float(rubber.shift.at_reference('60 degC').log10('90 degC')):.3f} planted; as a law: {law}")
+
+plt.show()

@@ -1,0 +1,70 @@
+"""
+A rubber found by its friction
+==============================
+
+Friction at several speeds and temperatures rests on the modulus over many decades of frequency. Turned around, it tells
+that modulus: a spectrum is sought whose contacts have the measured friction. What friction cannot tell is the level,
+since a stiffer rubber that loses a little more has the same friction, so that one known modulus is given with it.
+"""
+
+# %%
+# **Synthetic** friction of the built-in fluoroelastomer with 1 % of noise, as in the example on shift factors.
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import viscofric as vf
+from viscofric import report
+from viscofric.report.house_style import mark_synthetic
+
+planted = vf.synthetic_fluoroelastomer()
+ball = vf.Ball(radius="15 mm")
+exact = vf.predict_friction(
+    planted,
+    ball,
+    speeds=np.geomspace(0.02, 0.2, 6),
+    temperatures=[f"{celsius} degC" for celsius in (40, 46, 52, 60, 68)],
+    load="20 N",
+    accuracy=1e-2,
+)
+noise = 0.01 * exact.viscoelastic
+measured = vf.FrictionCurves(
+    speed=exact.speed,
+    temperature=exact.temperature,
+    load=exact.load,
+    viscoelastic=exact.viscoelastic + noise * np.random.default_rng(4).standard_normal(len(exact)),
+    viscoelastic_error=noise,
+    viscoelastic_scatter=3.0 * noise,
+    replicates=np.full(len(exact), 9),
+    source="SYNTHETIC",
+)
+
+# %%
+# The anchor is what a single measurement of the modulus would have given: \|E\| at 1 Hz and 60 °C. Shift factors are
+# found on the way.
+
+modulus = abs(planted.complex_modulus(2.0 * np.pi, "60 degC"))
+anchor = vf.ModulusAnchor(modulus, "1 Hz", "60 degC")
+found = vf.identify_material(measured, indenter=ball, anchor=anchor, reference="60 degC", samples=40, accuracy=3e-3)
+print(found)
+
+# %%
+# The identified modulus with its 95 % band; grey are the frequencies over which friction tells it to 5 %. The dashed
+# lines are the rubber that the friction was made with.
+
+figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
+report.plot_identified_modulus(axes, found, vf.Material(planted.modes_at("60 degC"), name="planted"))
+mark_synthetic([axes])
+
+# %%
+# The identified rubber is one like any other. Its friction, at the points that were measured and between them:
+
+figure, axes = plt.subplots(figsize=(7.5, 4.6), layout="constrained")
+report.plot_friction_curves(axes, found.friction, measured)
+mark_synthetic([axes])
+
+middle = np.sqrt(found.identified.low * found.identified.high)
+ratio = float(abs(found.material.complex_modulus(middle)) / abs(planted.complex_modulus(middle, "60 degC")))
+print(f"|E| at {middle:.1f} rad/s over the planted one: {ratio:.3f}")
+
+plt.show()
