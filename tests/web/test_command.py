@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import socket
@@ -49,7 +50,7 @@ def test_interrupt_ends_it_at_once_with_nothing_left(tmp_path: Path, kind: signa
         assert served.process.wait(10.0) == 0
         assert time.monotonic() - begun < 5.0
         solving.join(5.0)
-        assert answers[0].count('"error"') + answers[0].count('"result"') == 1
+        assert json.loads(answers[0].splitlines()[-1])["event"] in ("error", "result")  # it may just have been done
         assert ended(children, within=0.5)
     assert left_in(tmp_path) == []
 
