@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import httpx
+    from playwright.sync_api import Browser
+
+    from web.browser_tab import Tab
 
 
 @pytest.fixture(scope="session")
@@ -28,3 +31,24 @@ def client(server: Server, request: pytest.FixtureRequest) -> Iterator[httpx.Cli
     name = re.sub(r"\W", "-", request.node.name, flags=re.ASCII)[-56:]
     with server.client(f"test-{name}") as asking:
         yield asking
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Have a Chromium, once for all tests of a process; skip the test where there is none."""
+    from web.browser_tab import chromium_path, launched
+
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no Chromium is on the path")
+    with launched(path) as found:
+        yield found
+
+
+@pytest.fixture
+def tab(browser: Browser, server: Server) -> Iterator[Tab]:
+    """Open the page, wide and light; errors on its console fail the test."""
+    from web.browser_tab import tab
+
+    with tab(browser, server) as opened:
+        yield opened

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 #: What the exported run file is called.
 RUN_FILE = "study.toml"
-_HEAD = "# Made on the local page of viscofric.  Run it in its folder: viscofric run study.toml\n"
+_HEAD = "# Made on the local page of viscofric; to be run with: viscofric run study.toml\n"
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _LONGEST_LINE = 100
 _DEEPEST = 10

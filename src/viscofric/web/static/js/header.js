@@ -14,7 +14,7 @@ function unitsMenu() {
   const panel = h("div", { class: "menu", id: "units-menu", popover: "auto", role: "dialog", "aria-label": "Units" });
   const opener = h(
     "button",
-    { type: "button", class: "button quiet", popovertarget: "units-menu" },
+    { type: "button", class: "button quiet", "aria-label": "Units", popovertarget: "units-menu" },
     icon("units"),
     h("span", {}, "Units"),
   );

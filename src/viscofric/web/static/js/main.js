@@ -100,7 +100,7 @@ function addStep(id, number, module) {
     goTo(id);
   });
   document.getElementById("steps").append(h("li", {}, link));
-  const heading = h("h2", { tabindex: "-1", id: `title-${id}` }, title);
+  const heading = h("h1", { tabindex: "-1", id: `title-${id}` }, title);
   const body = h("div", { class: "step-body" });
   const section = h(
     "section",

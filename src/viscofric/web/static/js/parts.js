@@ -55,8 +55,7 @@ export function button({ label, onClick, kind, symbol, title, disabled }) {
 
 /** A card with a heading, for figures and forms that belong together. */
 export function card(title, ...children) {
-  const heading = `heading-${(made += 1)}`;
-  return h("section", { class: "card", "aria-labelledby": heading }, h("h3", { id: heading }, title), ...children);
+  return h("section", { class: "card" }, h("h2", {}, title), ...children);
 }
 
 /** A place to drop files, which is also a button: fileDrop({label, accept, multiple, onFiles: (files) => …}). */
@@ -149,7 +148,7 @@ export function table(head, rows, caption) {
   const cell = (value) => h("td", {}, typeof value === "number" ? units.plainNumber(value, 5) : (value ?? "–"));
   return h(
     "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": caption ?? "Table" },
+    { class: "scroll", tabindex: "0", role: "group", "aria-label": caption ?? "Table" },
     h(
       "table",
       {},

@@ -31,12 +31,12 @@ function fetchFile(app, name) {
 
 function runFileCard(app) {
   const { button, card, h, note, textField } = app.fields;
-  const text = h("pre", { tabindex: "0", role: "region", "aria-label": "Run file" });
+  const text = h("pre", { tabindex: "0", role: "group", "aria-label": "Run file" });
   const about = h("p", { class: "help" });
   const wrong = note([], "error");
   const show = (found) => {
     if (!found) return;
-    text.replaceChildren(...coloured(found.text, h));
+    text.replaceChildren(...coloured(found.text.trimEnd(), h));
     const files = found.files?.length
       ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which are packed with it`}.`
       : "";

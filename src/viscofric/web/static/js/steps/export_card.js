@@ -83,7 +83,7 @@ export function cardCard(app) {
   const density = box("none");
   const wrong = note([], "error");
   const notes = note([]);
-  const text = h("pre", { tabindex: "0", role: "region", "aria-label": "Card", hidden: true });
+  const text = h("pre", { tabindex: "0", role: "group", "aria-label": "Card", hidden: true });
   const after = h("div", { class: "row" });
   const optional = {
     system: viewField(app, "card.system", "Units of the model", system),
