@@ -19,12 +19,12 @@ function logTicks(values) {
     [Infinity, 0],
   );
   const decades = Math.log10(high / low);
-  const plain = low >= 9e-4 && high <= 1.1e4;
+  const plain = low >= 9e-4 && high <= 3e4;
   if (!(decades > 1.8)) return { exponentformat: plain ? "none" : "power" };
   return { exponentformat: plain ? "none" : "power", dtick: Math.max(1, Math.ceil(decades / 9)) };
 }
 
-function plotlyAxis(axis = {}, dark, values = []) {
+function plotlyAxis(axis = {}, dark, values = [], side = "bottom") {
   const look = colours(dark);
   const range = axis.range?.map((value) => {
     const shown = units.number(value, axis.kind);
@@ -44,7 +44,7 @@ function plotlyAxis(axis = {}, dark, values = []) {
     minor: axis.log ? { ticks: "inside", ticklen: 3, tickcolor: look.quiet, showgrid: false } : undefined,
     gridcolor: look.line,
     zeroline: false,
-    automargin: true,
+    automargin: side,
     tickfont: { size: 12 },
     ...(range ? { range, autorange: false } : {}),
     ...(axis.equal ? { scaleanchor: "x", scaleratio: 1 } : {}),
@@ -83,7 +83,7 @@ export function layoutOf(spec, dark, forFile) {
     },
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
     xaxis: plotlyAxis(x, dark, along(spec, x, "x")),
-    yaxis: plotlyAxis(y, dark, along(spec, y, "y")),
+    yaxis: plotlyAxis(y, dark, along(spec, y, "y"), "left"),
     shapes: marks(spec, look).shapes,
     annotations: [...marks(spec, look).annotations, ...(forFile ? syntheticMark(spec) : [])],
     uirevision: spec.id,

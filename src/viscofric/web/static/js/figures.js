@@ -76,7 +76,7 @@ export function figure(container, first) {
   const caption = h("span", { class: "figure-caption" });
   const details = h("div", { class: "figure-table", hidden: true });
   const toggle = button({
-    label: "Table",
+    label: h("span", { class: "word" }, "Table"),
     kind: "quiet small",
     symbol: "table",
     onClick: () => showTable(details.hidden),
@@ -84,7 +84,7 @@ export function figure(container, first) {
   toggle.setAttribute("aria-expanded", "false");
   const downloads = ["PNG", "SVG", "CSV"].map((format) =>
     button({
-      label: format,
+      label: h("span", { class: "format" }, format),
       kind: "quiet small",
       symbol: format === "PNG" ? "down" : undefined,
       onClick: () => download(format.toLowerCase()),
@@ -94,9 +94,9 @@ export function figure(container, first) {
   const element = h(
     "figure",
     { class: "figure", id: `figure-${spec.id}` },
-    h("div", { class: "figure-head" }, heading, badge, tools),
+    h("div", { class: "figure-head" }, heading, tools),
     stage,
-    h("figcaption", {}, caption),
+    h("figcaption", {}, badge, caption),
     details,
   );
   container.append(element);
