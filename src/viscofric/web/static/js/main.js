@@ -168,7 +168,11 @@ async function begin() {
     state.onResult(key, summarise);
   summarise();
   showSynthetic();
-  const fromAddress = () => (steps.has(location.hash.slice(1)) ? location.hash.slice(1) : FIRST);
+  document.querySelector(".skip").addEventListener("click", (event) => {
+    event.preventDefault();
+    steps.get(current).heading.focus();
+  });
+  const fromAddress = () => (steps.has(location.hash.slice(1)) ? location.hash.slice(1) : (current ?? FIRST));
   window.addEventListener("popstate", () => fromAddress() !== current && goTo(fromAddress()));
   goTo(fromAddress(), { focus: false });
   watch();
