@@ -115,7 +115,7 @@ def test_browser_is_opened_unless_it_is_not_wanted(monkeypatch: pytest.MonkeyPat
     assert wanted == [True, False]
 
 
-@pytest.mark.parametrize("missing", ["fastapi", "uvicorn"])
+@pytest.mark.parametrize("missing", ["fastapi", "uvicorn", "tomli_w"])
 def test_missing_extra_is_named_in_a_sentence(tmp_path: Path, missing: str) -> None:
     program = f"import sys; sys.modules[{missing!r}] = None; from viscofric.cli import main; main()"
     done = subprocess.run(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import signal
 import socket
 import sys
@@ -16,6 +17,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
     from types import FrameType
+
+    import uvicorn
+
+    from viscofric.web.access import Door
+    from viscofric.web.children import Children
+    from viscofric.web.workspace import Workspaces
 
 PORT = 8765
 _LOCAL = {"127.0.0.1", "localhost", "::1"}
@@ -93,32 +100,30 @@ def serve(
     from viscofric.web.children import Children
     from viscofric.web.workspace import Workspaces
 
+    if not all(map(importlib.util.find_spec, ("fastapi", "uvicorn", "tomli_w"))):
+        raise ViscofricError(_NO_EXTRA)
     with contextlib.ExitStack() as stack, _stopped_by_signals() as stopping:
         listening = stack.enter_context(bound(host, port))
         door = Door(listening.getsockname()[1], host)
         children = Children()
         children.start()  # at once: it loads NumPy and the contact engine while this process loads the server
         stack.callback(children.close)
-        server = _server(door, children, study, stack.enter_context(contextlib.closing(Workspaces(files))))
-        stopping.append(children.stop)
-        stopping.append(lambda: setattr(server, "should_exit", True))
+        workspaces = stack.enter_context(contextlib.closing(Workspaces(files)))
+        # the browser starts meanwhile, too: what it asks waits at the socket
         if tell is not None:
             tell(door.address, door.port)
         if browser:
             threading.Thread(target=webbrowser.open, args=(door.address,), daemon=True).start()
+        server = _server(door, children, study, workspaces)
+        stopping += [children.stop, lambda: setattr(server, "should_exit", True)]
         server.run(sockets=[listening])
 
 
-def _server(door: Any, children: Any, study: dict[str, Any] | None, workspaces: Any) -> Any:
+def _server(door: Door, children: Children, study: dict[str, Any] | None, workspaces: Workspaces) -> uvicorn.Server:
     """Return the server, which handles no signals itself."""
-    try:
-        import uvicorn
+    import uvicorn
 
-        from viscofric.web.app import make_app
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] == "viscofric":
-            raise
-        raise ViscofricError(_NO_EXTRA) from None
+    from viscofric.web.app import make_app
 
     class Server(uvicorn.Server):
         @contextlib.contextmanager

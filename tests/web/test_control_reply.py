@@ -1,0 +1,37 @@
+"""Nothing freezes: while contacts are solved, the server answers at once, and uploads go on."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from web.test_kills import LONG, connect
+
+if TYPE_CHECKING:
+    from web.served_page import Server
+
+
+def test_server_answers_at_once_while_three_studies_are_solved(server: Server) -> None:
+    connections = [connect(server, workers=1) for _ in range(3)]
+    try:
+        with server.client("workspace-reply") as client:
+            while client.get("/api/status").json()["running"] < 3:
+                time.sleep(0.05)
+            time.sleep(0.5)
+            taken = []
+            for number in range(40):
+                begun = time.monotonic()
+                if number % 4:
+                    assert client.get("/api/status").json()["running"] >= 3
+                else:
+                    client.put("/api/files/large.csv", content=b"0" * 2_000_000)
+                taken.append(time.monotonic() - begun)
+                time.sleep(0.02)
+            # what a person does not take for a wait; the processes that solve are nicer than the server
+            assert np.quantile(taken, 0.95) < 0.5
+            assert client.post("/api/jobs/check", json={"study": LONG}).text.count('"event":"result"') == 1
+    finally:
+        for connection in connections:
+            connection.close()
