@@ -125,6 +125,19 @@ def test_server_for_all_hosts_answers_to_addresses_but_not_to_any_name() -> None
     assert Door(8765, "::1").is_host("[::1]:8765")
 
 
+def test_browser_is_invited_once() -> None:
+    door = Door(8765)
+    token = door.invite().partition("token=")[2]
+    assert token != door.token
+    assert not door.is_token(token)
+    assert [door.opens(token), door.opens(token), door.opens(door.token), door.opens(door.token)] == [
+        True,
+        False,
+        True,
+        True,
+    ]
+
+
 def test_tokens_differ_and_are_long() -> None:
     tokens = {Door(1).token for _ in range(100)}
     assert len(tokens) == 100

@@ -62,11 +62,14 @@ class Door:
     host : str
         That the server is bound to.
     token : str
+    invitations : set of str
+        Further tokens, each good for one use: other users of the machine can read the command lines of browsers.
     """
 
     port: int
     host: str = "127.0.0.1"
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+    invitations: set[str] = field(default_factory=set)
 
     @property
     def cookie(self) -> str:
@@ -76,8 +79,16 @@ class Door:
     @property
     def address(self) -> str:
         """What the user opens."""
+        return self._address(self.token)
+
+    def invite(self) -> str:
+        """Return an address that can be opened once."""
+        self.invitations.add(invitation := secrets.token_urlsafe(24))
+        return self._address(invitation)
+
+    def _address(self, token: str) -> str:
         host = "127.0.0.1" if self.host in _EVERYWHERE else self.host
-        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}/?token={self.token}"
+        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}/?token={token}"
 
     def is_host(self, value: str) -> bool:
         """Whether a Host header names this server, by an address that nobody else can have made a name for."""
@@ -105,6 +116,13 @@ class Door:
     def is_token(self, value: str) -> bool:
         """Whether this is the token, in a time that does not tell how much of it."""
         return secrets.compare_digest(value.encode("utf-8", "replace"), self.token.encode())
+
+    def opens(self, value: str) -> bool:
+        """Whether an address with this may be opened; an invitation is used up by it."""
+        if value in self.invitations:
+            self.invitations.remove(value)
+            return True
+        return self.is_token(value)
 
 
 class Access:
@@ -143,7 +161,7 @@ class Access:
         if scope["path"] == "/" and scope["method"] == "GET":
             given = parse_qs(scope["query_string"].decode("latin-1")).get("token")
             if given:
-                return True if self.door.is_token(given[0]) else _NO_TOKEN
+                return True if self.door.opens(given[0]) else _NO_TOKEN
         scheme, _, bearer = headers.get("authorization", "").partition(" ")
         if scheme.lower() == "bearer" and self.door.is_token(bearer.strip()):
             return False

@@ -113,7 +113,7 @@ def serve(
         if tell is not None:
             tell(door.address, door.port)
         if browser:
-            threading.Thread(target=webbrowser.open, args=(door.address,), daemon=True).start()
+            threading.Thread(target=webbrowser.open, args=(door.invite(),), daemon=True).start()
         server = _server(door, children, study, workspaces)
         stopping += [children.stop, lambda: setattr(server, "should_exit", True)]
         server.run(sockets=[listening])
