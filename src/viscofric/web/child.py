@@ -57,6 +57,7 @@ def main(parent: int, warm: Iterable[str] = WARM) -> None:
     threading.Thread(target=desk.listen, args=(orders,), daemon=True).start()
     for module in warm:
         import_module(module)
+    desk.tell(0, "ready", {})
     while True:
         # an interrupt that came as its job ended reaches the loop; there is nothing left to interrupt then
         with contextlib.suppress(KeyboardInterrupt):

@@ -19,13 +19,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from viscofric.web.jobs import KINDS
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
+    from collections.abc import AsyncIterator, Callable
     from pathlib import Path
 
 MOST_CHILDREN = 4
 _PROGRAM = "from viscofric.web.child import main; main({parent})"
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+_FROM_THE_BEGINNING = 2
 _SOFT = 1.0  # s that a cancelled job has to end by itself
+_LONGEST_START = 20.0  # s
 _BEFORE_SPARE = 2.0  # s before another process is started in store: those that have work go first
 _LAST = {"result", "error", "cancelled", "ended"}
 _ENDED = "The process that computed this ended, for want of memory as a rule; ask for less accuracy or fewer points."
@@ -62,6 +64,7 @@ class Child:
         self.key: str | None = None  # of the workspace that it served last
         self.used = 0.0
         self.number = 0
+        self.ready = False
         self.stays = True
         self.messages: asyncio.Queue[Message] = asyncio.Queue()
         self._reader: threading.Thread | None = None
@@ -71,9 +74,10 @@ class Child:
         """Whether it runs still, and stays."""
         return self.stays and self.process.poll() is None
 
-    def attach(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Begin to hand on what it says."""
+    def attach(self, loop: asyncio.AbstractEventLoop, is_ready: Callable[[], object]) -> None:
+        """Begin to hand on what it says; call something once it has loaded what jobs need."""
         if self._reader is None:
+            self._is_ready = is_ready
             self._reader = threading.Thread(target=self._read, args=(loop,), daemon=True)
             self._reader.start()
 
@@ -91,7 +95,10 @@ class Child:
             loop.call_soon_threadsafe(self._take, None, Message("ended", line("error", message=_ENDED, field=None)))
 
     def _take(self, number: int | None, message: Message) -> None:
-        if number in (None, self.number):
+        if message.event == "ready":
+            self.ready = True
+            self._is_ready()
+        elif number in (None, self.number):
             self.messages.put_nowait(message)
 
     def order(self, order: dict[str, Any]) -> None:
@@ -145,11 +152,23 @@ class Children:
         return len(self._all) - len(self._idle) + len(self._waiting)
 
     def start(self) -> None:
-        """Start a process for the first job to find; needs no event loop."""
-        if not self._closed and len(self._all) < self.most:
+        """Start a process for the first job to find, if there is none; needs no event loop.
+
+        One loads at a time, so that the first is ready soon.
+        """
+        if not self._closed and len(self._all) < self.most and all(child.ready for child in self._all if child.alive):
             child = Child()
             self._all.append(child)
             self._idle.append(child)
+
+    def attach(self) -> None:
+        """Begin to hear from the processes; within the event loop."""
+        for child in self._all:
+            child.attach(asyncio.get_running_loop(), self._one_is_ready)
+
+    def _one_is_ready(self) -> None:
+        self._serve_waiting()
+        self._keep_spare()
 
     async def run(
         self, kind: str, study: dict[str, Any], options: dict[str, Any], folder: Path
@@ -172,6 +191,7 @@ class Children:
         if self._closed:
             yield line("error", message=_STOPPED, field=None)
             return
+        self.attach()
         child = await self._lend(str(folder))
         number = child.number = next(self._numbers)
         child.messages = asyncio.Queue()
@@ -225,16 +245,16 @@ class Children:
         known = [child for child in self._idle if child.key == key] or [
             child for child in self._idle if child.key is None
         ]
-        if not known and len(self._all) < self.most:
+        if not known:
             self.start()
-            known = self._idle[-1:]
+            self.attach()
+            known = [child for child in self._idle if child.key is None]
         if not known:
             known = sorted(self._idle, key=lambda child: child.used)
         if not known:
             return None
         child = known[0]
         self._idle.remove(child)
-        child.attach(asyncio.get_running_loop())
         return child
 
     def _give_back(self, child: Child) -> None:
@@ -242,6 +262,9 @@ class Children:
             self._idle.append(child)
         else:
             self._bury(child)
+        self._serve_waiting()
+
+    def _serve_waiting(self) -> None:
         while self._waiting and (free := self._free(self._waiting[0][0])) is not None:
             _, place = self._waiting.popleft()
             if place.done():
@@ -251,12 +274,16 @@ class Children:
 
     def _bury(self, child: Child) -> None:
         child.close()
-        self._all.remove(child)
+        self._all = [one for one in self._all if one is not child]
 
     def _keep_spare(self) -> None:
-        """Have a process in store that nobody has used yet, so that a second job need not wait for one to start."""
-        if not any(child.key is None for child in self._idle):
+        """Have a process in store that nobody has used yet, so that the next job need not wait for one to start.
+
+        There are two from the beginning: the page asks for a curve and for one contact at once.
+        """
+        if len(self._all) < _FROM_THE_BEGINNING or not any(child.key is None for child in self._idle):
             self.start()
+            self.attach()
 
     def _cancel(self, child: Child) -> None:
         task = asyncio.get_running_loop().create_task(self._stop(child))
@@ -267,7 +294,8 @@ class Children:
         """Have a process give up its job; end it if it does not."""
         try:
             asyncio.get_running_loop().run_in_executor(None, child.order, {"cancel": child.number})
-            async with asyncio.timeout(_SOFT):
+            # one that still loads answers as soon as it has
+            async with asyncio.timeout(_SOFT if child.ready else _LONGEST_START):
                 while (await child.messages.get()).event not in _LAST:
                     pass
         except TimeoutError:

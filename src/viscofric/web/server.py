@@ -121,11 +121,19 @@ def serve(
 
 def _server(door: Door, children: Children, study: dict[str, Any] | None, workspaces: Workspaces) -> uvicorn.Server:
     """Return the server, which handles no signals itself."""
+    import asyncio
+
     import uvicorn
 
     from viscofric.web.app import make_app
+    from viscofric.web.start import start
 
     class Server(uvicorn.Server):
+        async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            children.attach()
+            asyncio.get_running_loop().run_in_executor(None, start, study)  # loads what its first answer takes
+            await super().startup(sockets)
+
         @contextlib.contextmanager
         def capture_signals(self) -> Iterator[None]:
             yield
