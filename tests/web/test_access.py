@@ -13,6 +13,7 @@ import httpx
 import pytest
 
 from viscofric.web.access import Door, Limits
+from web.own_loop import run_apart
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -228,7 +229,7 @@ def test_body_that_does_not_come_is_given_up() -> None:
         told.append(message)
 
     scope = {"type": "http", "path": "/api/jobs/check", "headers": []}
-    asyncio.run(Limits(application, lambda path: 10, pause=0.05)(scope, silence, send))  # type: ignore[arg-type]
+    run_apart(Limits(application, lambda path: 10, pause=0.05)(scope, silence, send))  # type: ignore[arg-type]
     assert told[0]["status"] == 408
     assert json.loads(told[1]["body"]) == {"message": "Nothing of the body came for 0.05 s."}  # type: ignore[arg-type]
 

@@ -16,6 +16,7 @@ import pytest
 from viscofric.web import children as module
 from viscofric.web.children import Children
 from viscofric.web.jobs import Kind
+from web.own_loop import run_apart
 from web.processes_left import alive, ended, started_by
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def bench(tmp_path: Path) -> Iterator[Callable[..., Any]]:
                 children.start()
                 return await work(Bench(children, tmp_path))
 
-        return asyncio.run(all_of_it())
+        return run_apart(all_of_it())
 
     yield run
     assert ended(started_by(os.getpid(), "viscofric.web.child"), within=2.0)
