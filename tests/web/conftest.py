@@ -47,8 +47,8 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture
 def tab(browser: Browser, server: Server) -> Iterator[Tab]:
-    """Open the page, wide and light; errors on its console fail the test."""
+    """Open the page, wide and light, at its last step, which computes nothing; errors on its console fail the test."""
     from web.browser_tab import tab
 
-    with tab(browser, server) as opened:
+    with tab(browser, server, "#export") as opened:
         yield opened

@@ -1,0 +1,135 @@
+"""What is taken from the page: a run file that repeats its numbers, cards of the rubber, the whole study."""
+
+from __future__ import annotations
+
+import shutil
+import tomllib
+import zipfile
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import DataFileError, InputError
+from viscofric.rheology.cards import read_card
+from viscofric.web.jobs import curve, export_card, export_run_file, export_study
+from viscofric.web.jobs.rubbers import made_rubber
+from viscofric.web.study_text import DocumentError
+from web.contact_studies import BALL, Desk
+from web.rubber_workspace import EXAMPLE
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+#: Numbers of the page have six digits.
+ROUNDING = 1e-5
+
+SWEEPS: dict[str, Any] = {
+    **BALL,
+    "data_origin": "synthetic",
+    "material": {"dma": "dma.csv", "deformation": "tension", "reference_temperature": "30 degC"},
+    "conditions": {"load": "25 N", "speed": ["20 mm/s", "200 mm/s"], "temperature": "60 degC"},
+    "solver": {"accuracy": 0.1, "master_curve_points": 3},
+    "uncertainty": {"draws": 0},
+}
+
+
+@pytest.fixture
+def desk(tmp_path: Path) -> Desk:
+    made = Desk(tmp_path)
+    (made.context.files / "dma.csv").write_bytes(EXAMPLE.read_bytes())
+    return made
+
+
+def unpacked(desk: Desk, folder: Path) -> Path:
+    """Return the run file of the packed study, in a folder that holds nothing else but what was packed with it."""
+    found = desk.run(export_run_file, SWEEPS, pack=True)
+    with zipfile.ZipFile(desk.context.downloads / found["download"]["name"]) as packed:
+        packed.extractall(folder)
+    return folder / "study.toml"
+
+
+def test_packed_run_file_has_its_data_with_it_and_is_the_same_each_time(desk: Desk, tmp_path: Path) -> None:
+    path = unpacked(desk, tmp_path / "elsewhere")
+    assert sorted(one.name for one in path.parent.iterdir()) == ["dma.csv", "study.toml"]
+    assert (path.parent / "dma.csv").read_bytes() == EXAMPLE.read_bytes()
+    study = vf.load_study(path)
+    assert study.inputs == (path.parent / "dma.csv",)
+    assert study.conditions.speed == (0.02, 0.2)
+    first = (desk.context.downloads / "study.zip").read_bytes()
+    assert desk.run(export_run_file, SWEEPS, pack=True)["download"]["size"] == len(first)
+    assert (desk.context.downloads / "study.zip").read_bytes() == first
+
+
+def test_run_file_is_told_with_its_cases_its_files_and_what_is_wrong(desk: Desk) -> None:
+    sound = desk.run(export_run_file, SWEEPS)
+    assert tomllib.loads(sound["text"]) == SWEEPS
+    assert (sound["problems"], sound["cases"], sound["files"]) == ([], 2, ["dma.csv"])
+    missing = desk.run(export_run_file, {**SWEEPS, "material": {**SWEEPS["material"], "dma": ["dma.csv", "two.csv"]}})
+    assert missing["problems"] == [
+        {"field": "material.dma", "message": "The file two.csv is not here; drop it on the page first."}
+    ]
+    wrong = desk.run(export_run_file, {**SWEEPS, "indenter": {"shape": "bal", "radius": "9.525 mm"}})
+    assert [one["field"] for one in wrong["problems"]] == ["indenter"]
+    assert 'shape = "bal"' in wrong["text"]
+    with pytest.raises(DocumentError, match="did you mean 'ball'"):
+        desk.run(export_run_file, {**SWEEPS, "indenter": {"shape": "bal", "radius": "9.525 mm"}}, pack=True)
+
+
+@pytest.mark.parametrize("form", ["abaqus", "ansys", "comsol", "json", "csv"])
+def test_card_holds_the_rubber_of_the_page(form: str, desk: Desk) -> None:
+    found = desk.run(export_card, BALL, format=form, poisson_ratio=0.499, unit_system="MPa")
+    path = desk.context.downloads / found["download"]["name"]
+    assert path.read_text(encoding="utf-8") == found["text"]
+    assert found["download"]["size"] == path.stat().st_size
+    card, page = read_card(path), made_rubber(BALL, desk.context).material
+    omega = np.geomspace(1e-3, 1e6, 10)
+    # a Prony series in fifteen digits, back to retardation
+    np.testing.assert_allclose(card.complex_modulus(omega), page.complex_modulus(omega), rtol=1e-6)
+
+
+def test_what_a_program_cannot_take_is_told_in_a_sentence(desk: Desk) -> None:
+    with pytest.raises(InputError, match=r"LS-DYNA takes at most 18 terms.*fit it with at most 17"):
+        desk.run(export_card, BALL, format="ls-dyna", poisson_ratio=0.499, density="1800 kg/m^3")
+    with pytest.raises(InputError, match="density"):
+        desk.run(export_card, BALL, format="abaqus", density="1800 kg")
+    measured = desk.run(export_card, SWEEPS, format="abaqus")
+    assert any("reference temperature only" in one for one in measured["notes"])
+
+
+def test_a_file_that_is_gone_is_named(desk: Desk) -> None:
+    (desk.context.files / "dma.csv").unlink()
+    with pytest.raises(DataFileError, match=r"dma\.csv: is not one of the page's files"):
+        desk.run(export_study, SWEEPS)
+
+
+@pytest.mark.slow
+def test_whole_study_has_the_numbers_of_page_and_command_line_and_takes_up_where_it_was(
+    desk: Desk, tmp_path: Path
+) -> None:
+    path = unpacked(desk, tmp_path / "elsewhere")
+    stored = vf.run_study(path)
+    shown, asked = desk.run(curve, SWEEPS), stored.dataset
+    np.testing.assert_allclose(shown["friction"], asked["friction_coefficient"].values.ravel(), rtol=ROUNDING)
+    np.testing.assert_allclose(shown["error"], asked["friction_error"].values.ravel(), rtol=ROUNDING)
+
+    # as a run that was stopped leaves it
+    shutil.copytree(stored.folder / "cases", desk.context.cache / "study" / "study.results" / "cases")
+    found = desk.run(export_study, SWEEPS, workers=1)
+    assert (found["cases"], found["failed"], found["synthetic"]) == (2, 0, True)
+    labels = [message["label"] for event, message in desk.told if event == "progress"]
+    assert any(label.startswith("solving contacts") for label in labels)
+    assert labels[-1] == "drawing figures and report"
+
+    downloads = desk.context.downloads
+    names = [one["name"] for one in found["downloads"]]
+    assert names == ["report.html", "results.nc", "results.csv", "results.xlsx", "figures.zip"]
+    assert all(one["size"] == (downloads / one["name"]).stat().st_size > 0 for one in found["downloads"])
+    assert "A ball on a synthetic rubber" in (downloads / "report.html").read_text(encoding="utf-8")
+    compared = vf.compare_results(stored.folder, downloads / "results.csv", tolerance=0.0)
+    assert compared.equal
+    assert compared.cases == 2
+    with zipfile.ZipFile(downloads / "figures.zip") as pictures:
+        assert {name.rpartition(".")[2] for name in pictures.namelist()} == {"png", "svg"}
