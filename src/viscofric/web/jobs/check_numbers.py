@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 from viscofric.rheology.superposition.overlap import LogSweep
 from viscofric.rheology.superposition.own_shifts import own_shifts
@@ -49,7 +50,7 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
                 "colder": plain(pair.colder),
                 "warmer": plain(pair.warmer),
                 "distance": plain(pair.distance),
-                "error": plain(pair.standard_error),
+                "error95": plain(LEVEL_95 * pair.standard_error),
             }
             for pair in check.neighbours
         ],

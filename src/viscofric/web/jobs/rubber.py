@@ -38,9 +38,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``name``, ``synthetic``, ``source``, ``notes``; ``shift`` (`shift_numbers`), ``check`` (`check_numbers`; None
-        without sweeps), ``spectrum`` (`spectrum_numbers`) and ``band`` (`band_numbers`; None where nothing tells how
-        well the rubber is known, and ``no_band`` then says why).
+        ``name``, ``synthetic``, ``source``; ``notes`` (but those on files, which the job ``sweeps`` tells); ``shift``
+        (`shift_numbers`), ``check`` (`check_numbers`; None without sweeps), ``spectrum`` (`spectrum_numbers`) and
+        ``band`` (`band_numbers`; None where nothing tells how well the rubber is known, and ``no_band`` then says why).
 
     Raises
     ------
@@ -63,13 +63,15 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 
 def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -> dict[str, Any]:
+    # what was noted on reading is told by the job `sweeps`
+    read = () if rubber.sweeps is None else rubber.sweeps.notes
     return {
         "name": rubber.material.name,
         "source": without_folder(rubber.source, context),
         "citation": rubber.material.citation,
         "synthetic": rubber.synthetic,
         "deformation": None if rubber.sweeps is None else rubber.sweeps.deformation,
-        "notes": [without_folder(note, context) for note in rubber.notes],
+        "notes": [without_folder(note, context) for note in rubber.notes if note not in read],
         "shift": shift_numbers(rubber, held),
         "check": None if rubber.fit is None else check_numbers(rubber.fit),
         "spectrum": spectrum_numbers(rubber),

@@ -160,7 +160,7 @@ def line_of(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
         low, high = law.reference - _ABOUT, law.reference + _ABOUT
     limits = _limits(law)
     if limits is not None:
-        ends = [low if end is None else end for end in limits["answers"]]
+        ends = [usual if end is None else end for end, usual in zip(limits["answers"], (low, high), strict=True)]
         low, high = (ends[0], ends[1]) if limits["fitted"] is not None else (max(low, ends[0]), min(high, ends[1]))
     line = np.linspace(max(low, 1.0), high, _LINE)
     line = line[answered(law, line)]

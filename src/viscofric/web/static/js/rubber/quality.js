@@ -1,0 +1,145 @@
+// Whether superposition holds, in figures: diagrams that no shift changes, distances of neighbours, E′ against E″.
+
+import { byTemperature, fewEnough, named, pick, synthetic } from "./made.js";
+
+const DIAGRAMS = {
+  van_gurp_palmen: [
+    "van Gurp–Palmen",
+    { label: "|E*|", kind: "modulus", log: true },
+    { label: "loss angle δ", kind: "angle" },
+  ],
+  booij_thoone_palmen: [
+    "tan δ against |E*|",
+    { label: "|E*|", kind: "modulus", log: true },
+    { label: "tan δ", log: true },
+  ],
+  cole_cole: [
+    "E″ against E′",
+    { label: "E′", kind: "modulus", log: true },
+    { label: "E″", kind: "modulus", log: true },
+  ],
+  wicket: ["tan δ against E′", { label: "E′", kind: "modulus", log: true }, { label: "tan δ", log: true }],
+};
+
+/** van Gurp–Palmen and its like, distances of neighbours, and E′ against E″. */
+export function qualityCards(app) {
+  const { fields, figures } = app;
+  const { h, card } = fields;
+  let diagram = "van_gurp_palmen";
+  let answer = null;
+  const first = card("Do all isotherms fall on one curve?");
+  first.append(
+    pick(
+      {
+        label: "Diagram",
+        options: Object.entries(DIAGRAMS).map(([key, [title]]) => [key, title]),
+        value: diagram,
+        onChange: (value) => ((diagram = value), draw()),
+      },
+      fields,
+    ),
+  );
+  const points = figures.figure(first, {
+    id: "superposition-diagram",
+    title: "van Gurp–Palmen",
+    x: {},
+    y: {},
+    traces: [],
+  });
+  const second = card("How far neighbours lie apart");
+  const distances = figures.figure(second, {
+    id: "neighbour-distances",
+    title: "Distance of neighbouring isotherms",
+    caption: "In tan δ against |E*|, where no shift plays a part; bars are 95 % of noise.",
+    x: { label: "temperature between them", kind: "temperature" },
+    y: { label: "distance (decades)" },
+    traces: [],
+  });
+  const third = card("Do E′ and E″ belong to each other?");
+  const sentence = h("p", { class: "help" });
+  const causal = figures.figure(third, {
+    id: "kramers-kronig",
+    title: "Kramers–Kronig",
+    caption: "log₁₀ of what the one demands of the other, over the measured; open points at the ends are not judged.",
+    x: { label: "reduced frequency α ω", kind: "angular_frequency", log: true },
+    y: { label: "log₁₀ demanded/measured" },
+    traces: [],
+  });
+  third.append(sentence);
+  const draw = () => {
+    const check = answer?.check;
+    if (!check) return;
+    const [title, x, y] = DIAGRAMS[diagram];
+    const curves = check.diagrams[diagram];
+    const temperatures = curves.map((one) => one.temperature);
+    points.update({
+      title,
+      x,
+      y,
+      temperatures,
+      synthetic: synthetic(answer, app),
+      caption: `No shift along the frequency changes these points. ${byTemperature(temperatures, app)}`,
+      traces: curves.map((one) => ({
+        name: named(one.temperature, app),
+        legend: fewEnough(temperatures),
+        temperature: one.temperature,
+        x: one.x,
+        y: one.y,
+        mode: "lines+markers",
+        dash: "solid",
+        symbol: "circle",
+        size: 5,
+        width: 1,
+      })),
+    });
+    distances.update({
+      synthetic: synthetic(answer, app),
+      traces: [
+        {
+          name: "distance",
+          legend: false,
+          mode: "markers",
+          x: check.neighbours.map((pair) => (pair.colder + pair.warmer) / 2),
+          y: check.neighbours.map((pair) => pair.distance),
+          error: check.neighbours.map((pair) => pair.error95),
+        },
+      ],
+      marks: [{ y: 0 }],
+    });
+    const found = check.kramers_kronig;
+    third.hidden = !found;
+    if (!found) return;
+    sentence.textContent = found.sentence;
+    const part = (key, name, symbol, colour, judged) => {
+      const some = found.judged.map((one, at) => (one === judged ? at : -1)).filter((at) => at >= 0);
+      return {
+        name: judged ? name : `${name}, not judged`,
+        legend: judged,
+        group: name,
+        mode: "markers",
+        symbol,
+        colour,
+        open: !judged,
+        size: 6,
+        x: some.map((at) => found.angular_frequency[at]),
+        y: some.map((at) => found[key][at]),
+      };
+    };
+    causal.update({
+      synthetic: synthetic(answer, app),
+      marks: [{ y: found.allowed, label: "allowed rms of E′" }, { y: -found.allowed }],
+      traces: [true, false].flatMap((judged) => [
+        part("storage", "E′ that E″ demands", "square", "blue", judged),
+        part("loss", "E″ that E′ demands", "circle", "vermilion", judged),
+      ]),
+    });
+  };
+  return {
+    cards: [first, second, third],
+    show(next) {
+      answer = next;
+      for (const one of [first, second, third]) one.hidden = !next?.check;
+      draw();
+    },
+  };
+}

@@ -1,0 +1,213 @@
+// Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
+
+import { decades, follow, sourceOf, synthetic } from "./made.js";
+import { qualityCards } from "./quality.js";
+import { shiftedCard } from "./shifted.js";
+import { alphaFigure, lawTable, limitsInWords, residualTraces, verticalFigure } from "./shift_figures.js";
+
+const SHIFTS = [
+  ["measured", "as measured"],
+  ["best", "the best law"],
+  ["wlf", "WLF"],
+  ["arrhenius", "Arrhenius"],
+  ["vft", "VFT"],
+  ["wlf+arrhenius", "WLF, Arrhenius below Tg"],
+  ["polynomial", "polynomial in 1/T"],
+];
+const VERTICALS = [
+  ["none", "none"],
+  ["free", "fitted"],
+  ["density", "density times temperature"],
+];
+const KIND = { holds: "good", "other factors": "warning", roughly: "warning", fails: "error", untested: "warning" };
+
+export function mount(section, app) {
+  const { state, fields, figures } = app;
+  const { h, card, note } = fields;
+  const wait = fields.progressBar({ label: "Shifting the isotherms" });
+  const problem = note([], "error");
+  const nothing = note([], "note");
+  const verdict = verdictCard(app);
+  const form = settings(app);
+  const shifted = shiftedCard(app);
+  const factors = card("Shift factors");
+  const alpha = figures.figure(factors, {
+    id: "shift-factors",
+    title: "Shift factor against temperature",
+    x: { label: "temperature", kind: "temperature" },
+    y: { label: "log₁₀ α" },
+    traces: [],
+  });
+  const limits = h("p", { class: "help" });
+  factors.append(limits);
+  const laws = card("Laws");
+  const explanation = h("p", { class: "help" });
+  const table = h("div", { class: "words" });
+  laws.append(explanation, table);
+  const left = card("What each law leaves unexplained");
+  const residual = figures.figure(left, {
+    id: "law-residuals",
+    title: "Measured factors over each law",
+    caption: "log₁₀ of the measured over the law’s α; the band is the measurement’s 95 %.",
+    x: { label: "temperature", kind: "temperature" },
+    y: { label: "log₁₀ measured/law" },
+    traces: [],
+  });
+  const quality = qualityCards(app);
+  const vertical = card("Vertical shift");
+  const b = figures.figure(vertical, {
+    id: "vertical-shift",
+    title: "Vertical shift b(T)",
+    x: { label: "temperature", kind: "temperature" },
+    y: { label: "b" },
+    traces: [],
+  });
+  const notes = note([], "warning");
+  section.append(
+    wait,
+    problem,
+    nothing,
+    h("div", { class: "columns" }, h("div", {}, form), h("div", {}, verdict, notes)),
+    h("div", { class: "columns" }, h("div", {}, shifted.controls), h("div", {}, shifted)),
+    h("div", { class: "grid" }, factors, left),
+    laws,
+    h("div", { class: "grid" }, ...quality.cards, vertical),
+  );
+
+  const show = (now) => {
+    if (now.running) wait.start(now.words || "Making the rubber");
+    else wait.finish();
+    problem.set(now.error ? [now.error.message] : []);
+    const { answer } = now;
+    const shift = answer?.shift;
+    nothing.set(
+      answer && !shift ? ["This rubber has no shift with temperature: it serves at one temperature only."] : [],
+    );
+    verdict.show(answer);
+    shifted.show(answer, now);
+    factors.hidden = !shift;
+    laws.hidden = left.hidden = !shift?.laws.length;
+    vertical.hidden = !shift?.vertical;
+    quality.show(answer);
+    notes.set(answer?.notes ?? []);
+    if (!shift) return;
+    alpha.update(alphaFigure(answer, app));
+    limits.textContent = limitsInWords(shift, app);
+    explanation.textContent = shift.explanation;
+    table.replaceChildren(lawTable(shift, app));
+    residual.update({ traces: residualTraces(shift), synthetic: synthetic(answer, app) });
+    if (shift.vertical) b.update(verticalFigure(shift.vertical, answer, app));
+  };
+  let last = null;
+  follow(app, (now) => show((last = now)));
+  app.units.subscribe(() => last && show(last));
+}
+
+/** How sweeps are shifted; nothing of it holds for a rubber that is ready. */
+function settings(app) {
+  const { state, fields, api } = app;
+  const { h, card, button } = fields;
+  const problem = fields.note([], "error");
+  const given = h("div", { class: "row" });
+  const takeFactors = async (files) => {
+    try {
+      const [name] = await api.uploadFiles(files);
+      state.change({ "material.shift_factors": name, "material.fixed_shift_factors": undefined });
+      problem.set([]);
+    } catch (error) {
+      problem.set([error.message]);
+    }
+  };
+  const ofSweeps = h(
+    "div",
+    { class: "panel" },
+    fields.quantityField({
+      path: "material.reference_temperature",
+      label: "Reference temperature",
+      kind: "temperature",
+      help: "Where the shift factor is one.",
+    }),
+    fields.choiceField({
+      path: "material.shift",
+      label: "α(T) used",
+      options: SHIFTS,
+      otherwise: "measured",
+      help: "As measured answers between the isotherms only; a law goes beyond.",
+    }),
+    fields.choiceField({
+      path: "material.vertical_shift",
+      label: "Vertical shift b(T)",
+      options: VERTICALS,
+      otherwise: "none",
+    }),
+    given,
+    h(
+      "details",
+      {},
+      h("summary", {}, "Take shift factors from a file"),
+      fields.fileDrop({
+        label: "Drop shift factors",
+        help: "Temperature and α or log₁₀ α, as instruments’ software writes them.",
+        multiple: false,
+        onFiles: takeFactors,
+      }),
+    ),
+    problem,
+  );
+  const ready = h("p", { class: "help" }, "A rubber that is ready brings its shift with it.");
+  const element = card("Shift", ofSweeps, ready);
+  const refresh = () => {
+    const source = sourceOf(state.get("material"));
+    ofSweeps.hidden = source === "catalogue" || source === "file" || source === null;
+    ready.hidden = !ofSweeps.hidden;
+    const name = state.get("material.shift_factors");
+    given.replaceChildren(
+      ...(name
+        ? [
+            h("span", {}, `Shift factors of ${name}`),
+            button({
+              label: "Find them on the sweeps",
+              kind: "small",
+              onClick: () => state.set("material.shift_factors", undefined),
+            }),
+          ]
+        : []),
+    );
+  };
+  state.subscribe("material", refresh);
+  refresh();
+  return element;
+}
+
+function verdictCard({ fields }) {
+  const { h, note } = fields;
+  const headline = h("h3", { class: "verdict" });
+  const sentences = note([]);
+  const numbers = fields.keyNumbers();
+  const element = h("section", { class: "card", "aria-live": "polite" }, headline, numbers, sentences);
+  element.show = (answer) => {
+    const check = answer?.check;
+    element.hidden = !check;
+    if (!check) return;
+    headline.textContent = check.headline;
+    headline.dataset.kind = KIND[check.verdict];
+    sentences.set(check.sentences, { error: "error", warning: "warning" }[KIND[check.verdict]] ?? "note");
+    const { misfit, used, origin } = answer.shift;
+    const held = answer.shift.factors.held.filter(Boolean).length;
+    numbers.set([
+      { label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` },
+      { label: "figure of merit", value: check.figure_of_merit.toPrecision(2), remark: "up to 1 counts as sound" },
+      {
+        label: "E′ against E″",
+        value: check.kramers_kronig ? (check.kramers_kronig.holds ? "agree" : "do not agree") : "not tested",
+        remark: "Kramers–Kronig",
+      },
+      {
+        label: "α(T) used",
+        value: used === "measured" ? "as measured" : used,
+        remark: origin === "given" ? "factors of a file" : held ? `${held} held by hand` : "found on the sweeps",
+      },
+    ]);
+  };
+  return element;
+}

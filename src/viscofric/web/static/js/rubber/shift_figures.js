@@ -1,0 +1,173 @@
+// What the figures and the table of shift factors and their laws show.
+
+import { named, synthetic } from "./made.js";
+
+export function alphaFigure(answer, app) {
+  const { shift } = answer;
+  const { factors, material } = shift;
+  const traces = [];
+  if (factors) {
+    for (const [held, name, symbol] of [
+      [false, "isotherms, 95 %", "circle"],
+      [true, "held by hand", "square"],
+    ]) {
+      const some = factors.temperature.map((_, at) => at).filter((at) => factors.held[at] === held);
+      if (some.length)
+        traces.push({
+          name,
+          mode: "markers",
+          symbol,
+          colour: held ? "orange" : "blue",
+          x: some.map((at) => factors.temperature[at]),
+          y: some.map((at) => factors.log10[at]),
+          error: some.map((at) => factors.error95[at]),
+        });
+    }
+  }
+  const drawn = shift.laws.filter((row) => row.line && row.same_as === "");
+  const shown = drawn.find((row) => row.used) ?? drawn.find((row) => row.chosen);
+  drawn.forEach((row, at) =>
+    traces.push(
+      ...lineTraces(row, {
+        hidden: row !== shown,
+        colour: row === shown ? "vermilion" : ["green", "purple", "orange", "sky"][at % 4],
+        name: `${row.title}${row.used ? ", used" : row.chosen ? ", best" : ""}`,
+      }),
+    ),
+  );
+  if (!factors)
+    traces.push(
+      ...lineTraces(
+        { line: material.line, limits: material.limits },
+        { name: "α(T) of the rubber", colour: "vermilion" },
+      ),
+    );
+  return {
+    caption:
+      "Bars and bands are 95 %. Where a line is dotted, the law is extrapolated; it ends where it is not trusted.",
+    marks: [{ x: shift.reference, label: "reference" }],
+    synthetic: synthetic(answer, app),
+    traces,
+  };
+}
+
+/** A law as a solid line where it was fitted, dotted on either side. */
+function lineTraces({ line, limits }, look) {
+  const [low, high] = limits?.fitted ?? [-Infinity, Infinity];
+  const { temperature, log10, error95 } = line;
+  const last = temperature.length - 1;
+  const first = temperature.findIndex((kelvin) => kelvin >= low);
+  const end = temperature.findLastIndex((kelvin) => kelvin <= high);
+  const part = (from, to, more) => {
+    const cut = (values) => values.slice(from, to + 1);
+    const band =
+      error95 && !look.hidden
+        ? {
+            lower: cut(log10.map((one, at) => one - error95[at])),
+            upper: cut(log10.map((one, at) => one + error95[at])),
+          }
+        : {};
+    return { ...look, group: look.name, x: cut(temperature), y: cut(log10), ...band, ...more };
+  };
+  const beyond = { legend: false, dash: "dot", name: `${look.name}, extrapolated` };
+  return [
+    part(first, end, {}),
+    ...(first > 0 ? [part(0, first, beyond)] : []),
+    ...(end < last ? [part(end, last, beyond)] : []),
+  ];
+}
+
+export function limitsInWords({ material }, app) {
+  const { limits, words } = material;
+  if (!limits) return words;
+  const [low, high] = limits.answers;
+  const span =
+    low === null || high === null
+      ? high === null && low > 0
+        ? `above ${named(low, app)}`
+        : "at every temperature"
+      : `from ${named(low, app)} to ${named(high, app)}`;
+  return `Used: ${words}. It answers ${span}.`;
+}
+
+export function lawTable({ laws }, app) {
+  const { state, fields } = app;
+  const { button } = fields;
+  const rows = laws.map((row) => {
+    const words = row.refusal || row.words.replace(/^[^:]*: /, "");
+    const mark = row.used
+      ? "used"
+      : row.chosen
+        ? "best"
+        : row.same_as
+          ? `same curve as ${row.same_as.toUpperCase()}`
+          : "";
+    const use =
+      row.refusal ||
+      row.used ||
+      (state.get("material.shift_factors") === undefined && state.get("material.dma") === undefined)
+        ? null
+        : button({ label: `Use ${row.title}`, kind: "small", onClick: () => state.set("material.shift", row.kind) });
+    const answers = row.limits
+      ? row.limits.answers.map((kelvin) => (kelvin === null ? "∞" : named(kelvin, app))).join(" to ")
+      : "–";
+    return [
+      row.title,
+      words,
+      row.aicc === null ? "–" : row.aicc.toFixed(1).replace("-", "−"),
+      row.refusal ? "–" : row.scatter.toFixed(3),
+      answers,
+      mark,
+      use ?? "",
+    ];
+  });
+  return fields.table(
+    ["law", "constants", "AICc", "scatter (decades)", "answers", "", ""],
+    rows,
+    "Laws compared: the lower AICc, the better supported",
+  );
+}
+
+export function residualTraces({ laws, factors }) {
+  const band = factors
+    ? [
+        {
+          name: "95 % of measured",
+          colour: "sky",
+          width: 0,
+          x: factors.temperature,
+          y: factors.log10.map(() => 0),
+          lower: factors.error95.map((one) => -one),
+          upper: factors.error95,
+        },
+      ]
+    : [];
+  const rows = laws.filter((row) => row.residual && row.same_as === "");
+  const best = Math.min(...rows.map((row) => Math.max(...row.residual.log10.map(Math.abs))));
+  return [
+    ...band,
+    ...rows.map((row) => ({
+      name: row.title,
+      mode: "lines+markers",
+      size: 5,
+      width: 1.2,
+      x: row.residual.temperature,
+      y: row.residual.log10,
+      hidden: Math.max(...row.residual.log10.map(Math.abs)) > 20 * Math.max(best, 0.005),
+    })),
+  ];
+}
+
+export function verticalFigure({ temperature, b, lower, upper, fitted }, answer, app) {
+  const trace = fitted
+    ? { mode: "markers", x: temperature, y: b, error: upper.map((one, at) => one - b[at]) }
+    : { mode: "lines+markers", x: temperature, y: b };
+  return {
+    traces: [{ name: "b", legend: false, ...trace }],
+    marks: [{ y: 1 }],
+    synthetic: synthetic(answer, app),
+    caption: fitted
+      ? "Fitted with the shift factors; bars are 95 %."
+      : "ρT/(ρ₀T₀), as the elasticity of rubber has it.",
+  };
+}

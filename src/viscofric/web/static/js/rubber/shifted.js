@@ -1,0 +1,253 @@
+// The isotherms on one another, and one of them corrected by hand: dragged, or moved by a slider or a number.
+
+import { draggable, moveTrace } from "./drag.js";
+import { byTemperature, decades, fewEnough, named, pick, synthetic, worded } from "./made.js";
+
+const QUANTITIES = [
+  ["storage", "E′"],
+  ["loss", "E″"],
+  ["loss_tangent", "tan δ"],
+];
+const REACH = 3; // decades
+const STEP = 0.02;
+const SETTLE = 400; // ms after the last key
+
+/** The isotherms moved onto each other, and what is needed to move one by hand. */
+export function shiftedCard(app) {
+  const { state, fields, figures, api } = app;
+  const { h, card, button } = fields;
+  let quantity = "storage";
+  let answer = null;
+  let chosen = null; // K
+  let table = null; // misfit over decades moved, of the chosen isotherm
+  let timer = null;
+  const element = card("Isotherms on one another");
+  const choice = pick(
+    { label: "Quantity", options: QUANTITIES, value: quantity, onChange: (value) => ((quantity = value), draw()) },
+    fields,
+  );
+  element.append(choice);
+  const handle = figures.figure(element, {
+    id: "shifted-isotherms",
+    title: "Isotherms shifted to the reference",
+    x: { label: "reduced frequency α ω", kind: "angular_frequency", log: true },
+    y: { label: "E′", kind: "modulus", log: true },
+    traces: [],
+    height: 430,
+  });
+
+  const select = h("select", { id: "dragged-isotherm" });
+  const slider = h("input", { type: "range", id: "dragged-by", min: -REACH, max: REACH, step: STEP, value: 0 });
+  const exact = h("input", { type: "number", id: "dragged-to", step: 0.01 });
+  const live = h("p", { class: "help", "aria-live": "polite", id: "dragged-misfit" });
+  const free = button({ label: "Let go of it", kind: "small", onClick: () => release(chosen) });
+  const freeAll = button({
+    label: "Let go of all",
+    kind: "small",
+    onClick: () => state.set("material.fixed_shift_factors", undefined),
+  });
+  const why = h("p", { class: "help" });
+  const parts = h(
+    "div",
+    { class: "panel" },
+    h("div", { class: "field" }, h("label", { class: "field-label", for: "dragged-isotherm" }, "Isotherm"), select),
+    h(
+      "div",
+      { class: "field" },
+      h("label", { class: "field-label", for: "dragged-by" }, "Move it sideways (decades)"),
+      slider,
+    ),
+    h(
+      "div",
+      { class: "field" },
+      h("label", { class: "field-label", for: "dragged-to" }, "log₁₀ α of this isotherm"),
+      exact,
+    ),
+    live,
+    h("div", { class: "row" }, free, freeAll),
+  );
+  const controls = card(
+    "Correct one isotherm",
+    h(
+      "p",
+      { class: "help" },
+      "Drag it in the figure, or use these. It stays where you put it, and the others are fitted around it.",
+    ),
+    why,
+    parts,
+  );
+
+  const isotherm = () => answer?.shift?.isotherms.find((one) => one.temperature === chosen);
+  const keyOf = (kelvin) =>
+    Object.keys(state.get("material.fixed_shift_factors") ?? {}).find(
+      (key) => Math.abs((app.units.parse(key, "temperature") ?? -1) - kelvin) < 0.5,
+    );
+  const release = (kelvin) => {
+    const left = { ...(state.get("material.fixed_shift_factors") ?? {}) };
+    delete left[keyOf(kelvin)];
+    state.set("material.fixed_shift_factors", Object.keys(left).length ? left : undefined);
+  };
+  const hold = (kelvin, log10) => {
+    const key = keyOf(kelvin) ?? worded(kelvin);
+    state.set("material.fixed_shift_factors", {
+      ...(state.get("material.fixed_shift_factors") ?? {}),
+      [key]: Number(log10.toFixed(4)),
+    });
+    app.announce(`${named(kelvin, app)}: log10 α held at ${log10.toFixed(2)}.`);
+  };
+  const misfitAt = (by) => {
+    if (!table) return null;
+    const at = Math.round((by - table.moved[0]) / STEP);
+    return table.misfit[at] ?? null;
+  };
+  const tell = (by) => {
+    const one = isotherm();
+    if (!one) return;
+    const misfit = misfitAt(by);
+    const now = misfitAt(0);
+    const words = [by ? `Moved by ${decades(by)}` : one.held ? "Held by hand" : "As fitted"];
+    if (misfit !== null)
+      words.push(
+        `it misses its neighbours, as they lie now, by ${decades(misfit, 3)} (rms)${by && now !== null ? `, before ${now.toFixed(3)}` : ""}`,
+      );
+    else if (table) words.push("it overlaps neither neighbour");
+    live.textContent = `${words.join("; ")}.`;
+  };
+  const choose = async (kelvin) => {
+    const other = kelvin !== chosen;
+    chosen = kelvin;
+    const one = isotherm();
+    if (!one) return;
+    select.value = String(kelvin);
+    slider.value = 0;
+    exact.value = one.log10_shift.toFixed(3);
+    for (const control of [slider, exact]) control.disabled = one.is_reference;
+    free.disabled = !one.held;
+    if (other) draw();
+    table = null;
+    live.textContent = one.is_reference
+      ? "It is the reference, where α is one: choose another reference temperature to move it."
+      : "";
+    if (one.is_reference) return;
+    try {
+      const material = state.get("material");
+      const found = await api.runJob("isotherm_misfit", {
+        study: { material },
+        options: { temperature: worded(kelvin), reach: REACH, step: STEP },
+      });
+      if (chosen === kelvin && answer?.made_of === material) {
+        table = found;
+        tell(Number(slider.value));
+      }
+    } catch (error) {
+      live.textContent = error.message;
+    }
+  };
+  const traceOf = (kelvin) => answer.shift.isotherms.findIndex((one) => one.temperature === kelvin);
+
+  select.addEventListener("change", () => choose(Number(select.value)));
+  slider.addEventListener("input", () => {
+    const one = isotherm();
+    if (!one) return;
+    moveTrace(
+      handle,
+      traceOf(chosen),
+      app.units.number(one.reduced_frequency, "angular_frequency"),
+      Number(slider.value),
+    );
+    exact.value = (one.log10_shift + Number(slider.value)).toFixed(3);
+    tell(Number(slider.value));
+  });
+  slider.addEventListener("change", () => {
+    clearTimeout(timer);
+    timer = setTimeout(
+      () => Number(slider.value) !== 0 && isotherm() && hold(chosen, isotherm().log10_shift + Number(slider.value)),
+      SETTLE,
+    );
+  });
+  exact.addEventListener(
+    "change",
+    () => exact.value !== "" && Number.isFinite(Number(exact.value)) && hold(chosen, Number(exact.value)),
+  );
+
+  const canMove = (index) => {
+    const one = answer?.shift?.isotherms[index];
+    return Boolean(one) && !one.is_reference && !parts.hidden;
+  };
+  draggable(handle, {
+    can: canMove,
+    onStart: (index) =>
+      answer.shift.isotherms[index].temperature !== chosen && choose(answer.shift.isotherms[index].temperature),
+    onMove: (index, by) => {
+      slider.value = by;
+      exact.value = (answer.shift.isotherms[index].log10_shift + by).toFixed(3);
+      tell(Math.round(by / STEP) * STEP);
+    },
+    onEnd: (index, by) =>
+      by && hold(answer.shift.isotherms[index].temperature, answer.shift.isotherms[index].log10_shift + by),
+  });
+
+  const draw = () => {
+    const isotherms = answer?.shift?.isotherms ?? [];
+    const temperatures = isotherms.map((one) => one.temperature);
+    const [, label] = QUANTITIES.find(([key]) => key === quantity);
+    handle.update({
+      caption: [byTemperature(temperatures, app), isotherms.some((one) => one.held) ? "Squares are held by hand." : ""]
+        .filter(Boolean)
+        .join(" "),
+      y: {
+        label: answer?.shift?.vertical && quantity !== "loss_tangent" ? `${label}/b` : label,
+        kind: quantity === "loss_tangent" ? undefined : "modulus",
+        log: true,
+      },
+      synthetic: answer && synthetic(answer, app),
+      temperatures,
+      traces: isotherms.map((one) => ({
+        name: named(one.temperature, app),
+        legend: fewEnough(temperatures),
+        temperature: one.temperature,
+        x: one.reduced_frequency,
+        y: one[quantity],
+        mode: "lines+markers",
+        dash: "solid",
+        symbol: one.held ? "square" : "circle",
+        size: one.temperature === chosen ? 9 : 5,
+        width: one.temperature === chosen ? 3 : 1.2,
+      })),
+    });
+  };
+
+  element.controls = controls;
+  element.show = (next, { running }) => {
+    const same = next && next.made_of === answer?.made_of;
+    answer = next;
+    const isotherms = answer?.shift?.isotherms ?? [];
+    element.hidden = controls.hidden = isotherms.length === 0;
+    element.toggleAttribute("aria-busy", Boolean(running));
+    if (isotherms.length === 0) return;
+    const given = answer.shift.origin === "given";
+    why.textContent = given ? "The shift factors are those of a file; find them on the sweeps to correct one." : "";
+    parts.hidden = given;
+    freeAll.disabled = !isotherms.some((one) => one.held);
+    if (!same) {
+      select.replaceChildren(
+        ...isotherms.map((one) =>
+          h(
+            "option",
+            { value: String(one.temperature) },
+            `${named(one.temperature, app)}${one.is_reference ? " (reference)" : one.held ? " (held)" : ""}`,
+          ),
+        ),
+      );
+      const near = isotherms.reduce(
+        (best, one) =>
+          chosen !== null && Math.abs(one.temperature - chosen) < Math.abs(best.temperature - chosen) ? one : best,
+        isotherms.find((one) => !one.is_reference) ?? isotherms[0],
+      );
+      chosen = null;
+      if (!given) choose(near.temperature);
+    }
+    draw();
+  };
+  return element;
+}

@@ -1,0 +1,175 @@
+// Step 3: the spectrum, E'(ω) and E''(ω) at any temperature with their bands, and what the fit leaves unexplained.
+
+import { follow, named, pick, synthetic, worded } from "./made.js";
+import { settings, temperatureChoice } from "./spectrum_form.js";
+import { caption, keyNumbers, modesFigure, modesTable, modulusTraces, tangentTraces } from "./spectrum_figures.js";
+
+export function mount(section, app) {
+  const { state, fields, figures, units } = app;
+  const { h, card, note } = fields;
+  const wait = fields.progressBar({ label: "Fitting the spectrum" });
+  const problem = note([], "error");
+  const doubts = note([], "warning");
+  const numbers = fields.keyNumbers();
+  const first = card("Modulus over frequency");
+  const at = temperatureChoice(app, (kelvin) => ask(kelvin));
+  const modulus = figures.figure(first, {
+    id: "modulus",
+    title: "E′ and E″",
+    x: { label: "frequency", kind: "angular_frequency", log: true },
+    y: { label: "modulus", kind: "modulus", log: true },
+    traces: [],
+    height: 430,
+  });
+  first.insertBefore(at, first.children[1]);
+  const second = card("Loss tangent");
+  const tangent = figures.figure(second, {
+    id: "loss-tangent",
+    title: "tan δ",
+    x: { label: "frequency", kind: "angular_frequency", log: true },
+    y: { label: "tan δ", log: true },
+    traces: [],
+  });
+  const third = card("What the fit leaves unexplained");
+  const residual = figures.figure(third, {
+    id: "spectrum-residuals",
+    title: "Measured over fitted modulus",
+    caption: "log₁₀, at the points of the master curve.",
+    x: { label: "reduced frequency α ω", kind: "angular_frequency", log: true },
+    y: { label: "log₁₀ measured/fit" },
+    traces: [],
+  });
+  const fourth = card("Spectrum");
+  let kind = "retardation";
+  fourth.append(
+    pick(
+      {
+        label: "Spectrum",
+        options: [
+          ["retardation", "Retardation C(τ)"],
+          ["relaxation", "Relaxation E(τ)"],
+        ],
+        value: kind,
+        onChange: (value) => ((kind = value), draw()),
+      },
+      fields,
+    ),
+  );
+  const modes = figures.figure(fourth, {
+    id: "modes",
+    title: "Modes",
+    x: { label: "time τ", kind: "time", log: true },
+    y: {},
+    traces: [],
+  });
+  const table = h("div", {});
+  fourth.append(h("details", {}, h("summary", {}, "Table of modes"), table));
+  section.append(
+    wait,
+    problem,
+    numbers,
+    doubts,
+    h("div", { class: "columns" }, h("div", {}, settings(app)), h("div", {}, first)),
+    h("div", { class: "grid" }, second, third, fourth),
+  );
+
+  let now = null;
+  let moved = null; // the answer of "moduli" at another temperature
+  let running = null;
+
+  /** E(ω) at another temperature, by the server. */
+  const ask = async (kelvin) => {
+    running?.abort();
+    const reference = now?.answer?.spectrum.reference;
+    if (!now?.answer || kelvin === null || Math.abs(kelvin - reference) < 0.005) {
+      moved = null;
+      at.tell("");
+      return draw();
+    }
+    running = new AbortController();
+    const mine = running;
+    try {
+      const { material, uncertainty } = state.study;
+      const study = uncertainty === undefined ? { material } : { material, uncertainty };
+      const found = await app.api.runJob(
+        "moduli",
+        { study, options: { temperature: worded(kelvin), bands: now.complete } },
+        { signal: mine.signal },
+      );
+      if (running !== mine) return;
+      moved = found;
+      at.tell(found.extrapolated ? "Here the shift factor is extrapolated by its law." : "");
+      draw();
+    } catch (error) {
+      if (running === mine && error.name !== "AbortError") at.tell(error.message, true);
+    }
+  };
+
+  const draw = () => {
+    const answer = now?.answer;
+    if (!answer) return;
+    const { spectrum } = answer;
+    const here = moved ?? {
+      temperature: spectrum.reference,
+      modulus: spectrum.modulus,
+      band: answer.band ?? null,
+      moved: spectrum.measured,
+      isotherm: null,
+    };
+    const madeUp = synthetic(answer, app);
+    const title = here.temperature === null ? "E′ and E″" : `E′ and E″ at ${named(here.temperature, app)}`;
+    modulus.update({ title, synthetic: madeUp, caption: caption(answer, here, app), traces: modulusTraces(here) });
+    tangent.update({
+      title: here.temperature === null ? "tan δ" : `tan δ at ${named(here.temperature, app)}`,
+      synthetic: madeUp,
+      traces: tangentTraces(here),
+    });
+    third.hidden = !spectrum.residual;
+    if (spectrum.residual) {
+      const x = spectrum.measured.angular_frequency;
+      residual.update({
+        synthetic: madeUp,
+        marks: [{ y: 0 }],
+        traces: [
+          ["storage", "E′", "square", "blue"],
+          ["loss", "E″", "circle", "vermilion"],
+        ].map(([key, name, symbol, colour]) => ({
+          name,
+          mode: "markers",
+          symbol,
+          colour,
+          open: true,
+          size: 5,
+          x,
+          y: spectrum.residual[key],
+        })),
+      });
+    }
+    fourth.hidden = !spectrum.modes;
+    if (spectrum.modes) {
+      modes.update(modesFigure(answer, kind, madeUp));
+      table.replaceChildren(modesTable(spectrum, app));
+    }
+  };
+
+  const show = (next) => {
+    const before = now?.answer?.made_of;
+    now = next;
+    if (now.running) wait.start(now.words || "Making the rubber");
+    else wait.finish(now.answer?.no_band ? `No 95 % band: ${now.answer.no_band}.` : "");
+    problem.set(now.error ? [now.error.message] : []);
+    const { answer } = now;
+    for (const one of [first, second, third, fourth]) one.hidden = !answer;
+    numbers.set(answer ? keyNumbers(answer, app) : []);
+    doubts.set(
+      answer ? [...(answer.spectrum.fit?.notes ?? []), ...answer.spectrum.notes, ...(answer.band?.notes ?? [])] : [],
+    );
+    if (!answer) return;
+    at.show(answer);
+    if (answer.made_of !== before) moved = null;
+    draw();
+    if (at.kelvin() !== null && (answer.made_of !== before || now.complete)) ask(at.kelvin());
+  };
+  follow(app, show);
+  units.subscribe(() => now && show(now));
+}

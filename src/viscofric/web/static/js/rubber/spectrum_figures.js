@@ -1,0 +1,194 @@
+// What the figures and the table of the spectrum and the modulus show.
+
+import { named } from "./made.js";
+
+const SHOWN = 1e-10; // modes weaker than the strongest by more change nothing that can be seen
+
+export function keyNumbers({ spectrum, band }, { units }) {
+  if (spectrum.E0 === null) return [{ label: "rubber", value: "a table of moduli", remark: "without modes" }];
+  const error = (value) => (band && value ? `± ${units.show(value, "modulus", 2)} (95 %)` : "");
+  const { fit } = spectrum;
+  const all = [
+    {
+      label: "E₀, rubber",
+      value: units.show(spectrum.E0, "modulus"),
+      remark: [error(band?.E0_error95), fit?.E0_remark].filter(Boolean).join("; "),
+    },
+    {
+      label: "E∞, glass",
+      value: units.show(spectrum.E_inf, "modulus"),
+      remark: [error(band?.E_inf_error95), fit?.E_inf_remark].filter(Boolean).join("; "),
+    },
+    { label: "modes", value: String(spectrum.modes.tau.length), remark: fit?.method ?? "as the rubber says" },
+    { label: "Poisson’s ratio", value: String(spectrum.poisson_ratio), remark: "" },
+  ];
+  if (fit && fit.rms_storage !== null)
+    all.splice(3, 0, {
+      label: "misfit of E′, E″",
+      value: `${fit.rms_storage.toFixed(3)}, ${fit.rms_loss.toFixed(3)}`,
+      remark: "decades, rms",
+    });
+  return all;
+}
+
+export function caption(answer, here, app) {
+  const parts = [];
+  if (here.band) parts.push(`Bands hold each modulus with 95 % (${here.band.draws} draws of the rubber).`);
+  if (here.moved) parts.push("Points are all that was measured, brought to this temperature.");
+  if (here.isotherm)
+    parts.push(`Filled points are the sweep at ${named(here.isotherm.temperature, app)} as it was measured.`);
+  const range = answer.spectrum.fit?.frequency_range;
+  if (range) parts.push("Beyond the points the spectrum extrapolates.");
+  return parts.join(" ");
+}
+
+const MODULI = [
+  ["storage", "E′", "square", "blue"],
+  ["loss", "E″", "circle", "vermilion"],
+];
+
+export function modulusTraces({ modulus, band, moved, isotherm }) {
+  const lines = MODULI.map(([key, name, , colour]) => ({
+    name,
+    colour,
+    x: modulus.angular_frequency,
+    y: modulus[key],
+    ...(band ? { lower: band[key].lower, upper: band[key].upper } : {}),
+  }));
+  const points = moved
+    ? MODULI.map(([key, name, symbol, colour]) => ({
+        name: `${name} measured`,
+        mode: "markers",
+        open: true,
+        symbol,
+        colour,
+        size: 4,
+        x: moved.angular_frequency,
+        y: moved[key],
+      }))
+    : [];
+  const sweep = isotherm
+    ? MODULI.map(([key, name, symbol, colour]) => ({
+        name: `${name} of the sweep here`,
+        legend: false,
+        mode: "markers",
+        symbol,
+        colour,
+        size: 7,
+        x: isotherm.angular_frequency,
+        y: isotherm[key],
+      }))
+    : [];
+  return [...points, ...lines, ...sweep];
+}
+
+export function tangentTraces({ modulus, band, moved, isotherm }) {
+  const line = {
+    name: "tan δ",
+    colour: "green",
+    x: modulus.angular_frequency,
+    y: modulus.loss_tangent,
+    ...(band ? { lower: band.loss_tangent.lower, upper: band.loss_tangent.upper } : {}),
+  };
+  const points = moved
+    ? [
+        {
+          name: "measured",
+          mode: "markers",
+          open: true,
+          symbol: "diamond",
+          colour: "green",
+          size: 4,
+          x: moved.angular_frequency,
+          y: moved.loss_tangent,
+        },
+      ]
+    : [];
+  const sweep = isotherm
+    ? [
+        {
+          name: "the sweep here",
+          legend: false,
+          mode: "markers",
+          symbol: "diamond",
+          colour: "green",
+          size: 7,
+          x: isotherm.angular_frequency,
+          y: isotherm.loss_tangent,
+        },
+      ]
+    : [];
+  return [...points, line, ...sweep];
+}
+
+/** A stem for each mode, with its band and the times that no measured frequency reaches. */
+export function modesFigure(answer, kind, synthetic) {
+  const { spectrum, band } = answer;
+  const retardation = kind === "retardation";
+  const { tau } = retardation ? spectrum.modes : spectrum.relaxation;
+  const strength = retardation ? spectrum.modes.C : spectrum.relaxation.E;
+  const strongest = Math.max(...strength);
+  const seen = strength.map((value, at) => at).filter((at) => strength[at] > SHOWN * strongest);
+  const floor = Math.min(...seen.map((at) => strength[at])) / 2;
+  const stems = { x: [], y: [] };
+  for (const at of seen) {
+    stems.x.push(tau[at], tau[at], null);
+    stems.y.push(floor, strength[at], null);
+  }
+  const colour = retardation ? "blue" : "vermilion";
+  const traces = [
+    { name: "stems", legend: false, decoration: true, colour, width: 1.2, ...stems },
+    {
+      name: retardation ? "C_k" : "E_k",
+      mode: "markers",
+      symbol: retardation ? "circle" : "square",
+      colour,
+      size: 7,
+      x: seen.map((at) => tau[at]),
+      y: seen.map((at) => strength[at]),
+    },
+  ];
+  if (retardation && band?.modes) {
+    const inside = band.modes.tau.map((_, at) => at).filter((at) => band.modes.upper[at] > floor);
+    traces.unshift({
+      name: "95 % band",
+      colour: "sky",
+      width: 0,
+      x: inside.map((at) => band.modes.tau[at]),
+      y: inside.map((at) => band.modes.upper[at]),
+      lower: inside.map((at) => Math.max(band.modes.lower[at], floor)),
+      upper: inside.map((at) => band.modes.upper[at]),
+    });
+  }
+  const range = spectrum.fit?.frequency_range;
+  return {
+    title: retardation ? "Retardation modes" : "Relaxation modes (Prony series)",
+    caption: `${retardation ? "Compliance C of each mode over its retardation time." : "Modulus E of each mode over its relaxation time; the same material, converted exactly."} ${range ? "Between the dotted lines lie the times that the measured frequencies reach." : ""} ${retardation && band?.modes ? "A mode by itself is known badly, for its neighbours can stand in for it." : ""}`,
+    y: retardation ? { label: "compliance C (1/Pa)", log: true } : { label: "modulus E", kind: "modulus", log: true },
+    marks: range
+      ? [
+          { x: 1 / range[1], label: "measured from" },
+          { x: 1 / range[0], label: "to" },
+        ]
+      : [],
+    synthetic,
+    traces,
+  };
+}
+
+export function modesTable({ modes, relaxation }, { fields }) {
+  const count = Math.max(modes.tau.length, relaxation.tau.length);
+  const cell = (values, at) => (at < values.length ? values[at].toExponential(4).replace("-", "−") : "");
+  const rows = Array.from({ length: count }, (_, at) => [
+    String(at + 1),
+    cell(modes.tau, at),
+    cell(modes.C, at),
+    cell(relaxation.tau, at),
+    cell(relaxation.E, at),
+  ]);
+  return fields.table(
+    ["k", "retardation time τ (s)", "compliance C (1/Pa)", "relaxation time (s)", "modulus E (Pa)"],
+    rows,
+    "Retardation modes, and the same material as a Prony series",
+  );
+}

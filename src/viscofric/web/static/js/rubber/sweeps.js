@@ -1,0 +1,141 @@
+// Step 1: where the rubber comes from; what its files were taken for, what they hold, and what was flagged in them.
+
+import { FIRST_REFERENCE, follow, named, sourceOf } from "./made.js";
+import { fileTable, flaggedTable, isothermFigure, keyNumbers } from "./sweeps_figures.js";
+import { sourceForm } from "./sweeps_form.js";
+
+const MODULI = [
+  ["storage", "storage modulus", "′"],
+  ["loss", "loss modulus", "″"],
+  ["loss_tangent", "loss tangent tan δ", ""],
+];
+
+export function mount(section, app) {
+  const { state, fields, units } = app;
+  const { h, card, note, button } = fields;
+  const problem = note([], "error");
+  problem.setAttribute("role", "alert");
+  const form = sourceForm(app, (error) => problem.set(error ? [error.message] : []));
+  const told = card("What was recognised");
+  const numbers = fields.keyNumbers();
+  const files = h("div", {});
+  const notes = note([]);
+  const flagged = h("div", {});
+  const wait = fields.progressBar({ label: "Reading" });
+  told.append(wait, numbers, problem, notes, files, flagged);
+  const pictures = h("div", { class: "grid" });
+  const onward = h(
+    "div",
+    { class: "row" },
+    button({ label: "Shift the isotherms", kind: "main", onClick: () => app.goTo("shift") }),
+  );
+  section.append(h("div", { class: "columns" }, h("div", {}, form, onward), h("div", {}, told)), pictures);
+
+  const figures = MODULI.map(([key, label, primes]) => {
+    const place = h("div", { class: "card" });
+    pictures.append(place);
+    return {
+      key,
+      label,
+      primes,
+      place,
+      handle: app.figures.figure(place, {
+        id: `isotherms-${key.replace("_", "-")}`,
+        title: label[0].toUpperCase() + label.slice(1),
+        x: { label: "frequency", kind: "angular_frequency", log: true },
+        y: { label, log: true },
+        traces: [],
+      }),
+    };
+  });
+
+  let running = null;
+  const read = async () => {
+    running?.abort();
+    running = new AbortController();
+    const mine = running;
+    const material = state.get("material");
+    if (!sourceOf(material)) return show(null);
+    wait.start("Reading");
+    try {
+      const answer = await app.api.runJob("sweeps", { study: { material }, options: {} }, { signal: mine.signal });
+      if (running !== mine) return;
+      problem.set([]);
+      state.setResult("sweeps", answer);
+      show(answer);
+      app.announce(answer.source === "dma" ? `${answer.isotherms.length} isotherms read.` : "Rubber read.");
+      followReference(app, answer);
+    } catch (error) {
+      if (running !== mine || error.name === "AbortError") return;
+      show(null);
+      form.ask(error.field?.replace("material.", ""));
+      if (!fields.showError(error) || error.field === "material.dma") problem.set([error.message]);
+    } finally {
+      if (running === mine) wait.finish();
+    }
+  };
+
+  const show = (answer) => {
+    form.show(answer);
+    numbers.set(answer ? keyNumbers(answer, app) : []);
+    notes.set(answer ? [...(answer.about ?? []), ...answer.notes] : []);
+    files.replaceChildren(...fileTable(answer, app));
+    flagged.replaceChildren(...flaggedTable(answer, app));
+    onward.hidden = !answer;
+    const sweeps = answer?.source === "dma";
+    pictures.hidden = !answer;
+    for (const { handle, key, label, primes, place } of figures) {
+      if (sweeps) handle.update(isothermFigure(answer, { key, label, primes }, app));
+      place.hidden = !sweeps && key === "loss_tangent";
+    }
+    if (answer && !sweeps) showReady();
+  };
+
+  // A rubber without sweeps has its moduli at the reference to show.
+  let latest = null;
+  const showReady = () => {
+    const answer = latest?.answer;
+    if (!answer || state.result("sweeps")?.source === "dma") return;
+    const { modulus, reference } = answer.spectrum;
+    const at = reference === null ? "" : ` at ${named(reference, app)}`;
+    for (const { handle, key, label } of figures) {
+      if (key === "loss_tangent") continue;
+      handle.update({
+        title: `${label[0].toUpperCase()}${label.slice(1)}${at}`,
+        caption: "",
+        synthetic: answer.synthetic,
+        y: { label: `${label} E${key === "storage" ? "′" : "″"}`, kind: "modulus", log: true },
+        traces: [{ name: label, x: modulus.angular_frequency, y: modulus[key], legend: false }],
+      });
+    }
+  };
+  let following = false;
+  const followReady = () => {
+    if (following || sourceOf(state.get("material")) === "dma") return;
+    following = true;
+    follow(app, (now) => {
+      latest = now;
+      showReady();
+    });
+  };
+
+  let timer = null;
+  state.subscribe("material", () => {
+    clearTimeout(timer);
+    timer = setTimeout(read, 120);
+    followReady();
+  });
+  units.subscribe(() => state.result("sweeps") && show(state.result("sweeps")));
+  followReady();
+  read();
+}
+
+/** A reference outside the isotherms, which the user never chose, gives way to one that they have. */
+function followReference({ state }, answer) {
+  if (answer.source !== "dma" || answer.isotherms.length === 0) return;
+  const given = state.get("material.reference_temperature");
+  if (given !== undefined && given !== FIRST_REFERENCE) return;
+  const kelvin = answer.isotherms.map((one) => one.temperature);
+  const inside = given !== undefined && Math.min(...kelvin) <= 303.15 && 303.15 <= Math.max(...kelvin);
+  if (!inside) state.set("material.reference_temperature", `${Number((answer.reference - 273.15).toFixed(2))} degC`);
+}

@@ -1,0 +1,144 @@
+// What the figures and tables of sweeps show, as they were read.
+
+import { byTemperature, fewEnough, named } from "./made.js";
+
+const MOST_ROWS = 200;
+
+export function keyNumbers(answer, app) {
+  const { units } = app;
+  if (answer.source !== "dma") {
+    return [
+      {
+        label: "rubber",
+        value: answer.name || "without a name",
+        remark: answer.synthetic ? "synthetic: made up, not measured" : "",
+      },
+      {
+        label: "reference",
+        value: answer.reference === null ? "none" : named(answer.reference, app),
+        remark: answer.reference === null ? "serves at one temperature" : "",
+      },
+    ];
+  }
+  const kelvin = answer.isotherms.map((one) => one.temperature);
+  const omega = answer.isotherms.flatMap((one) => one.angular_frequency);
+  const points = answer.isotherms.reduce((sum, one) => sum + one.angular_frequency.length, 0);
+  const outliers = answer.flagged.filter((one) => one.why !== "left out").length;
+  const span = (values, kind) => `${units.show(Math.min(...values), kind)} to ${units.show(Math.max(...values), kind)}`;
+  return [
+    {
+      label: "measured in",
+      value: answer.deformation,
+      remark: answer.asks.includes("deformation") ? "the file does not say it" : "as the file says",
+    },
+    { label: "isotherms", value: String(answer.isotherms.length), remark: span(kelvin, "temperature") },
+    { label: "points", value: String(points), remark: span(omega, "angular_frequency") },
+    {
+      label: "flagged",
+      value: String(answer.left_out + outliers),
+      remark: `${answer.left_out} left out, ${outliers} far off`,
+    },
+  ];
+}
+
+export function fileTable(answer, app) {
+  if (!answer?.files?.length) return [];
+  const { units, fields } = app;
+  const span = (range, kind) =>
+    range
+      ? range[0] === range[1]
+        ? units.show(range[0], kind)
+        : `${units.show(range[0], kind)} to ${units.show(range[1], kind)}`
+      : "–";
+  const rows = answer.files
+    .slice(0, MOST_ROWS)
+    .map((one) => [
+      one.name,
+      one.format,
+      one.deformation ?? "not said",
+      String(one.readings),
+      span(one.temperature, "temperature"),
+      span(one.angular_frequency, "angular_frequency"),
+    ]);
+  const table = fields.table(
+    ["file", "taken for", "deformation", "readings", "temperatures", "frequencies"],
+    rows,
+    "Files as they were read",
+  );
+  return [
+    app.fields.h(
+      "details",
+      { open: answer.files.length <= 3 },
+      app.fields.h("summary", {}, answer.files.length === 1 ? "The file" : `${answer.files.length} files`),
+      table,
+    ),
+  ];
+}
+
+export function flaggedTable(answer, app) {
+  if (!answer?.flagged?.length) return [];
+  const { units, fields } = app;
+  const rows = answer.flagged
+    .slice(0, MOST_ROWS)
+    .map((one) => [
+      one.place,
+      one.why,
+      units.show(one.temperature, "temperature"),
+      units.show(one.angular_frequency, "angular_frequency"),
+      units.show(one.storage, "modulus"),
+      units.show(one.loss, "modulus"),
+    ]);
+  const table = fields.table(
+    ["where", "why", "temperature", "frequency", "storage modulus", "loss modulus"],
+    rows,
+    "Flagged readings",
+  );
+  return [fields.h("details", {}, fields.h("summary", {}, "Flagged readings"), table)];
+}
+
+export function isothermFigure(answer, { key, label, primes }, app) {
+  const temperatures = answer.isotherms.map((one) => one.temperature);
+  const symbol = answer.deformation === "shear" ? "G" : "E";
+  const modulus = key !== "loss_tangent";
+  const traces = answer.isotherms.map((one) => ({
+    name: named(one.temperature, app),
+    legend: fewEnough(temperatures),
+    temperature: one.temperature,
+    x: one.angular_frequency,
+    y: one[key],
+    mode: "lines+markers",
+    size: 5,
+    width: 1.3,
+    dash: "solid",
+    symbol: "circle",
+  }));
+  const flags = (left, name, symbol_) => {
+    const value = (one) => (modulus ? one[key] : one.storage > 0 ? one.loss / one.storage : null);
+    const some = answer.flagged.filter(
+      (one) => (one.why === "left out") === left && one.angular_frequency > 0 && value(one) > 0,
+    );
+    return some.length
+      ? [
+          {
+            name,
+            mode: "markers",
+            symbol: symbol_,
+            colour: "red",
+            size: 9,
+            open: !left,
+            x: some.map((one) => one.angular_frequency),
+            y: some.map(value),
+            text: some.map((one) => `${one.place}: ${one.why}`),
+          },
+        ]
+      : [];
+  };
+  return {
+    title: label[0].toUpperCase() + label.slice(1),
+    caption: byTemperature(temperatures, app),
+    synthetic: app.state.get("data_origin") === "synthetic",
+    y: { label: modulus ? `${label} ${symbol}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true },
+    temperatures,
+    traces: [...traces, ...flags(true, "left out", "x"), ...flags(false, "far off its neighbours", "circle")],
+  };
+}

@@ -1,0 +1,245 @@
+// The form of the rubber's source: its kind, its files, and what these leave to the user.
+
+import { FIRST_REFERENCE, SOURCES, sourceOf } from "./made.js";
+
+const OF_FILES = ["deformation", "modulus_unit", "temperature", "fixed_shift_factors", "shift_factors"];
+const READY = ["name", "reference_temperature"];
+
+/** [material] of other files: what says how a rubber is made stays, what belonged to the old files goes. */
+function materialOf(source, value, before = {}) {
+  const kept = Object.entries(before).filter(
+    ([key]) => !SOURCES.some(([one]) => one === key) && !OF_FILES.includes(key),
+  );
+  if (source === "catalogue" || source === "file") {
+    return { [source]: value, ...Object.fromEntries(kept.filter(([key]) => READY.includes(key) && key === "name")) };
+  }
+  const rest = Object.fromEntries(kept);
+  if (source === "master_curve") {
+    delete rest.vertical_shift;
+    delete rest.shift;
+  }
+  return { reference_temperature: FIRST_REFERENCE, ...rest, [source]: value };
+}
+
+/** The form of the source: its kind, its files, and what these leave to the user. */
+export function sourceForm(app, onError) {
+  const { state, fields, api } = app;
+  const { h, card, button } = fields;
+  let shown = sourceOf(state.get("material")) ?? "dma";
+  const group = h(
+    "div",
+    { class: "choices", role: "radiogroup", "aria-labelledby": "material-source-label" },
+    h("span", { class: "field-label", id: "material-source-label" }, "The rubber comes from"),
+  );
+  const radios = new Map();
+  for (const [key, text] of SOURCES) {
+    const radio = h("input", { type: "radio", name: "material-source", value: key });
+    radio.addEventListener("change", () => showPanel(key));
+    radios.set(key, radio);
+    group.append(h("label", { class: "choice" }, radio, h("span", {}, text)));
+  }
+  const take = (source, many) => async (files) => {
+    try {
+      onError(null);
+      const names = await api.uploadFiles(files);
+      choose(source, many ? names : names[0]);
+    } catch (error) {
+      onError(error);
+    }
+  };
+  const choose = (source, value, origin) => {
+    const single = Array.isArray(value) && value.length === 1 ? value[0] : value;
+    state.change({ material: materialOf(source, single, state.get("material")), data_origin: origin });
+  };
+  const present = h("ul", { class: "files" });
+  const listFiles = () => {
+    const names = [state.get("material.dma") ?? []].flat();
+    const drop = (name) => () => {
+      const left = names.filter((one) => one !== name);
+      if (left.length)
+        state.change({ "material.dma": left.length === 1 ? left[0] : left, "material.temperature": undefined });
+    };
+    present.replaceChildren(
+      ...names.map((name) =>
+        h(
+          "li",
+          { class: "row" },
+          h("span", {}, name),
+          names.length > 1
+            ? button({ label: `Remove ${name}`, kind: "quiet small", symbol: "close", onClick: drop(name) })
+            : null,
+        ),
+      ),
+    );
+    more.hidden = names.length === 0;
+  };
+  const addMore = async (files) => {
+    try {
+      const names = await api.uploadFiles(files);
+      state.set("material.dma", [...new Set([...[state.get("material.dma") ?? []].flat(), ...names])]);
+    } catch (error) {
+      onError(error);
+    }
+  };
+  const more = h(
+    "details",
+    {},
+    h("summary", {}, "Add files of the same specimen"),
+    fields.fileDrop({ label: "Add files", onFiles: addMore }),
+  );
+  const asks = {
+    deformation: fields.choiceField({
+      path: "material.deformation",
+      label: "Measured in",
+      otherwise: null,
+      options: [
+        [null, "– please say –"],
+        ["tension", "tension: E′, E″"],
+        ["shear", "shear: G′, G″"],
+      ],
+      help: "A factor of three in the modulus; the file does not say it.",
+    }),
+    modulus_unit: fields.textField({
+      path: "material.modulus_unit",
+      label: "Unit of the moduli",
+      placeholder: "MPa",
+      help: "The file names none.",
+    }),
+    temperature: fields.quantityField({
+      path: "material.temperature",
+      label: "Temperature of the sweep",
+      kind: "temperature",
+      help: "The file holds none.",
+    }),
+  };
+  const useExample = async () => {
+    try {
+      await api.useExample();
+      choose("dma", "dma.csv", "synthetic");
+    } catch (error) {
+      onError(error);
+    }
+  };
+  const panels = {
+    dma: h(
+      "div",
+      { class: "panel" },
+      fields.fileDrop({
+        label: "Drop sweeps here, or choose files",
+        help: "Exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, text tables: told by their content.",
+        onFiles: take("dma", true),
+      }),
+      present,
+      asks.deformation,
+      asks.modulus_unit,
+      asks.temperature,
+      more,
+      button({ label: "Use the synthetic example's sweeps", kind: "quiet", onClick: useExample }),
+    ),
+    master_curve: h(
+      "div",
+      { class: "panel" },
+      fields.fileDrop({
+        label: "Drop a master curve",
+        help: "Moduli over reduced frequency: a text table, a workbook or a .tts file of RepTate.",
+        multiple: false,
+        onFiles: take("master_curve", false),
+      }),
+      fields.choiceField({
+        path: "material.deformation",
+        label: "Measured in",
+        otherwise: null,
+        options: [
+          [null, "as the file says"],
+          ["tension", "tension"],
+          ["shear", "shear"],
+        ],
+      }),
+      fields.fileDrop({
+        label: "Drop its shift factors",
+        help: "A table of temperature and α; without it the curve serves at its reference alone.",
+        multiple: false,
+        onFiles: async (files) => state.set("material.shift_factors", (await api.uploadFiles(files))[0]),
+      }),
+    ),
+    file: h(
+      "div",
+      { class: "panel" },
+      fields.fileDrop({
+        label: "Drop a ready rubber",
+        help: "rubber.json, or a card of Abaqus, ANSYS, LS-DYNA or COMSOL.",
+        multiple: false,
+        onFiles: take("file", false),
+      }),
+    ),
+    catalogue: h("div", { class: "panel" }, catalogueList(app, choose)),
+  };
+  const making = h(
+    "div",
+    { class: "form" },
+    fields.textField({ path: "material.name", label: "Name" }),
+    fields.quantityField({
+      path: "material.reference_temperature",
+      label: "Reference temperature",
+      kind: "temperature",
+      help: "Where the shift factor is one.",
+    }),
+    fields.numberField({
+      path: "material.poisson_ratio",
+      label: "Poisson’s ratio",
+      min: 0,
+      max: 0.5,
+      step: 0.01,
+      placeholder: "0.5",
+    }),
+  );
+  const showPanel = (key) => {
+    shown = key;
+    radios.get(key).checked = true;
+    for (const [one, panel] of Object.entries(panels)) panel.hidden = one !== key;
+    making.hidden = key === "catalogue" || key === "file" || sourceOf(state.get("material")) !== key;
+  };
+  const refresh = () => {
+    listFiles();
+    showPanel(sourceOf(state.get("material")) ?? shown);
+  };
+  const element = card("Rubber", group, ...Object.values(panels), making);
+  element.ask = (key) => asks[key] && (asks[key].hidden = false);
+  element.show = (answer) => {
+    for (const [key, field] of Object.entries(asks))
+      field.hidden = !answer?.asks?.includes(key) && state.get(`material.${key}`) === undefined;
+  };
+  element.show(null);
+  state.subscribe(["material"], refresh);
+  refresh();
+  return element;
+}
+
+function catalogueList({ state, start, fields }, choose) {
+  const { h } = fields;
+  const list = h("div", { class: "choices", role: "radiogroup", "aria-label": "Rubbers of the catalogue" });
+  const radios = (start?.catalogue ?? []).map((entry) => {
+    const radio = h("input", { type: "radio", name: "material-catalogue", value: entry.name });
+    radio.addEventListener("change", () => choose("catalogue", entry.name, entry.synthetic ? "synthetic" : undefined));
+    list.append(
+      h(
+        "label",
+        { class: "choice" },
+        radio,
+        h(
+          "span",
+          {},
+          h("strong", {}, entry.name),
+          " ",
+          entry.synthetic ? h("span", { class: "badge small" }, "synthetic") : null,
+          h("span", { class: "help" }, entry.description),
+        ),
+      ),
+    );
+    return radio;
+  });
+  const refresh = () => radios.forEach((radio) => (radio.checked = radio.value === state.get("material.catalogue")));
+  state.subscribe("material", refresh);
+  refresh();
+  return list;
+}
