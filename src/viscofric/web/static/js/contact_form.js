@@ -16,7 +16,15 @@ const FIRST = {
   ellipsoid: { indenter: { shape: "ellipsoid", radius_x: "5 mm", radius_y: "10 mm" }, load: "25 N" },
   cone: { indenter: { shape: "cone", angle: "10 deg" }, load: "25 N" },
   made: {
-    surface: { hurst: 0.8, rms_slope: 0.2, shortest: "80 um", rolloff: "640 um", points: 128, spacing: "10 um", seed: 1 },
+    surface: {
+      hurst: 0.8,
+      rms_slope: 0.2,
+      shortest: "80 um",
+      rolloff: "640 um",
+      points: 128,
+      spacing: "10 um",
+      seed: 1,
+    },
     pressure: "0.5 MPa",
   },
   scan: { surface: { file: "", prepare: ["fill", "remove tilt", "window"] }, pressure: "0.5 MPa" },
@@ -39,7 +47,11 @@ export function contactForm({ state, fields, api, announce }) {
   const { h, card, quantityField, numberField, rangeField, choiceField, toggleField } = fields;
   const left = new Map(); // what the study had of other shapes
 
-  const select = h("select", { id: "contact-shape" }, SHAPES.map(([value, text]) => h("option", { value }, text)));
+  const select = h(
+    "select",
+    { id: "contact-shape" },
+    SHAPES.map(([value, text]) => h("option", { value }, text)),
+  );
   select.addEventListener("change", () => become(select.value));
 
   function become(shape) {
@@ -75,7 +87,15 @@ export function contactForm({ state, fields, api, announce }) {
       quantityField({ path: "indenter.radius_x", label: "Radius along the motion", kind: "length" }),
       quantityField({ path: "indenter.radius_y", label: "Radius across", kind: "length" }),
     ),
-    group(["cone"], quantityField({ path: "indenter.angle", label: "Angle of the flank", kind: "angle", help: "to the undeformed surface" })),
+    group(
+      ["cone"],
+      quantityField({
+        path: "indenter.angle",
+        label: "Angle of the flank",
+        kind: "angle",
+        help: "to the undeformed surface",
+      }),
+    ),
     group(
       ["made"],
       numberField({ path: "surface.hurst", label: "Hurst exponent", min: 0, max: 1, step: 0.05 }),
@@ -101,8 +121,18 @@ export function contactForm({ state, fields, api, announce }) {
         told.set([error.message], "error");
       }
     };
-    const drop = fields.fileDrop({ label: "Drop a height map", help: "text matrix, x y z points, or a microscope's file", multiple: false, onFiles: take });
-    const steps = [["fill", "fill gaps"], ["remove tilt", "remove tilt"], ["remove curvature", "remove curvature"], ["window", "window the edges"]];
+    const drop = fields.fileDrop({
+      label: "Drop a height map",
+      help: "text matrix, x y z points, or a microscope's file",
+      multiple: false,
+      onFiles: take,
+    });
+    const steps = [
+      ["fill", "fill gaps"],
+      ["remove tilt", "remove tilt"],
+      ["remove curvature", "remove curvature"],
+      ["window", "window the edges"],
+    ];
     const boxes = steps.map(([step, text]) => {
       const box = h("input", { type: "checkbox" });
       const show = () => (box.checked = [state.get("surface.prepare") ?? []].flat().includes(step));
@@ -121,7 +151,12 @@ export function contactForm({ state, fields, api, announce }) {
       fields.textField({ path: "surface.file", label: "File", placeholder: "none yet" }),
       h("fieldset", {}, h("legend", { class: "field-label" }, "Preparation"), boxes),
       fields.textField({ path: "surface.unit", label: "Unit of heights", placeholder: "as the file says" }),
-      quantityField({ path: "surface.spacing", label: "Distance of points", kind: "length", placeholder: "as the file says" }),
+      quantityField({
+        path: "surface.spacing",
+        label: "Distance of points",
+        kind: "length",
+        placeholder: "as the file says",
+      }),
     ];
   }
 
@@ -131,7 +166,12 @@ export function contactForm({ state, fields, api, announce }) {
     group(
       ["made", "scan"],
       quantityField({ path: "conditions.pressure", label: "Mean pressure", kind: "pressure" }),
-      quantityField({ path: "conditions.direction", label: "Direction of motion", kind: "angle", placeholder: "along x" }),
+      quantityField({
+        path: "conditions.direction",
+        label: "Direction of motion",
+        kind: "angle",
+        placeholder: "along x",
+      }),
     ),
   ];
 
@@ -149,27 +189,52 @@ export function contactForm({ state, fields, api, announce }) {
     optional(
       "layer",
       quantityField({ path: "layer.thickness", label: "Thickness", kind: "length" }),
-      choiceField({ path: "layer.base", label: "Base", otherwise: "bonded", options: [["bonded", "bonded"], ["sliding", "sliding, no friction"]] }),
+      choiceField({
+        path: "layer.base",
+        label: "Base",
+        otherwise: "bonded",
+        options: [
+          ["bonded", "bonded"],
+          ["sliding", "sliding, no friction"],
+        ],
+      }),
     ),
   ];
   const elastic = ["indenter", "surface"].map((table) =>
     group(
       table === "indenter" ? indenters : ["made", "scan"],
-      toggleField({ path: `${table}.modulus`, label: table === "indenter" ? "Elastic indenter" : "Elastic surface", value: "200 GPa" }),
+      toggleField({
+        path: `${table}.modulus`,
+        label: table === "indenter" ? "Elastic indenter" : "Elastic surface",
+        value: "200 GPa",
+      }),
       optional(
         `${table}.modulus`,
         quantityField({ path: `${table}.modulus`, label: "Young's modulus", kind: "modulus" }),
-        numberField({ path: `${table}.poisson_ratio`, label: "Poisson's ratio", min: 0, max: 0.5, step: 0.01, placeholder: "0.3" }),
+        numberField({
+          path: `${table}.poisson_ratio`,
+          label: "Poisson's ratio",
+          min: 0,
+          max: 0.5,
+          step: 0.01,
+          placeholder: "0.3",
+        }),
       ),
     ),
   );
 
   const accuracy = choiceField({
     path: "solver.accuracy",
-    label: "Accuracy of friction",
+    label: "Accuracy",
     otherwise: 1e-3,
-    options: [[0.05, "5 %"], [0.02, "2 %"], [0.01, "1 %"], [1e-3, "0.1 %"], [1e-4, "0.01 %, slow"]],
-    help: "of the numerics; how well the rubber is known is the band's",
+    options: [
+      [0.05, "5 %"],
+      [0.02, "2 %"],
+      [0.01, "1 %"],
+      [1e-3, "0.1 %"],
+      [1e-4, "0.01 %, slow"],
+    ],
+    help: "of the numerics; the band tells how well the rubber is known",
   });
 
   const show = () => {
@@ -181,11 +246,24 @@ export function contactForm({ state, fields, api, announce }) {
   show();
 
   return [
-    card("What slides", h("div", { class: "field" }, h("label", { for: select.id, class: "field-label" }, "Shape"), select), ...shape, ...load, ...elastic, ...layer),
+    card(
+      "What slides",
+      h("div", { class: "field" }, h("label", { for: select.id, class: "field-label" }, "Shape"), select),
+      ...shape,
+      ...load,
+      ...elastic,
+      ...layer,
+    ),
     card(
       "Speeds and temperatures",
       rangeField({ path: "conditions.speed", label: "Speed", kind: "speed", otherwise: { to: "1 m/s", points: 25 } }),
-      rangeField({ path: "conditions.temperature", label: "Temperature", kind: "temperature", spacing: ["linear"], otherwise: { to: "90 degC", points: 3 } }),
+      rangeField({
+        path: "conditions.temperature",
+        label: "Temperature",
+        kind: "temperature",
+        spacing: ["linear"],
+        otherwise: { to: "90 degC", points: 3 },
+      }),
       accuracy,
     ),
   ];

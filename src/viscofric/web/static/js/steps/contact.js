@@ -1,19 +1,32 @@
 // Step 4, with which the page opens: what slides, its friction curve, and one contact that follows two sliders.
 
-import { contactFigures, numbersOf, whyItLeans } from "../contact_fields.js";
+import { contactFigures } from "../contact_fields.js";
 import { contactForm, nounOf } from "../contact_form.js";
+import { numbersOf, whyItLeans } from "../contact_words.js";
 import { frictionCard } from "../friction_curve.js";
 import { follow } from "../live.js";
 
 const STEPS = 400; // of the speed's slider
 const DECADE = 1; // beyond the speeds of the study, on either side
 const BEYOND = 15; // K beyond its temperatures
-const WATCHED = ["material", "indenter", "surface", "layer", "conditions.load", "conditions.pressure", "conditions.direction", "solver", "sweep"];
+const WATCHED = [
+  "material",
+  "indenter",
+  "surface",
+  "layer",
+  "conditions.load",
+  "conditions.pressure",
+  "conditions.direction",
+  "solver",
+  "sweep",
+];
 
 /** The ends of the quantities that the document gives as one value, a list or a range; null where they cannot be read. */
 export function endsOf(given, kind, units) {
   const range = given && typeof given === "object" && !Array.isArray(given);
-  const all = (range ? [given.from, given.to] : [given].flat()).map((one) => units.parse(one, kind)).filter((one) => one !== null);
+  const all = (range ? [given.from, given.to] : [given].flat())
+    .map((one) => units.parse(one, kind))
+    .filter((one) => one !== null);
   return all.length ? [Math.min(...all), Math.max(...all)] : null;
 }
 
@@ -27,31 +40,62 @@ function mount(section, app) {
   const why = h("p", { class: "why", "aria-live": "off" });
   const status = h("span", { class: "help live-status", role: "status" });
   const pictures = contactFigures(app);
-  const more = h("div", { class: "more-numbers" }, h("h4", {}, "Numbers, with their numerical errors"), h("table", {}, rows));
+  const more = h(
+    "div",
+    { class: "more-numbers" },
+    h("h4", {}, "Numbers, with their numerical errors"),
+    h("table", {}, rows),
+  );
   pictures.grid.append(more);
   let position = { speed: null, temperature: null };
   let answer = null;
 
   const curve = frictionCard(app, { onPick: (where) => moveTo(where) });
   const live = follow({
-    ask: (where, stage, signal) => app.api.runJob("contact", { study: where.study, options: { speed: where.speed, temperature: where.temperature, combination: where.combination, stages: stage } }, { signal }),
+    ask: (where, stage, signal) =>
+      app.api.runJob(
+        "contact",
+        {
+          study: where.study,
+          options: {
+            speed: where.speed,
+            temperature: where.temperature,
+            combination: where.combination,
+            stages: stage,
+          },
+        },
+        { signal },
+      ),
     show,
     fail: (error) => {
       failed.set([fields.showError(error) ? "The contact waits: something in the form is not right." : error.message]);
       section.querySelector(".live-contact").classList.add("stale");
     },
-    busy: (stage) => (status.textContent = { coarse: "solving …", sharp: "sharpening …", "": answer ? (answer.stage === "sharp" ? "to the accuracy asked for" : "coarse") : "" }[stage]),
+    busy: (stage) =>
+      (status.textContent = {
+        coarse: "solving …",
+        sharp: "sharpening …",
+        "": answer ? (answer.stage === "sharp" ? "to the accuracy asked for" : "coarse") : "",
+      }[stage]),
   });
 
   /** A slider with a number field: both show and change one of the two coordinates. */
   function control(name, label, kind, { toSlider, fromSlider, steps }) {
     const id = `live-${name}`;
     const slider = h("input", { type: "range", id, min: 0, max: steps, step: 1 });
-    const text = h("input", { type: "text", class: "live-number", "aria-label": `${label}, as a number`, autocomplete: "off", spellcheck: "false" });
+    const text = h("input", {
+      type: "text",
+      class: "live-number",
+      "aria-label": `${label}, as a number`,
+      autocomplete: "off",
+      spellcheck: "false",
+    });
     slider.addEventListener("input", () => moveTo({ [name]: fromSlider(Number(slider.value)) }));
     text.addEventListener("change", () => {
       const typed = text.value.trim();
-      const value = /^[+−-]?[\d.]+(e[+-]?\d+)?$/i.test(typed) ? units.si(Number(typed.replace("−", "-")), kind) : units.parse(typed, kind);
+      const value = /^[+−-]?[\d.]+(e[+-]?\d+)?$/i.test(typed)
+        ? units.si(Number(typed.replace("−", "-")), kind)
+        : units.parse(typed, kind);
       if (value !== null && Number.isFinite(value) && value > 0) moveTo({ [name]: value });
       refresh();
     });
@@ -62,7 +106,12 @@ function mount(section, app) {
       slider.setAttribute("aria-valuetext", units.show(value, kind));
       if (document.activeElement !== text) text.value = units.show(value, kind);
     }
-    const element = h("div", { class: "field live-control" }, h("label", { for: id, class: "field-label" }, label), h("div", { class: "row" }, slider, text));
+    const element = h(
+      "div",
+      { class: "field live-control" },
+      h("label", { for: id, class: "field-label" }, label),
+      h("div", { class: "row" }, slider, text),
+    );
     return { element, refresh };
   }
 
@@ -85,7 +134,8 @@ function mount(section, app) {
     control("temperature", "Temperature", "temperature", {
       steps: 240,
       toSlider: (value) => 240 * along(kelvins(), value),
-      fromSlider: (at) => rounded(273.15 + Math.round(2 * (kelvins()[0] - 273.15 + (at / 240) * (kelvins()[1] - kelvins()[0]))) / 2, 7),
+      fromSlider: (at) =>
+        rounded(273.15 + Math.round(2 * (kelvins()[0] - 273.15 + (at / 240) * (kelvins()[1] - kelvins()[0]))) / 2, 7),
     }),
   ];
 
@@ -110,22 +160,44 @@ function mount(section, app) {
 
   function words() {
     if (!answer) return;
-    const radius = ["ball", "cylinder"].includes(nounOf(state.study)) ? units.parse(state.get("indenter.radius"), "length") : null;
+    const radius = ["ball", "cylinder"].includes(nounOf(state.study))
+      ? units.parse(state.get("indenter.radius"), "length")
+      : null;
     const { key, others } = numbersOf(answer, units);
     numbers.set(key);
-    rows.replaceChildren(...others.map(({ label, value, remark }) => h("tr", {}, h("th", { scope: "row" }, label), h("td", {}, value), h("td", {}, remark))));
+    rows.replaceChildren(
+      ...others.map(({ label, value, remark }) =>
+        h("tr", {}, h("th", { scope: "row" }, label), h("td", {}, value), h("td", {}, remark)),
+      ),
+    );
     why.textContent = whyItLeans(answer, units, nounOf(state.study), radius);
   }
 
   const liveCard = card(
     "One contact, live",
-    h("div", { class: "live-controls" }, controls.map((one) => one.element), status),
+    h(
+      "div",
+      { class: "live-controls" },
+      controls.map((one) => one.element),
+      status,
+    ),
     failed,
-    h("div", { class: "live-contact" }, numbers, h("div", { class: "why-box" }, h("h4", {}, "Why the pressure leans forward"), why), number, pictures.grid),
+    h(
+      "div",
+      { class: "live-contact" },
+      numbers,
+      h("div", { class: "why-box" }, h("h4", {}, "Why the pressure leans forward"), why),
+      number,
+      pictures.grid,
+    ),
   );
 
   section.append(
-    h("p", {}, "Something hard slides or rolls over rubber. The rubber's own losses are its friction: change anything, and it is solved again."),
+    h(
+      "p",
+      {},
+      "Something hard slides or rolls over rubber. The rubber's own losses are its friction: change anything, and it is solved again.",
+    ),
     h("div", { class: "columns" }, h("div", {}, contactForm(app)), h("div", {}, curve.card, liveCard)),
   );
 
@@ -154,7 +226,9 @@ function mount(section, app) {
 function summary(state) {
   const { indenter, surface, conditions } = state.study;
   const load = conditions?.load ?? conditions?.pressure;
-  const what = surface ? "rough surface" : [indenter?.shape ?? "ball", [indenter?.radius ?? indenter?.angle].flat()[0]].filter(Boolean).join(" ");
+  const what = surface
+    ? "rough surface"
+    : [indenter?.shape ?? "ball", [indenter?.radius ?? indenter?.angle].flat()[0]].filter(Boolean).join(" ");
   const found = state.result("curve")?.friction?.filter((value) => value !== null) ?? [];
   const range = found.length ? `, μ ${Math.min(...found).toPrecision(2)} to ${Math.max(...found).toPrecision(2)}` : "";
   return `${what}, ${[load].flat()[0] ?? "no load"}${range}`;

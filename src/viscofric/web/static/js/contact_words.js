@@ -1,0 +1,104 @@
+// Numbers and words of one contact: what is found with its errors, and why the pressure leans forward.
+
+/** Numbers of an answer, {label, value, remark} each: the few that answer the question, and the others. */
+export function numbersOf(answer, units) {
+  const of = answer.numbers;
+  const one = (name, label, kind, digits = 4) => {
+    const { value, error } = of[name];
+    return { label, value: units.show(value, kind, digits), remark: error ? `± ${units.show(error, kind, 2)}` : "" };
+  };
+  const plain = (value, unit, digits = 3) => `${units.plainNumber(value, digits)}${unit ? `\u00a0${unit}` : ""}`;
+  const row = (label, value, remark = "") => ({ label, value, remark });
+  const friction = one("friction_coefficient", "Friction coefficient μ");
+  const rubber = [
+    row("Shift factor α(T)", plain(of.shift_factor.value)),
+    row("Loss factor tan δ there", plain(of.loss_factor.value)),
+    one("storage_modulus", "Storage modulus E′ there", "modulus", 3),
+  ];
+  const balance = row(
+    "Energy balance",
+    plain(100 * Math.abs(of.energy_balance.value), "%", 2),
+    "apart, of two ways to μ",
+  );
+  if (answer.kind === "rough") {
+    const [points, asked] = [of.points.value, of.points_asked.value];
+    return {
+      key: [
+        friction,
+        row("Real contact", plain(100 * of.contact_area_fraction.value, "%"), "of the area"),
+        one("mean_contact_pressure", "Mean pressure in contact", "pressure", 3),
+        one("mean_gap", "Mean gap", "length"),
+      ],
+      others: [
+        { ...one("max_pressure", "Largest pressure", "pressure", 3), remark: "on this grid" },
+        one("lateral_friction_coefficient", "Force to the side, over the load"),
+        row("Heat", plain(of.power.value, "W/m²")),
+        one("slowest_frequency", "Frequency of the longest wave", "angular_frequency", 3),
+        one("fastest_frequency", "Frequency of the shortest wave", "angular_frequency", 3),
+        ...rubber,
+        balance,
+        row("Points along an edge", String(points), points < asked ? `of ${asked}: coarse` : ""),
+      ],
+    };
+  }
+  const line = answer.kind === "line";
+  const peak = one("max_pressure", "Largest pressure", "pressure");
+  return {
+    key: [
+      friction,
+      one("indentation", "Indentation", "length"),
+      one("contact_area", line ? "Contact width" : "Contact area", line ? "length" : "area"),
+      answer.peak_resolved ? peak : { ...peak, value: `≥ ${peak.value}`, remark: "not resolved" },
+    ],
+    others: [
+      one("friction_force", line ? "Friction force per length" : "Friction force", line ? "line_load" : "load"),
+      row(
+        "Heat",
+        plain(of.power.value, line ? "W/m" : "W"),
+        of.power.error ? `± ${plain(of.power.error, line ? "W/m" : "W", 2)}` : "",
+      ),
+      one("front", "Leading edge ahead of axis", "length"),
+      one("rear", "Trailing edge behind axis", "length"),
+      ...(line ? [] : [one("half_width", "Half width", "length")]),
+      one("centre_of_pressure", "Load acts ahead of axis", "length", 3),
+      one("mean_pressure", "Mean pressure", "pressure", 3),
+      one("frequency", "Frequency v/a", "angular_frequency", 3),
+      ...rubber,
+      balance,
+      row("Cells along an edge", String(of.cells.value)),
+    ],
+  };
+}
+
+/** Why the pressure leans forward, in sentences that follow the numbers. */
+export function whyItLeans(answer, units, noun, radius) {
+  const of = answer.numbers;
+  const speed = units.show(answer.speed, "speed");
+  const loss = of.loss_factor.value;
+  const rubber = `tan δ ${units.plainNumber(loss, 2)} and a stiffness E′ of ${units.show(of.storage_modulus.value, "modulus")}`;
+  if (answer.kind === "rough") {
+    const ends = [of.slowest_frequency, of.fastest_frequency].map(({ value }) =>
+      units.show(value, "angular_frequency", 2),
+    );
+    return (
+      `At ${speed}, the longest wave of the surface deforms the rubber at ${ends[0]}, the shortest at ${ends[1]}, where it has ${rubber}. ` +
+      "On the flanks that face the motion the rubber is pressed in and resists; behind the summits it has not sprung back yet and pushes less. " +
+      `That difference, over ${units.plainNumber(100 * of.contact_area_fraction.value, 3)} % of the area, is the friction: μ = ${units.plainNumber(of.friction_coefficient.value, 3)}.`
+    );
+  }
+  const [front, rear, lean] = [of.front, of.rear, of.centre_of_pressure].map(({ value }) =>
+    units.show(value, "length"),
+  );
+  const time = units.show((of.front.value + of.rear.value) / answer.speed, "time", 2);
+  const start = `The ${noun} passes each point of the rubber in ${time}, which deforms it at v/a = ${units.show(of.frequency.value, "angular_frequency", 2)}. There the rubber has ${rubber}. `;
+  const cause =
+    loss < 0.03
+      ? "It hardly loses energy at that rate, so that it springs back behind the contact almost as it was pressed in ahead, and the pressure hardly leans. "
+      : "Ahead of the axis it is being pressed in and resists; behind, it has not sprung back yet and pushes less. ";
+  const edges = `So the contact reaches ${front} ahead of the axis and ${rear} behind it, and the load acts ${lean} ahead`;
+  const friction = units.plainNumber(of.friction_coefficient.value, 3);
+  const lever = radius
+    ? `: that over the radius of ${units.show(radius, "length")} is the friction, μ = ${friction}.`
+    : `, on slopes that push back: μ = ${friction}.`;
+  return start + cause + edges + lever;
+}
