@@ -1,6 +1,6 @@
 // The rubber behind measured friction: what fixes its level, the computation, and what it tells.
 
-import { fitFigure, modulusFigure } from "./measurement_figures.js";
+import { fitFigure, modulusFigure } from "./measurement_inverse.js";
 import { optionChoice, optionField, repeated } from "./measurement_parts.js";
 
 /** What an anchor of each kind asks for. */
@@ -17,40 +17,80 @@ const ASKED = {
  * The card of the identification.
  *
  * @param {object} app
- * @param {{synthetic: () => boolean, alone: () => boolean}} about whether anything is made up, and no rubber is to be looked at
+ * @param {{synthetic: () => boolean}} step
+ * @param {{alone: () => boolean}} about whether no rubber is to be looked at
  */
-export function identification(app, { synthetic, alone }) {
+export function identification(app, step, { alone }) {
   const { state, fields, figures } = app;
   const { h, button, note } = fields;
-  const shift = optionChoice(app, { key: "identify.shift", label: "Shift factors", options: [["friction", "found from friction"], ["rubber", "of the page's rubber"]] });
+  const shift = optionChoice(app, {
+    key: "identify.shift",
+    label: "Shift factors",
+    options: [
+      ["friction", "found from friction"],
+      ["rubber", "of the page's rubber"],
+    ],
+  });
   const anchor = optionChoice(app, {
-    key: "identify.anchor", label: "What fixes the level of the modulus", onChange: () => choose(),
+    key: "identify.anchor",
+    label: "What fixes the level of the modulus",
+    onChange: () => choose(),
     help: "Friction tells the shape of E(ω), and hardly its level.",
-    options: [["rubber", "|E| of the page's rubber at one frequency"], ["modulus", "a modulus that is known"], ["indentation", "how deep the ball went in"], ["contact_area", "the contact's area"], ["half_width", "half the contact's width"], ["nothing", "nothing: the level stays open"]],
+    options: [
+      ["rubber", "|E| of the page's rubber at one frequency"],
+      ["modulus", "a modulus that is known"],
+      ["indentation", "how deep the ball went in"],
+      ["contact_area", "the contact's area"],
+      ["half_width", "half the contact's width"],
+      ["nothing", "nothing: the level stays open"],
+    ],
   });
   const boxes = {
     modulus: optionField(app, { key: "identify.modulus", label: "Modulus |E|", kind: "modulus", placeholder: "8 MPa" }),
-    frequency: optionField(app, { key: "identify.frequency", label: "At the frequency", kind: "frequency", placeholder: "1 Hz" }),
+    frequency: optionField(app, {
+      key: "identify.frequency",
+      label: "At the frequency",
+      kind: "frequency",
+      placeholder: "1 Hz",
+    }),
     size: optionField(app, { key: "identify.size", label: "Measured size", placeholder: "0.8 mm, or 12 mm^2" }),
     speed: optionField(app, { key: "identify.speed", label: "At the speed", kind: "speed", placeholder: "100 mm/s" }),
     load: optionField(app, { key: "identify.load", label: "Under the load", kind: "load", placeholder: "25 N" }),
     temperature: optionField(app, { key: "identify.temperature", label: "At the temperature", kind: "temperature" }),
     error: optionField(app, { key: "identify.error", label: "Relative standard error", placeholder: "0.01" }),
   };
-  const job = repeated(app, "identify", { label: "Identifying", done: show, failed: () => (go.disabled = false) });
+  const job = repeated(app, "identify", { label: "Identifying", done: show });
   const go = button({ label: "Identify the rubber", kind: "main", onClick: () => job.run(state.study, options()) });
   const told = note([]);
   const family = h("div", {});
   const card_ = h("a", { class: "button small", hidden: true, download: "rubber_from_friction.json" }, "Rubber (JSON)");
   const use = button({ label: "Use this rubber on the page", kind: "small", onClick: take });
   use.hidden = true;
-  const card = fields.card("The rubber behind the friction", h("div", { class: "form" }, shift, anchor, Object.values(boxes)), h("div", { class: "row" }, go), job.bar, job.errors);
+  const card = fields.card(
+    "The rubber behind the friction",
+    h("div", { class: "form" }, shift, anchor, Object.values(boxes)),
+    h("div", { class: "row" }, go),
+    job.bar,
+    job.errors,
+  );
   const results = h("div", { class: "step-body", hidden: true });
   card.append(results);
   const pair = h("div", { class: "grid" });
   results.append(pair, told, family, h("div", { class: "row" }, card_, use));
-  const modulus = figures.figure(pair, { id: "identified-modulus", title: "Modulus that friction tells", x: { label: "reduced angular frequency", kind: "angular_frequency", log: true }, y: { label: "modulus", kind: "modulus", log: true }, height: 380 });
-  const fit = figures.figure(pair, { id: "identified-friction", title: "Friction of the identified rubber", x: { label: "speed", kind: "speed", log: true }, y: { label: "viscoelastic friction coefficient" }, height: 380 });
+  const modulus = figures.figure(pair, {
+    id: "identified-modulus",
+    title: "Modulus that friction tells",
+    x: { label: "reduced angular frequency", kind: "angular_frequency", log: true },
+    y: { label: "modulus", kind: "modulus", log: true },
+    height: 380,
+  });
+  const fit = figures.figure(pair, {
+    id: "identified-friction",
+    title: "Friction of the identified rubber",
+    x: { label: "speed", kind: "speed", log: true },
+    y: { label: "viscoelastic friction coefficient" },
+    height: 380,
+  });
 
   function choose() {
     const asked = ASKED[anchor.value()];
@@ -67,7 +107,10 @@ export function identification(app, { synthetic, alone }) {
     if (of === "nothing") return chosen;
     const typed = (name) => boxes[name].value() || undefined;
     const asked = Object.fromEntries(ASKED[of].map((name) => [name, typed(name)]));
-    asked.temperature ??= boxes.temperature.input.placeholder.replace("°C", "degC").replace("°F", "degF").replaceAll("\u00a0", " ");
+    asked.temperature ??= boxes.temperature.input.placeholder
+      .replace("°C", "degC")
+      .replace("°F", "degF")
+      .replaceAll("\u00a0", " ");
     if (of === "rubber") asked.frequency ??= "1 Hz";
     if (asked.error !== undefined) asked.error = Number(asked.error);
     return { ...chosen, anchor: { of, ...asked } };
@@ -76,15 +119,29 @@ export function identification(app, { synthetic, alone }) {
   function show(found) {
     state.setResult("identified", found);
     results.hidden = false;
-    const made = synthetic();
+    const made = step.synthetic();
     modulus.update(modulusFigure(found, made));
     fit.update(fitFigure(found, state.result("measured"), made));
-    const at = found.anchor && `Anchored to |E| = ${app.units.show(found.anchor.modulus, "modulus")} at ${app.units.show(found.anchor.angular_frequency, "angular_frequency")} and ${app.units.show(found.anchor.temperature, "temperature")}.`;
+    const at =
+      found.anchor &&
+      `Anchored to |E| = ${app.units.show(found.anchor.modulus, "modulus")} at ${app.units.show(found.anchor.angular_frequency, "angular_frequency")} and ${app.units.show(found.anchor.temperature, "temperature")}.`;
     told.set([at, ...found.sentences].filter(Boolean));
     const percent = (share) => `${app.units.plainNumber(100 * share, 2)} %`;
-    const rows = found.family.map((one) => [`× ${one.factor}`, app.units.show(one.modulus, "modulus"), percent(one.rms), app.units.plainNumber(one.penalty, 2)]);
-    const head = ["level", `|E| at ${app.units.show(found.middle, "angular_frequency")}`, "rms of friction", "χ² above the best"];
-    family.replaceChildren(...(rows.length ? [fields.table(head, rows, "Rubbers that friction alone hardly tells apart")] : []));
+    const rows = found.family.map((one) => [
+      `× ${one.factor}`,
+      app.units.show(one.modulus, "modulus"),
+      percent(one.rms),
+      app.units.plainNumber(one.penalty, 2),
+    ]);
+    const head = [
+      "level",
+      `|E| at ${app.units.show(found.middle, "angular_frequency")}`,
+      "rms of friction",
+      "χ² above the best",
+    ];
+    family.replaceChildren(
+      ...(rows.length ? [fields.table(head, rows, "Rubbers that friction alone hardly tells apart")] : []),
+    );
     card_.href = app.api.downloadUrl(found.download);
     card_.hidden = use.hidden = false;
     app.announce(`The rubber is identified. ${found.sentences[0]}`);

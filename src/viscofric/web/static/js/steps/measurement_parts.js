@@ -51,14 +51,27 @@ let made = 0;
 export function optionField(app, { key, label, help, kind, placeholder }) {
   const { h } = app.fields;
   const id = `option-${(made += 1)}`;
-  const input = h("input", { type: "text", id, placeholder, autocomplete: "off", spellcheck: "false", "aria-describedby": help ? `${id}-help` : undefined });
+  const input = h("input", {
+    type: "text",
+    id,
+    placeholder,
+    autocomplete: "off",
+    spellcheck: "false",
+    "aria-describedby": help ? `${id}-help` : undefined,
+  });
   input.value = app.state.view(key, "");
   const value = () => {
     const text = input.value.trim().replace("−", "-").replace("°C", "degC").replace("°F", "degF").replace(/µ|μ/, "u");
     return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) && kind ? `${text} ${app.units.unitWords(kind)}` : text;
   };
   input.addEventListener("change", () => app.state.setView(key, input.value.trim()));
-  const element = h("div", { class: "field" }, h("label", { for: id, class: "field-label" }, label), input, help ? h("p", { class: "help", id: `${id}-help` }, help) : null);
+  const element = h(
+    "div",
+    { class: "field" },
+    h("label", { for: id, class: "field-label" }, label),
+    input,
+    help ? h("p", { class: "help", id: `${id}-help` }, help) : null,
+  );
   return Object.assign(element, { value, input });
 }
 
@@ -66,15 +79,29 @@ export function optionField(app, { key, label, help, kind, placeholder }) {
 export function optionChoice(app, { key, label, help, options, onChange }) {
   const { h } = app.fields;
   const id = `option-${(made += 1)}`;
-  const select = h("select", { id }, options.map(([value, text]) => h("option", { value }, text)));
+  const select = h(
+    "select",
+    { id },
+    options.map(([value, text]) => h("option", { value }, text)),
+  );
   select.value = app.state.view(key, options[0][0]);
   if (select.selectedIndex < 0) select.selectedIndex = 0;
   select.addEventListener("change", () => {
     app.state.setView(key, select.value);
     onChange?.(select.value);
   });
-  const element = h("div", { class: "field" }, h("label", { for: id, class: "field-label" }, label), select, help ? h("p", { class: "help" }, help) : null);
-  return Object.assign(element, { value: () => select.value, choose: (value) => ((select.value = value), app.state.setView(key, value)), select });
+  const element = h(
+    "div",
+    { class: "field" },
+    h("label", { for: id, class: "field-label" }, label),
+    select,
+    help ? h("p", { class: "help" }, help) : null,
+  );
+  return Object.assign(element, {
+    value: () => select.value,
+    choose: (value) => ((select.value = value), app.state.setView(key, value)),
+    select,
+  });
 }
 
 /** Names and values as a list of definitions. */
@@ -94,7 +121,8 @@ export function checkList(app) {
   const { h } = app.fields;
   const element = h("ul", { class: "checks" });
   element.set = (checks = []) => {
-    const one = ({ name, verdict, words }) => h("li", { class: verdict.replaceAll(" ", "-") }, h("strong", {}, `${name}: ${verdict}. `), words);
+    const one = ({ name, verdict, words }) =>
+      h("li", { class: verdict.replaceAll(" ", "-") }, h("strong", {}, `${name}: ${verdict}. `), words);
     element.replaceChildren(...checks.map(one));
     element.hidden = checks.length === 0;
   };

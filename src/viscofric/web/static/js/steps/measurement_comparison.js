@@ -1,0 +1,97 @@
+// Measured friction beside the prediction for the page's rubber and ball, and what else the test tells.
+
+import { checkFigure, coulombFigure, frictionFigure, zeroFigure } from "./measurement_figures.js";
+import { checkList, folded, repeated } from "./measurement_parts.js";
+
+const SPEED = { label: "speed", kind: "speed", log: true };
+const OTHERS = [
+  {
+    of: coulombFigure,
+    id: "coulomb-friction",
+    title: "Coulomb friction",
+    caption: "Measured, with the standard deviation of the repetitions.",
+    y: { label: "Coulomb friction coefficient" },
+  },
+  {
+    of: checkFigure,
+    id: "four-runs",
+    title: "Check of the four configurations",
+    caption: "(F_I − F_II + F_III − F_IV)/4 over the load, with twice its standard error: zero in a sound test.",
+    y: { label: "left over, share of the load" },
+  },
+  {
+    of: zeroFigure,
+    id: "force-cell-zero",
+    title: "Zero of the force cell",
+    caption: "As found at each condition; a zero that drifts is told among the notes.",
+    y: { label: "zero", kind: "load" },
+  },
+];
+
+/**
+ * The cards of measured friction: `card` beside the prediction, `rest` what else there is.
+ *
+ * @param {object} app
+ * @param {{synthetic: () => boolean}} step
+ * @param {{changed: () => void}} after another prediction
+ */
+export function comparison(app, step, { changed }) {
+  const { state, fields, figures } = app;
+  const { h, note } = fields;
+  const job = repeated(app, "agreement", { label: "Predicting", done: show, failed: () => show(null) });
+  const key = fields.keyNumbers();
+  const verdict = note([]);
+  const warnings = note([], "warning");
+  const byTemperature = h("div", {});
+  const checks = checkList(app);
+  const checked = folded(app, "By temperature, and what was checked", byTemperature, checks);
+  const card = fields.card("Measured against predicted", job.bar, job.errors);
+  const figure = figures.figure(card, {
+    id: "measured-friction",
+    title: "Viscoelastic friction",
+    x: SPEED,
+    y: { label: "viscoelastic friction coefficient" },
+    empty: "Drop the files of a traction test, or use the synthetic example.",
+  });
+  card.append(key, verdict, warnings, checked);
+
+  const rest = h("div", { class: "grid thirds" });
+  const others = OTHERS.map(({ of, ...spec }) => {
+    const place = h("section", { class: "card", "aria-label": spec.title });
+    rest.append(place);
+    return { of, place, handle: figures.figure(place, { x: SPEED, height: 300, ...spec }) };
+  });
+
+  function showMeasured(result) {
+    figure.update(frictionFigure(result, null, step.synthetic()));
+    for (const { of, place, handle } of others) {
+      const changes = of(result, Boolean(result?.synthetic));
+      place.hidden = changes.traces.length === 0;
+      handle.update(changes);
+    }
+  }
+
+  function show(result) {
+    state.setResult("agreement", result);
+    figure.update(frictionFigure(state.result("measured"), result, step.synthetic()));
+    key.set((result?.key ?? []).map(({ name, value, remark }) => ({ label: name, value, remark })));
+    key.hidden = !result?.key.length;
+    verdict.set(result ? [...result.sentences.slice(0, 1), ...result.notes] : []);
+    warnings.set(result ? [...result.failures, ...result.warnings] : []);
+    checks.set(result?.checks ?? []);
+    checked.hidden = !result;
+    const { headings, rows, caption, note: told } = result?.table ?? {};
+    byTemperature.replaceChildren(
+      ...(rows ? [fields.table(headings, rows, caption), h("p", { class: "help" }, told)] : []),
+    );
+    if (result?.sentences.length) app.announce(result.sentences[0]);
+    changed();
+  }
+
+  function clear() {
+    job.stop();
+    show(null);
+  }
+
+  return { card, rest, showMeasured, clear, run: () => job.run(state.study) };
+}

@@ -1,0 +1,112 @@
+// Friction of all temperatures on one curve, by the rubber's shift factors and by those that friction itself tells.
+
+import { factorsFigure, masterFigure } from "./measurement_inverse.js";
+import { definitions, optionChoice, repeated } from "./measurement_parts.js";
+
+const LAWS = [
+  ["best", "the best one"],
+  ["wlf", "WLF"],
+  ["arrhenius", "Arrhenius"],
+  ["vft", "VFT"],
+  ["wlf+arrhenius", "WLF and Arrhenius"],
+  ["polynomial", "polynomial"],
+  ["none", "none"],
+];
+
+/**
+ * The card of the friction master curve.
+ *
+ * @param {object} app
+ * @param {{synthetic: () => boolean}} step
+ * @param {{changed: () => void}} after another choice of what friction is laid beside
+ */
+export function masterCurve(app, step, { changed }) {
+  const { state, fields, figures } = app;
+  const { h, note } = fields;
+  const beside = optionChoice(app, {
+    key: "friction.beside",
+    label: "Laid beside",
+    options: [
+      ["rubber", "the page's rubber"],
+      ["nothing", "nothing: friction alone"],
+    ],
+    onChange: changed,
+  });
+  const shiftedBy = optionChoice(app, {
+    key: "friction.shifted",
+    label: "Shifted by",
+    options: [
+      ["rubber", "the rubber's shift factors"],
+      ["found", "those that friction tells"],
+    ],
+    onChange: () => draw(),
+  });
+  const law = optionChoice(app, {
+    key: "friction.law",
+    label: "Law fitted to friction's shift factors",
+    options: LAWS,
+    onChange: () => run(),
+  });
+  const job = repeated(app, "master", { label: "Shifting", done: show, failed: () => show(null) });
+  const words = definitions(app);
+  const notes = note([]);
+  const file = h(
+    "a",
+    { class: "button small", hidden: true, download: "shift_factors_from_friction.csv" },
+    "Shift factors (CSV)",
+  );
+  const pair = h("div", { class: "grid" });
+  const options = h("div", { class: "form" }, beside, shiftedBy, law);
+  const row = h("div", { class: "row" }, file);
+  const card = fields.card("Friction master curve", options, job.bar, job.errors, pair, notes, words, row);
+  const curve = figures.figure(pair, {
+    id: "friction-master-curve",
+    title: "Friction at one temperature",
+    x: { label: "reduced speed", kind: "speed", log: true },
+    y: { label: "viscoelastic friction coefficient" },
+    height: 340,
+  });
+  const factors = figures.figure(pair, {
+    id: "friction-shift-factors",
+    title: "Shift factors",
+    x: { label: "temperature", kind: "temperature" },
+    y: { label: "log₁₀ α" },
+    height: 340,
+  });
+
+  function show(result) {
+    state.setResult("friction_master", result);
+    const refused = result?.refusal ? [`Friction alone tells no shift factors: ${result.refusal}`] : [];
+    notes.set([...refused, ...(result?.notes ?? [])]);
+    shiftedBy.hidden = !(result?.found && result.by_rubber);
+    for (const one of [law, file]) one.hidden = !result?.found;
+    if (result?.found) file.href = app.api.downloadUrl(result.found.download);
+    draw();
+  }
+
+  function draw() {
+    const result = state.result("friction_master");
+    const chosen = shiftedBy.value() === "found" ? result?.found : result?.by_rubber;
+    const shown = chosen ?? result?.by_rubber ?? result?.found;
+    // The prediction is made with the rubber's shift factors.
+    const along = shown && shown === result.by_rubber ? state.result("agreement")?.along : null;
+    curve.update(masterFigure(shown, along, step.synthetic()));
+    factors.update(factorsFigure(result, step.synthetic()));
+    words.set(result?.found?.words ?? result?.by_rubber?.words ?? []);
+  }
+
+  const alone = () => beside.value() === "nothing";
+
+  /** Shift again; resolves with what came out. */
+  async function run() {
+    await job.run(state.study, { beside: !alone(), law: law.value() });
+    return state.result("friction_master");
+  }
+
+  function clear() {
+    job.stop();
+    show(null);
+  }
+
+  return { card, alone, draw, run, clear };
+}

@@ -1,0 +1,76 @@
+// The measurement step put together: a change of the measurement, or of what it is laid beside, computes what rests on it.
+
+import { comparison } from "./measurement_comparison.js";
+import { identification } from "./measurement_identify.js";
+import { masterCurve } from "./measurement_master.js";
+import { source } from "./measurement_source.js";
+
+/** What the prediction and the master curve rest on, besides the measurement. */
+const RESTS_ON = ["material", "indenter", "layer", "surface", "solver", "uncertainty", "conditions.thickness"];
+const WAIT = 400; // ms after the last change
+
+/** What parts of the step ask of each other: whether anything shown is made up, and how friction is to be taken. */
+function asked(app) {
+  const { state } = app;
+  const rubber = () => app.start?.catalogue?.find((one) => one.name === state.get("material.catalogue"));
+  return { synthetic: () => Boolean(state.result("measured")?.synthetic || rubber()?.synthetic) };
+}
+
+/** Put the step into its section. */
+export function mount(section, app) {
+  const { state } = app;
+  const { h } = app.fields;
+  const step = asked(app);
+  const master = masterCurve(app, step, { changed: () => refresh() });
+  const compared = comparison(app, step, { changed: () => master.draw() });
+  const identify = identification(app, step, { alone: master.alone });
+  const measured = source(app, { done: show, gone: clear });
+  const after = [compared.rest, master.card, identify.card];
+  let stale = false;
+  let timer = null;
+
+  section.append(
+    h(
+      "p",
+      {},
+      "What a traction test says: how much of its friction is viscoelastic, how well the page's rubber predicts it, ",
+      "onto which curve all temperatures fall, and which rubber would have such friction.",
+    ),
+    h("div", { class: "columns" }, h("div", {}, measured.card), h("div", {}, compared.card)),
+    ...after,
+  );
+
+  /** What was separated is there; what rests on it follows. */
+  function show(result) {
+    for (const part of [compared, master, identify]) part.clear();
+    compared.showMeasured(result);
+    for (const one of after) one.hidden = !result.curves;
+    refresh();
+  }
+
+  function clear() {
+    for (const part of [compared, master, identify]) part.clear();
+    compared.showMeasured(null);
+    for (const one of after) one.hidden = true;
+  }
+
+  /** Predict and shift again; later, if nobody looks at the step. */
+  function refresh() {
+    if (!state.result("measured")?.curves) return;
+    stale = section.parentElement.hidden;
+    if (stale) return;
+    if (master.alone()) compared.clear();
+    else compared.run();
+    master.run().then((result) => identify.suggest(result));
+  }
+
+  const later = (work) => () => {
+    clearTimeout(timer);
+    timer = setTimeout(work, WAIT);
+  };
+  state.subscribe("measurement", later(measured.follow));
+  state.subscribe(RESTS_ON, later(refresh));
+  new MutationObserver(() => stale && refresh()).observe(section.parentElement, { attributeFilter: ["hidden"] });
+  clear();
+  measured.follow();
+}
