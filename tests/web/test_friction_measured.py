@@ -56,10 +56,11 @@ def test_four_configurations_that_agree_pass(example: dict[str, Any]) -> None:
 
 
 def test_friction_curves_are_recognised_and_can_be_fetched(context: Context) -> None:
-    before = {**STUDY, "measurement": {"mtm": "mtm.csv", "zero": "0.1 N"}}
+    before = {**STUDY, "data_origin": "synthetic", "measurement": {"mtm": "mtm.csv", "zero": "0.1 N"}}
     found = done("measured", context, before, files=["curves.csv"])
     assert found["table"] == {"curves": "curves.csv"}  # a zero is nothing that curves have
     assert not found["runs"]
+    assert not found["synthetic"]  # the file does not say so, whatever the rubber is
     np.testing.assert_allclose(column(found["curves"], "viscoelastic"), curves().viscoelastic, rtol=1e-5)
     fetched = vf.read_friction_curves(context.downloads / found["download"])
     np.testing.assert_array_equal(fetched.viscoelastic, curves().viscoelastic)

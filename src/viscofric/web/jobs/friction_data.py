@@ -63,11 +63,16 @@ def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dic
 
 
 def measured_points(curves: FrictionCurves) -> list[dict[str, Any]]:
-    """Return measured friction by temperature, with the 95 % limits of its means; see `by_temperature`."""
+    """Return measured friction by temperature, with the 95 % limits of its means; see `by_temperature`.
+
+    What the signs of the speeds do not tell, as Coulomb friction in pure rolling, is NaN.
+    """
     columns = {name: getattr(curves, name) for name in _MEASURED if getattr(curves, name) is not None}
     for name in ("viscoelastic", "coulomb"):
         if getattr(curves, name) is not None:
             columns[f"{name}_lower"], columns[f"{name}_upper"] = curves.interval(of=name)
+            not_found = (columns[name] == 0.0) & np.isinf(columns[f"{name}_error"])
+            columns[name] = np.where(not_found, np.nan, columns[name])
     return by_temperature(curves.temperature, curves.speed, **columns)
 
 

@@ -56,7 +56,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``words`` (name and value).  ``found`` has ``factors`` (temperature, log10, error), ``law`` (temperature,
         log10, lower, upper; or null), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
         friction tells no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
-        (or null) and ``line``; null without a rubber.  ``notes``.
+        (or null) and ``line``; null without a rubber, and at one
+        temperature.  ``notes``.
 
     Raises
     ------
@@ -185,8 +186,11 @@ def _line(law: ShiftLaw, temperatures: Any) -> dict[str, Any]:
     return {"temperature": kelvin, "log10": log10, "lower": log10 - doubt, "upper": log10 + doubt}
 
 
-def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any]:
-    """Return the rubber's shift factors about the reference of a master curve, and not far from its temperatures."""
+def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
+    """Return the rubber's shift factors about the reference of a master curve, and not far from its temperatures.
+
+    None where there is one temperature only, which has nothing to be shifted to.
+    """
     import numpy as np
 
     from viscofric.report.inverse_figures import FARTHER
@@ -194,6 +198,8 @@ def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any]:
 
     law = known.at_reference(beside["reference"])
     warm = np.array([one["temperature"] for one in beside["points"]])
+    if warm.size < 2:
+        return None
     points = None
     if isinstance(law, ShiftFactors):
         near = (law.temperatures >= warm.min() - FARTHER) & (law.temperatures <= warm.max() + FARTHER)

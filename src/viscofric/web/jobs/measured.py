@@ -40,7 +40,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``table`` ([measurement], with the dropped files in it), ``recognised`` and ``lines`` (name and value),
-        ``steps`` (number and text of each), ``synthetic``, ``runs`` (whether they are a tribometer's), ``refusal``
+        ``steps`` (number and text of each), ``synthetic`` (whether a file says that it was made up), ``runs`` (whether they are a tribometer's), ``refusal``
         (why they cannot be separated, or null), ``notes``, and unless refused ``curves`` (by temperature, see
         `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and ``download``.
 
@@ -55,13 +55,12 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     table = table_of_files(study, context, options.files) if options.files else study.get("measurement")
     context.progress(0, 1, "Reading the files")
     found = measured({**study, "measurement": table}, context)
-    synthetic = found.synthetic or study.get("data_origin") == "synthetic"
     result: dict[str, Any] = {
         "table": table,
         "recognised": pairs(found.lines),
         "steps": [{"number": number, "text": text} for number, text in found.steps],
         "runs": found.runs,
-        "synthetic": synthetic,
+        "synthetic": found.synthetic,
         "refusal": found.refusal or None,
         "notes": texts(found.notes),
         "curves": None,

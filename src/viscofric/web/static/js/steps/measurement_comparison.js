@@ -32,7 +32,7 @@ const OTHERS = [
  * The cards of measured friction: `card` beside the prediction, `rest` what else there is.
  *
  * @param {object} app
- * @param {{synthetic: () => boolean}} step
+ * @param {{data: () => boolean, synthetic: () => boolean}} step
  * @param {{changed: () => void}} after another prediction
  */
 export function comparison(app, step, { changed }) {
@@ -63,9 +63,9 @@ export function comparison(app, step, { changed }) {
   });
 
   function showMeasured(result) {
-    figure.update(frictionFigure(result, null, step.synthetic()));
+    figure.update(frictionFigure(result, null, step.data()));
     for (const { of, place, handle } of others) {
-      const changes = of(result, Boolean(result?.synthetic));
+      const changes = of(result, step.data());
       place.hidden = changes.traces.length === 0;
       handle.update(changes);
     }
@@ -73,7 +73,7 @@ export function comparison(app, step, { changed }) {
 
   function show(result) {
     state.setResult("agreement", result);
-    figure.update(frictionFigure(state.result("measured"), result, step.synthetic()));
+    figure.update(frictionFigure(state.result("measured"), result, result ? step.synthetic() : step.data()));
     key.set((result?.key ?? []).map(({ name, value, remark }) => ({ label: name, value, remark })));
     key.hidden = !result?.key.length;
     verdict.set(result ? [...result.sentences.slice(0, 1), ...result.notes] : []);

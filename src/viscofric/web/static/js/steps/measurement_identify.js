@@ -17,7 +17,7 @@ const ASKED = {
  * The card of the identification.
  *
  * @param {object} app
- * @param {{synthetic: () => boolean}} step
+ * @param {{data: () => boolean, synthetic: () => boolean}} step
  * @param {{alone: () => boolean}} about whether no rubber is to be looked at
  */
 export function identification(app, step, { alone }) {
@@ -119,7 +119,7 @@ export function identification(app, step, { alone }) {
   function show(found) {
     state.setResult("identified", found);
     results.hidden = false;
-    const made = step.synthetic();
+    const made = alone() ? step.data() : step.synthetic();
     modulus.update(modulusFigure(found, made));
     fit.update(fitFigure(found, state.result("measured"), made));
     const at =

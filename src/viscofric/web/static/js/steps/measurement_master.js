@@ -17,7 +17,7 @@ const LAWS = [
  * The card of the friction master curve.
  *
  * @param {object} app
- * @param {{synthetic: () => boolean}} step
+ * @param {{data: () => boolean, synthetic: () => boolean}} step
  * @param {{changed: () => void}} after another choice of what friction is laid beside
  */
 export function masterCurve(app, step, { changed }) {
@@ -72,6 +72,7 @@ export function masterCurve(app, step, { changed }) {
     x: { label: "temperature", kind: "temperature" },
     y: { label: "log₁₀ α" },
     height: 340,
+    empty: "Friction at one temperature tells no shift factor.",
   });
 
   function show(result) {
@@ -90,8 +91,9 @@ export function masterCurve(app, step, { changed }) {
     const shown = chosen ?? result?.by_rubber ?? result?.found;
     // The prediction is made with the rubber's shift factors.
     const along = shown && shown === result.by_rubber ? state.result("agreement")?.along : null;
-    curve.update(masterFigure(shown, along, step.synthetic()));
-    factors.update(factorsFigure(result, step.synthetic()));
+    const synthetic = alone() ? step.data() : step.synthetic();
+    curve.update(masterFigure(shown, along, synthetic));
+    factors.update(factorsFigure(result, synthetic));
     words.set(result?.found?.words ?? result?.by_rubber?.words ?? []);
   }
 

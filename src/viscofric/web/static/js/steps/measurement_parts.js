@@ -30,7 +30,7 @@ export function repeated(app, kind, { label, done, failed }) {
       bar.finish(error.name === "AbortError" ? "Cancelled." : "");
       if (error.name === "AbortError") return;
       app.fields.showError(error);
-      errors.set([error.message]);
+      errors.set([error.message.charAt(0).toUpperCase() + error.message.slice(1)]);
       failed?.(error.message);
     }
   }

@@ -9,11 +9,16 @@ import { source } from "./measurement_source.js";
 const RESTS_ON = ["material", "indenter", "layer", "surface", "solver", "uncertainty", "conditions.thickness"];
 const WAIT = 400; // ms after the last change
 
-/** What parts of the step ask of each other: whether anything shown is made up, and how friction is to be taken. */
+/** What parts of the step ask of each other: whether the measurement is made up, and whether it or the rubber is. */
 function asked(app) {
   const { state } = app;
-  const rubber = () => app.start?.catalogue?.find((one) => one.name === state.get("material.catalogue"));
-  return { synthetic: () => Boolean(state.result("measured")?.synthetic || rubber()?.synthetic) };
+  const data = () => Boolean(state.result("measured")?.synthetic);
+  const rubber = () => {
+    const name = state.get("material.catalogue");
+    if (name === undefined) return state.get("data_origin") === "synthetic";
+    return Boolean(app.start?.catalogue?.find((one) => one.name === name)?.synthetic);
+  };
+  return { data, synthetic: () => data() || rubber() };
 }
 
 /** Put the step into its section. */
