@@ -57,7 +57,7 @@ export function comparison(app, step, { changed }) {
 
   const rest = h("div", { class: "grid thirds" });
   const others = OTHERS.map(({ of, ...spec }) => {
-    const place = h("section", { class: "card", "aria-label": spec.title });
+    const place = h("section", { class: "card" });
     rest.append(place);
     return { of, place, handle: figures.figure(place, { x: SPEED, height: 300, ...spec }) };
   });

@@ -1,0 +1,147 @@
+"""The measurement step in a real browser: files in, friction beside its prediction, one curve, the rubber behind it."""
+
+from __future__ import annotations
+
+import re
+import time
+from typing import TYPE_CHECKING
+
+import pytest
+
+import viscofric as vf
+from web.friction_workspace import curves
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Locator
+
+    from web.browser_tab import Tab
+
+pytestmark = pytest.mark.slow
+_SECONDS = 60.0  # at most, on a machine that does other work too
+_STEP = "#step-measurement"
+
+
+def drop(tab: Tab, *paths: Path) -> None:
+    tab.page.set_input_files(f"{_STEP} input[type=file]", [str(path) for path in paths])
+
+
+def names_of_curves(tab: Tab, figure: str) -> list[str]:
+    """Return what is drawn in a figure: the names of its curves, without the edges of their bands."""
+    found = tab.value(
+        "Array.from(document.querySelector(given[0])?.data ?? [], (one) => one.name)", f"#figure-{figure} .plot"
+    )
+    return [name for name in found if name]
+
+
+def until_drawn(tab: Tab, figure: str, curves: int) -> None:
+    place = f"#figure-{figure} .plot"
+    tab.until(
+        f"(document.querySelector('{place}')?.data ?? []).filter((one) => one.name).length === {curves}", _SECONDS
+    )
+
+
+def part(tab: Tab, title: str) -> Locator:
+    heading = tab.page.get_by_role("heading", name=title, exact=True)
+    return tab.page.locator(f"{_STEP} section.card").filter(has=heading)
+
+
+def test_the_example_from_its_file_to_the_rubber_behind_it(tab: Tab) -> None:
+    tab.step("measurement")
+    assert "Drop the files" in tab.text("#figure-measured-friction .plot-empty")
+    tab.page.get_by_role("button", name="Use the synthetic example").click()
+    until_drawn(tab, "measured-friction", 6)
+    assert sorted(names_of_curves(tab, "measured-friction")) == sorted(
+        f"{warm} °C{word}".replace(" °C", "\N{NO-BREAK SPACE}°C")
+        for warm in (30, 60, 90)
+        for word in ("", ", predicted")
+    )
+    facts = part(tab, "Measured friction").inner_text()
+    assert re.search(r"readings\s+960", facts)
+    assert "synthetic data" in facts
+    assert "configurations: passed" in facts
+    agreement = part(tab, "Measured against predicted").inner_text()
+    assert re.search(r"Over 30 points the predicted friction is 0\.\d % (below|above) the measured one", agreement)
+    for figure in ("coulomb-friction", "four-runs", "force-cell-zero"):
+        until_drawn(tab, figure, 3)
+    part(tab, "Friction master curve").get_by_text("do not overlap", exact=False).first.wait_for(timeout=1e3 * _SECONDS)
+    until_drawn(tab, "friction-master-curve", 4)
+    assert re.fullmatch(r"30 points, predicted to [01]\.\d+.%", tab.text('#steps a[href="#measurement"] .step-summary'))
+
+    behind = part(tab, "The rubber behind the friction")
+    # Friction tells no shift factors here, so that the rubber's are suggested.
+    assert behind.get_by_label("Shift factors").input_value() == "rubber"
+    behind.get_by_role("button", name="Identify the rubber").click()
+    until_drawn(tab, "identified-modulus", 6)
+    assert "Anchored to |E| =" in behind.inner_text()
+    tab.screenshot("measurement-example")
+    assert tab.findings() == []
+    behind.get_by_role("button", name="Use this rubber on the page").click()
+    tab.until("page.state.state.get('material.file') === 'rubber_from_friction.json'")
+    tab.page.set_viewport_size({"width": 390, "height": 844})
+    assert tab.value("document.documentElement.scrollWidth <= innerWidth")
+    tab.screenshot("measurement-phone")
+
+
+def test_curves_alone_are_shifted_without_any_rubber(tab: Tab, tmp_path: Path) -> None:
+    path = tmp_path / "curves.csv"
+    vf.write_friction_curves(curves(), path)
+    tab.step("measurement")
+    tab.value("page.state.state.set('material', {file: 'a rubber that is not there.json'})")
+    drop(tab, path)
+    master = part(tab, "Friction master curve")
+    master.get_by_label("Laid beside").select_option("nothing", timeout=1e3 * _SECONDS)
+    until_drawn(tab, "friction-shift-factors", 2)
+    assert "WLF" in master.inner_text()
+    assert not any("predicted" in name for name in names_of_curves(tab, "measured-friction"))
+    with tab.page.expect_download() as download:
+        master.get_by_role("link", name="Shift factors (CSV)").click()
+    factors = vf.read_shift_factors(download.value.path())
+    assert len(factors.temperatures) == 5
+
+
+def test_what_is_wrong_stands_beside_its_field_and_identifying_can_be_cancelled(tab: Tab, tmp_path: Path) -> None:
+    tab.step("measurement")
+    tab.page.get_by_role("button", name="Use the synthetic example").click()
+    until_drawn(tab, "measured-friction", 6)
+    behind = part(tab, "The rubber behind the friction")
+    behind.get_by_label("What fixes the level").select_option("nothing")
+    behind.get_by_role("button", name="Identify the rubber").click()
+    behind.get_by_text("step 2", exact=False).wait_for(timeout=1e3 * _SECONDS)
+    begun = time.monotonic()
+    behind.get_by_role("button", name="Cancel").click()
+    behind.get_by_text("Cancelled.").wait_for()
+    assert time.monotonic() - begun < 2.0
+
+    part(tab, "Measured friction").get_by_text("More: zero").click()
+    zero = tab.page.get_by_label("Zero of the force cell", exact=True)
+    zero.fill("5 mm")
+    zero.press("Tab")
+    tab.page.get_by_text("has the wrong kind of unit", exact=False).first.wait_for(timeout=1e3 * _SECONDS)
+    zero.fill("0.12")
+    zero.press("Tab")
+    tab.until("page.state.state.get('measurement.zero') === '0.12 N'")
+    until_drawn(tab, "measured-friction", 6)
+    other = tmp_path / "nothing.csv"
+    other.write_text("this is, no table\n", encoding="utf-8")
+    drop(tab, other)
+    part(tab, "Measured friction").get_by_role("alert").get_by_text("nothing.csv").wait_for(timeout=1e3 * _SECONDS)
+
+
+def test_a_real_export_that_cannot_be_separated_says_what_to_do(tab: Tab, real_data: Path) -> None:
+    tab.step("measurement")
+    drop(tab, real_data / "mtm" / "demo-mtm-output.txt")
+    card = part(tab, "Measured friction")
+    card.get_by_text("by “Steps to leave out”: 2").wait_for(timeout=1e3 * _SECONDS)
+    steps = card.get_by_label("Steps to leave out")
+    steps.fill("2")
+    steps.press("Tab")
+    card.get_by_text("(“Assumed Coulomb friction”)").wait_for(timeout=1e3 * _SECONDS)
+    card.get_by_label("Assumed Coulomb friction").fill("constant")
+    card.get_by_label("Assumed Coulomb friction").press("Tab")
+    zero = card.get_by_label("Zero of the force cell", exact=True)
+    zero.fill("0")
+    zero.press("Tab")
+    tab.until("page.state.state.result('measured')?.curves?.length > 0", _SECONDS)
+    tab.screenshot("measurement-real")
