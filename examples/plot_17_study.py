@@ -78,4 +78,9 @@ alone = vf.solve_steady(
 )
 print(f"at 60 °C and 100 mm/s: {friction:.5f} in the study, {alone.friction_coefficient:.5f} alone")
 
+# %%
+# Results know what they rest on; ``vf.citations(results).bibtex()`` gives the same for a bibliography.
+
+print(vf.citations(results))
+
 plt.show()

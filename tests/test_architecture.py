@@ -47,6 +47,7 @@ ROOMS = {
     "friction": ("friction",),
     "verification": ("verification",),
     "study": ("study",),
+    "literature": ("literature",),
     "report": ("report",),
     "front door": ("",),
     "web": ("web",),

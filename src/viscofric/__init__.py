@@ -60,6 +60,8 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.shift import shift_friction as shift_friction
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement as ShiftAgreement
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
+    from viscofric.literature.citations import Citations as Citations
+    from viscofric.literature.citations import citations as citations
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
     from viscofric.readers.dma.master_curves import read_master_curve as read_master_curve
@@ -173,6 +175,8 @@ _HOME = {
     "ThermalProperties": "viscofric.thermal",
     "ContactAnchor": "viscofric.friction.identification.anchors",
     "ModulusAnchor": "viscofric.friction.identification.anchors",
+    "Citations": "viscofric.literature.citations",
+    "citations": "viscofric.literature.citations",
     "identify_material": "viscofric.friction.identification.identify",
     "IdentifiedMaterial": "viscofric.friction.identification.result",
     "predict_friction": "viscofric.friction.prediction",

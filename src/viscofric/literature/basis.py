@@ -1,0 +1,254 @@
+"""What each kind of result rests on: references, each with what for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import singledispatch
+from typing import TypeAlias
+
+from viscofric.contact.layers import Layer
+from viscofric.contact.periodic.solution import PeriodicSolution
+from viscofric.contact.solution import ContactSolution
+from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.identification.result import IdentifiedMaterial
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.literature.reference import Reference
+from viscofric.literature.references import PAPER, REFERENCES
+from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.law_comparison import LawComparison
+from viscofric.rheology.shifts.laws import VFT, WLF, ShiftLaw, WLFArrhenius
+from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import FROM_FRICTION, RetardationSpectrum
+from viscofric.rheology.superposition.superpose import Superposition
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.roughness.ensemble import RoughFriction
+from viscofric.roughness.patches import ContactStatistics
+from viscofric.roughness.persson import PerssonTheory
+from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
+from viscofric.study import StudyResults
+
+Basis: TypeAlias = Iterator[tuple[Reference, str]]
+
+
+@singledispatch
+def basis(result: object) -> Basis:
+    """Yield the references that a result rests on, each with what for."""
+    raise InputError(
+        f"citations() does not know what a {type(result).__name__} rests on; give a rubber, a contact, friction "
+        "curves, a master curve, Persson's theory or results of a study."
+    )
+
+
+def _for(reason: str, *keys: str) -> Basis:
+    for key in keys:
+        yield REFERENCES[key], reason
+
+
+@basis.register
+def _of_material(rubber: Material) -> Basis:
+    yield from basis(rubber.spectrum)
+    if rubber.shift is not None:
+        yield from basis(rubber.shift)
+    if rubber.citation:
+        key = re.sub(r"\W+", "_", rubber.name.lower()).strip("_") or "rubber"
+        yield Reference(key, note=rubber.citation), f"data of the rubber {rubber.name}".rstrip()
+
+
+@basis.register
+def _of_spectrum(spectrum: RetardationSpectrum) -> Basis:
+    yield from modes("" if spectrum.fit is None else spectrum.fit.method)
+
+
+def modes(method: str = "") -> Basis:
+    """Yield what a retardation spectrum rests on, as it is or fitted by a method of `fit_retardation_spectrum`."""
+    yield PAPER, "the rubber as a sum of retardation modes (Eqs. 3 and 5)"
+    if method == FROM_FRICTION:
+        yield from _identification()
+    elif method:
+        yield from _for("non-negative least squares", "lawson1974")
+    if method == "regularised":
+        yield from _for("how smooth the spectrum is", "hansen1993")
+
+
+@basis.register
+def _of_series(series: RelaxationSpectrum) -> Basis:
+    yield from _for("relaxation out of retardation, and back", "park1999")
+
+
+@basis.register
+def _of_table(table: ModulusTable) -> Basis:
+    yield from _for("interpolation of the moduli", "fritsch1984")
+
+
+@basis.register
+def _of_shift(shift: ShiftLaw) -> Basis:
+    yield from shifted_by(type(shift))
+
+
+def shifted_by(law: type[ShiftLaw]) -> Basis:
+    """Yield what shift factors of a kind rest on."""
+    yield PAPER, "time-temperature superposition (Eq. 4)"
+    if issubclass(law, (WLF, WLFArrhenius)):
+        yield from _for("law of the shift factors", "williams1955")
+    elif issubclass(law, VFT):
+        yield from _for("law of the shift factors", "vogel1921", "fulcher1925", "tammann1926")
+
+
+@basis.register
+def _of_laws(laws: LawComparison) -> Basis:
+    yield from basis(laws.best)
+    yield from compared_laws()
+
+
+def compared_laws() -> Basis:
+    """Yield what the choice of a shift law rests on."""
+    yield from _for("choice of the law", "hurvich1989")
+
+
+@basis.register
+def _of_superposition(fit: Superposition) -> Basis:
+    yield from superposed_sweeps()
+
+
+def superposed_sweeps() -> Basis:
+    """Yield what the superposition of sweeps rests on."""
+    yield PAPER, "time-temperature superposition (Eq. 4)"
+    yield from _for("shift factors and common curves sought together", "golub1973")
+    yield from _for("how smooth the common curves are", "wood2011")
+    yield from _for("check of the superposition", "vangurp1998")
+
+
+@basis.register
+def _of_samples(samples: MaterialSamples) -> Basis:
+    first = samples.materials[0].spectrum
+    if isinstance(first, RetardationSpectrum) and first.fit is not None and first.fit.from_friction:
+        yield from _identification()
+    else:
+        yield from _for("uncertainty of the rubber", "efron1993")
+
+
+@basis.register
+def _of_layer(layer: Layer) -> Basis:
+    yield from _for("the layer", "carbone2008", "putignano2015", "johnson1985")
+
+
+@basis.register
+def _of_contact(solution: ContactSolution) -> Basis:
+    yield from solved_contact(line=solution.geometry == "line")
+    if solution.derivatives is not None:
+        yield from _adjoint()
+
+
+def solved_contact(*, line: bool) -> Basis:
+    """Yield what a solved contact of a single indenter rests on."""
+    yield PAPER, "the contact problem and its Green's function (Eq. 8)"
+    yield from _for("the method of boundary elements for steady viscoelastic contact", "carbone2013")
+    if not line:
+        yield from _for("displacement under a loaded rectangle", "love1929")
+    yield from _for("the elastic limits", "hertz1882", "johnson1985")
+    if line:
+        yield from _for("the exact solution that line contacts are held against", "hunter1961")
+    yield from _for("the linear solver", "eisenstat1983")
+
+
+def _adjoint() -> Basis:
+    yield from _for("derivatives of friction by an adjoint solve", "giles2000")
+
+
+@basis.register
+def _of_periodic(solution: PeriodicSolution) -> Basis:
+    yield from solved_surface()
+
+
+def solved_surface() -> Basis:
+    """Yield what a solved contact of a periodic surface rests on."""
+    yield PAPER, "the contact problem, here in Fourier space"
+    yield from _for("operator splitting and its acceleration", "lions1979", "anderson1965")
+    yield from _for("the linear solver", "eisenstat1983")
+
+
+@basis.register
+def _of_patches(statistics: ContactStatistics) -> Basis:
+    yield from _for("the corrected contact area", "yastrebov2017")
+
+
+@basis.register
+def _of_rough_friction(friction: RoughFriction) -> Basis:
+    yield from solved_surface()
+    yield from _for("the corrected contact area", "yastrebov2017")
+
+
+@basis.register
+def _of_power_spectrum(spectrum: PowerSpectrum | LineSpectrum) -> Basis:
+    yield from _for("power spectra of surfaces", "persson2005", "jacobs2017")
+
+
+@basis.register
+def _of_persson(theory: PerssonTheory) -> Basis:
+    yield from _for("theory of contact area and friction", "persson2001")
+    yield from _for("the factor S for partial contact", "lorenz2015")
+    if theory.flash_temperature.any():
+        yield from _for("flash temperature", "persson2006")
+
+
+@basis.register
+def _of_curves(curves: FrictionCurves) -> Basis:
+    if curves.source == "predicted":
+        yield from solved_contact(line=curves.load_unit == "N/m")
+    elif curves.coulomb is not None:
+        yield from separated_friction()
+    if curves.material_error is not None:
+        yield from banded_friction()
+
+
+def separated_friction() -> Basis:
+    """Yield what viscoelastic friction rests on that was separated from Coulomb friction."""
+    yield PAPER, "separation of viscoelastic from Coulomb friction (Eq. 9)"
+
+
+def banded_friction() -> Basis:
+    """Yield what the band of predicted friction rests on."""
+    yield from _for("uncertainty of the rubber", "efron1993")
+    yield from _adjoint()
+
+
+@basis.register
+def _of_master(master: FrictionMasterCurve) -> Basis:
+    yield from basis(master.curves)
+    yield from basis(master.shift)
+    yield from shifted_friction(found=master.found)
+
+
+def shifted_friction(*, found: bool) -> Basis:
+    """Yield what a friction master curve rests on, given or found shift factors."""
+    yield from one_curve()
+    yield from _for("the smooth curve through the points", "cleveland1979")
+    if found:
+        yield from _for("shift factors and the common curve sought together", "golub1973")
+
+
+def one_curve() -> Basis:
+    """Yield what friction at all temperatures on one curve rests on."""
+    yield PAPER, "one friction curve for all temperatures (Eq. 10)"
+
+
+@basis.register
+def _of_identified(found: IdentifiedMaterial) -> Basis:
+    yield PAPER, "shift factors and modulus from friction (section 4.2)"
+    yield from solved_contact(line=found.friction.load_unit == "N/m")
+    yield from _identification()
+
+
+def _identification() -> Basis:
+    yield from _adjoint()
+    yield from _for("uncertainty of what was identified", "chen2012", "bardsley2014")
+
+
+@basis.register
+def _of_study(results: StudyResults) -> Basis:
+    from viscofric.literature.studies import study_basis
+
+    yield from study_basis(results)
