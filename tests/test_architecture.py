@@ -1,18 +1,16 @@
-"""The plan of the house holds: who imports whom, what starts quickly, what front door and wheel carry."""
+"""The plan of the house holds: who imports whom, what starts quickly, what the front door carries."""
 
 from __future__ import annotations
 
 import ast
 import importlib
 import inspect
-import os
 import pkgutil
 import re
 import shutil
 import subprocess
 import sys
 import tomllib
-import zipfile
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -286,31 +284,3 @@ def test_lock_is_complete_and_names_no_index() -> None:
     assert names <= locked, "renew it: CONTRIBUTING.md"
     assert not re.search(r"://|^\s*-(?!-hash)", lock, re.MULTILINE)
     assert not any(name.startswith(("torch", "nvidia", "cuda", "cupy")) for name in locked)
-
-
-def test_wheel_carries_every_file_of_the_package(tmp_path: Path) -> None:
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
-        shutil.copy(ROOT / name, tmp_path)
-    ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
-    shutil.copytree(SOURCE.parent, tmp_path / "src", ignore=ignore)
-    build = "from setuptools import build_meta; build_meta.build_wheel('wheels')"
-    environment = {**os.environ, "PYTHONWARNINGS": "default"}
-    done = subprocess.run(
-        [sys.executable, "-c", build],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    (wheel,) = (tmp_path / "wheels").glob("*.whl")
-    with zipfile.ZipFile(wheel) as archive:
-        names = set(archive.namelist())
-        about = {Path(name).name: archive.read(name).decode() for name in names if ".dist-info/" in name}
-    source = tmp_path / "src"
-    files = {path.relative_to(source).as_posix() for path in (source / "viscofric").rglob("*") if path.is_file()}
-    assert files <= names, f"not in the wheel: {sorted(files - names)}"
-    assert "viscofric/py.typed" in names
-    assert "viscofric = viscofric.cli:main" in about["entry_points.txt"]
-    assert "License-Expression: MIT" in about["METADATA"]

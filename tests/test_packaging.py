@@ -1,0 +1,191 @@
+"""Source distribution and wheel: what they hold, and that viscofric works where nothing else is of the checkout."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import zipfile
+from email import message_from_string
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+#: Not of the project: what tools make in a checkout.
+MADE = shutil.ignore_patterns(
+    ".git", ".venv", ".tools", "__pycache__", "*.egg-info", ".*_cache", ".hypothesis", "_build", "build", "dist"
+)
+
+#: What a user does first, in the new environment: help of all commands, a study, its files.
+WORK = """
+from importlib import resources
+from pathlib import Path
+
+import click
+from click.testing import CliRunner
+
+import viscofric
+from viscofric.cli import main
+
+assert Path(viscofric.__file__).is_relative_to({place!r}), viscofric.__file__
+
+
+def call(*arguments):
+    done = CliRunner().invoke(main, arguments, prog_name="viscofric", catch_exceptions=False)
+    assert done.exit_code == 0, done.output
+    return done.output
+
+
+for name in main.list_commands(click.Context(main)):
+    assert f"viscofric {{name}}" in call(name, "--help"), name
+page = resources.files("viscofric") / "web" / "static" / "index.html"
+assert "<title>" in page.read_text(encoding="utf-8")
+example = {{one.name for one in (resources.files("viscofric") / "example").iterdir()}}
+assert {{"dma.csv", "mtm.csv", "study.toml"}} <= example
+
+call("new", "first")
+call("check", "first/study.toml")
+Path("small.toml").write_text({study!r}, encoding="utf-8")
+call("run", "small.toml", "--quiet")
+assert Path("small.results/report.html").stat().st_size > 10_000
+results = viscofric.open_results("small.results")
+assert not results.failures
+assert (results.dataset["friction_coefficient"] > 0.0).all()
+"""
+
+STUDY = """
+[material]
+catalogue = "synthetic fluoroelastomer"
+
+[indenter]
+radius = "9.525 mm"
+
+[conditions]
+load = "25 N"
+speed = ["20 mm/s", "200 mm/s"]
+temperature = "60 degC"
+
+[solver]
+accuracy = 0.1
+master_curve_points = 2
+"""
+
+
+def clean(environment: dict[str, str]) -> dict[str, str]:
+    """Leave out what leads to the checkout."""
+    return {name: value for name, value in environment.items() if not name.startswith(("PYTHON", "VIRTUAL_ENV"))}
+
+
+def run(command: list[str], folder: Path, environment: dict[str, str] | None = None) -> str:
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        env=environment or clean(dict(os.environ)),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+    assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """Return the source distribution, and the wheel that was built from it and not from the checkout."""
+    folder = tmp_path_factory.mktemp("built")
+    checkout = shutil.copytree(ROOT, folder / "checkout", ignore=MADE)
+    run([sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), str(checkout)], folder)
+    (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
+    return sdist, wheel
+
+
+def members(sdist: Path) -> set[str]:
+    with tarfile.open(sdist) as archive:
+        return {one.name.split("/", 1)[1] for one in archive.getmembers() if one.isfile()}
+
+
+def tracked() -> set[str]:
+    """Files of the project: those that git knows, or, without it, those of the folders that matter most."""
+    if (ROOT / ".git").exists() and shutil.which("git"):
+        listed = run(["git", "ls-files", "-z"], ROOT, dict(os.environ)).split("\0")
+        return {name for name in listed if name and (ROOT / name).is_file()}
+    found = [path for top in ("src", "tests") for path in (ROOT / top).rglob("*") if path.is_file()]
+    unwanted = ("__pycache__", ".egg-info")
+    return {path.relative_to(ROOT).as_posix() for path in found if not any(one in str(path) for one in unwanted)}
+
+
+@pytest.mark.slow
+def test_source_distribution_holds_the_whole_project(built: tuple[Path, Path]) -> None:
+    found = members(built[0])
+    assert tracked() <= found
+    made = {"PKG-INFO", "setup.cfg", *(name for name in found if ".egg-info/" in name)}
+    strange = [name for name in found - made if any(one in name for one in ("__pycache__", "_build/", "_generated/"))]
+    assert not strange
+
+
+@pytest.mark.slow
+def test_wheel_carries_every_file_of_the_package_and_nothing_else(built: tuple[Path, Path]) -> None:
+    with zipfile.ZipFile(built[1]) as archive:
+        names = set(archive.namelist())
+        about = {Path(name).name: archive.read(name).decode() for name in names if ".dist-info/" in name}
+    source = ROOT / "src"
+    files = {path.relative_to(source).as_posix() for path in (source / "viscofric").rglob("*") if path.is_file()}
+    files = {name for name in files if "__pycache__" not in name}
+    assert files <= names, f"not in the wheel: {sorted(files - names)}"
+    assert {name.split("/")[0] for name in names - files} == {f"{built[1].name.split('-py3')[0]}.dist-info"}
+    assert "viscofric/py.typed" in names
+    assert "viscofric = viscofric.cli:main" in about["entry_points.txt"]
+    assert about["LICENSE"] == (ROOT / "LICENSE").read_text(encoding="utf-8")
+    metadata = message_from_string(about["METADATA"])
+    assert metadata["License-Expression"] == "MIT"
+    assert metadata["Requires-Python"] == ">=3.11"
+    assert metadata["Description-Content-Type"] == "text/markdown"
+    assert metadata.get_payload().startswith("# viscofric")
+    versions = {f"Programming Language :: Python :: 3.{minor}" for minor in (11, 12, 13)}
+    assert versions <= set(metadata.get_all("Classifier"))
+
+
+def installers(python: Path) -> list[list[str]]:
+    """Commands that install a wheel into the environment of a Python, as far as there are any."""
+    uv = [str(path) for path in (ROOT / ".tools" / "bin" / "uv", shutil.which("uv")) if path and Path(path).exists()]
+    found = [[one, "pip", "install", "--python", str(python), "--no-config"] for one in uv[:1]]
+    return found + [[sys.executable, str(pip), "--python", str(python), "install"] for pip in _pips()]
+
+
+def _pips() -> list[Path]:
+    """Return pip as this environment has it, and as Python brings it to make environments with."""
+    installed = Path(sysconfig.get_path("purelib")) / "pip"
+    try:
+        import ensurepip
+    except ImportError:  # Debian leaves it out
+        bundled: list[Path] = []
+    else:
+        bundled = [wheel / "pip" for wheel in (Path(ensurepip.__file__).parent / "_bundled").glob("pip-*.whl")]
+    return [*([installed] if installed.is_dir() else []), *bundled]
+
+
+@pytest.mark.slow
+def test_installed_elsewhere_it_works(built: tuple[Path, Path], tmp_path: Path) -> None:
+    """Dependencies are those of this environment; viscofric itself comes from the wheel."""
+    home = tmp_path / "environment"
+    run([sys.executable, "-m", "venv", "--without-pip", str(home)], tmp_path)
+    paths = {"base": str(home), "platbase": str(home)}
+    scheme = sysconfig.get_preferred_scheme("prefix")
+    packages, scripts = (Path(sysconfig.get_path(name, scheme, paths)) for name in ("purelib", "scripts"))
+    (packages / "dependencies.pth").write_text(sysconfig.get_path("purelib"), encoding="utf-8")
+    python = scripts / Path(sys.executable).name
+    ways = installers(python)
+    if not ways:
+        pytest.skip("neither uv nor pip is there to install a wheel with")
+    run([*ways[0], "--no-deps", "--no-index", str(built[1])], tmp_path)
+
+    program = scripts / "viscofric"
+    assert "Viscoelastic friction" in run([str(program), "--help"], tmp_path)
+    version = built[1].name.split("-")[1]
+    assert run([str(program), "--version"], tmp_path).strip().endswith(version)
+    run([str(python), "-W", "error", "-c", WORK.format(place=str(home), study=STUDY)], tmp_path)
