@@ -24,6 +24,7 @@ extensions = [
     "sphinx-mathjax-offline",  # MathJax from the site itself
     "sphinx_copybutton",
     "sphinx_design",
+    "sphinx_gallery.gen_gallery",
     "docstrings",
     "generated_pages",
 ]
@@ -83,26 +84,16 @@ html_favicon = "_static/mark.svg"
 html_sidebars = {"index": [], "changes": [], "limits": [], "verification": []}
 
 # the examples at the root of the checkout, with what they draw
-EXAMPLES = HERE.parent / "examples"
-if any(EXAMPLES.glob("*.py")):
-    extensions.append("sphinx_gallery.gen_gallery")
-    exclude_patterns += ["auto_examples/**/*.py", "auto_examples/**/*.ipynb", "auto_examples/**/*.md5"]
-    sphinx_gallery_conf = {
-        "examples_dirs": [str(EXAMPLES)],
-        "gallery_dirs": ["auto_examples"],
-        "filename_pattern": r"\.py$",
-        "ignore_pattern": r"/_|__init__",
-        "within_subsection_order": "FileNameSortKey",
-        "download_all_examples": False,
-        "show_signature": False,
-        "show_memory": False,
-        "min_reported_time": 10_000,
-        "abort_on_example_error": True,
-        "plot_gallery": True,
-        "matplotlib_animations": False,
-        "doc_module": ("viscofric",),
-        "backreferences_dir": None,
-        "image_scrapers": ("matplotlib",),
-        "default_thumb_file": None,
-        "remove_config_comments": True,
-    }
+exclude_patterns += ["auto_examples/**/*.py", "auto_examples/**/*.ipynb", "auto_examples/**/*.md5"]
+sphinx_gallery_conf = {
+    "examples_dirs": ["../examples"],
+    "gallery_dirs": ["auto_examples"],
+    "filename_pattern": "/plot_",
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "min_reported_time": 10_000,  # how long an example took on the machine that built the site says little
+    "remove_config_comments": True,
+    "show_memory": False,
+    "show_signature": False,
+}
