@@ -34,7 +34,7 @@ def exact(speed):
 # Friction over four decades of speed, and the pressure at one of them. The line is the exact solution, the marks are
 # solved contacts; the axis of the cylinder is at zero and it moves to the right.
 
-fine = np.geomspace(speeds[0], speeds[-1], 200)
+fine = np.geomspace(speeds[0], speeds[-1], 60)
 one = solutions[3]
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
 left.semilogx(fine, [exact(speed).friction_coefficient for speed in fine], color=VERMILION, label="Hunter, exact")

@@ -18,7 +18,7 @@ from viscofric.report.house_style import BLUE, VERMILION
 
 rubber = vf.synthetic_fluoroelastomer()
 ball = vf.Ball(radius="20 mm")
-reduced_speed = np.geomspace(1e-8, 1e6, 43)  # m/s at 30 °C
+reduced_speed = np.geomspace(1e-8, 1e6, 36)  # m/s at 30 °C
 curve = vf.predict_friction(rubber, ball, speeds=reduced_speed, temperatures="30 degC", load="10 N", accuracy=1e-2)
 
 # %%

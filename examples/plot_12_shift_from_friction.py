@@ -45,10 +45,11 @@ master = vf.shift_friction(measured, reference="60 degC")
 found = master.shift_factors
 print(master.overlap_sentence)
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(11.0, 4.2), layout="constrained")
-report.plot_friction_curves(left, measurement=measured)
-report.plot_friction_master_curve(right, measurement=master)
-mark_synthetic([left, right])
+figure, (above, below) = plt.subplots(2, 1, figsize=(7.5, 7.4), layout="constrained")
+report.plot_friction_curves(above, measurement=measured)
+report.plot_friction_master_curve(below, measurement=master)
+mark_synthetic([above])
+mark_synthetic([below])
 
 # %%
 # Beside them, the law of the modulus that the friction was made with. Do both agree within their errors?

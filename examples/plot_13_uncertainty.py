@@ -45,7 +45,7 @@ measured = middle.half_width * fit.master_curve.angular_frequency[[0, -1]]  # m/
 figure, (left, right) = plt.subplots(1, 2, figsize=(11.0, 4.4), layout="constrained")
 report.plot_master_curve(left, fit.master_curve, spectrum, band=samples)
 mark_synthetic([left])
-right.axvspan(*measured, color=GREY, alpha=0.15, linewidth=0.0, label="measured frequencies")
+right.axvspan(*measured, color=GREY, alpha=0.15, linewidth=0.0, label="frequencies of the sweeps")
 band = friction.viscoelastic_lower, friction.viscoelastic_upper
 right.fill_between(friction.speed, *band, color=BLUE, alpha=0.4, linewidth=0.0, label="its 95 % band")
 right.semilogx(friction.speed, friction.viscoelastic, color=BLUE, label="predicted from the sweeps")
