@@ -28,11 +28,13 @@ colours = report.plot_isotherms(right, sweeps, "loss")
 temperature_bar(figure, colours, [right])
 
 # %%
-# All isotherms are laid on a common curve at once, E' and E'' together, and every factor gets a standard error. Where
-# the modulus is on a plateau, it does not tell of shifts, and the error says so.
+# All isotherms are laid on a common curve at once, E' and E'' together, and every factor gets a standard error. The
+# notes say what was left out: the glass transition passes so quickly between the coldest isotherms that they do not
+# overlap.
 
 fit = vf.superpose(sweeps, reference="30 degC")
 factors = fit.shift_factors
+print(*fit.notes, sep="\n")
 
 # %%
 # Then a law is chosen: those of Williams, Landel and Ferry, of Arrhenius and others are compared by Akaike's corrected
@@ -43,8 +45,7 @@ print(laws.explanation)
 
 # %%
 # From 0 to 220 °C the shift factors of this rubber span ten decades. The line is the best law, with its 95 % band,
-# which is hardly wider than the line. The three coldest isotherms are left out: they are glassy, and overlap with no
-# other.
+# which is hardly wider than the line.
 
 figure, axes = plt.subplots(figsize=(7.0, 4.6), layout="constrained")
 report.plot_shift_factors(axes, factors, laws.best)

@@ -8,7 +8,8 @@ at one temperature is therefore friction over all temperatures at one speed.
 """
 
 # %%
-# The rubber is the built-in **synthetic** fluoroelastomer, with its WLF law. One curve is solved, at 30 °C.
+# The rubber is the built-in **synthetic** fluoroelastomer, with its WLF law and without a vertical shift. One curve is
+# solved, at 30 °C.
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -40,7 +40,7 @@ figure, axes = plt.subplots(figsize=(7.5, 4.3), layout="constrained")
 plot_friction_by_wavelength(axes, {name: vf.friction_by_wavelength(one) for name, one in solutions.items()})
 
 # %%
-# Fast rubber is stiff: ever less of it touches.
+# Fast rubber is stiff: ever less of it touches. The errors are those of the grid, and tell an order of magnitude.
 
 for name, one in solutions.items():
     print(f"{name:>8s}: μ = {one.friction_coefficient:.4f} ± {one.diagnostics.friction_error:.4f}", end="")

@@ -9,8 +9,8 @@ digits are the same.
 
 # %%
 # Two balls, two loads, three temperatures and nine speeds, on the built-in **synthetic** fluoroelastomer. Not all of
-# the 108 cases are solved: temperatures share one curve over :math:`\alpha(T)\,v`, and contacts of different balls
-# and loads are similar, so that most are interpolated within the accuracy that is asked for.
+# the 108 cases are solved: temperatures share one curve over :math:`\alpha(T)\,v`, and contacts of different balls and
+# loads are similar, so that most are interpolated within the accuracy that is asked for.
 
 from pathlib import Path
 from tempfile import TemporaryDirectory

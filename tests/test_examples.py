@@ -21,21 +21,28 @@ pytestmark = pytest.mark.filterwarnings("ignore:FigureCanvasAgg is non-interacti
 
 
 class Number(NamedTuple):
-    """A variable that a script leaves, what it must be, and how closely (relative)."""
+    """A variable that a script leaves, what it should be, and how closely (relative).
+
+    Where seeded noise is in it, also what that very noise makes of it, to all digits that optimisation leaves alone.
+    """
 
     name: str
     value: float
     within: float
+    seeded: float | None = None
 
 
+SEEDED_DIGITS = (
+    2e-4  # between machines; the fits are converged to 1e-6 or better, the contacts solved to the last digit
+)
 #: Where a number is not a closed form it was computed once in another, finer way than the example's.
 NUMBERS = {
     # solved to 1e-4, an error of 1e-6; the example asks for 1e-3
     "plot_01_first_contact": Number("friction", 0.0575587, 1e-3),
     # maximum sought by solving contacts to 1e-4; the example asks for 3e-3, and interpolates between five speeds
     "plot_02_friction_maximum": Number("highest_friction", 0.0714407, 3e-3),
-    # Hertz: (E_inf/E0)^(1/3); half widths are right to a tenth of a cell of their own, some 2e-3
-    "plot_03_contact_shape": Number("shrinkage", 100.0 ** (1.0 / 3.0), 2e-3),
+    # Hertz: (E_inf/E0)^(1/3); both limits are solved on one grid but for its scale, so that its error drops out
+    "plot_03_contact_shape": Number("shrinkage", 100.0 ** (1.0 / 3.0), 1e-9),
     # Hunter's closed form, to all digits; the example asks for 1e-3
     "plot_04_cylinder": Number("friction", 0.07424754, 1e-3),
     # solved to 1e-4 on the same layer; the example asks for 3e-3
@@ -43,21 +50,21 @@ NUMBERS = {
     # WLF about Tg with 17.44 and 51.6 K: 17.44·51.6/99.6 − 17.44·51.6/129.6
     "plot_06_modulus_and_temperature": Number("log10_shift", -17.44 * 51.6 * (1 / 99.6 - 1 / 129.6), 1e-12),
     # planted: 17.44·51.6/169.6 − 17.44·51.6/99.6, found within its standard error of 0.005
-    "plot_07_shift_factors": Number("log10_at_100", 17.44 * 51.6 * (1 / 169.6 - 1 / 99.6), 2e-3),
+    "plot_07_shift_factors": Number("log10_at_100", 17.44 * 51.6 * (1 / 169.6 - 1 / 99.6), 2e-3, -3.727671),
     # of the planted rubber; the fit averages 1 % of noise over the few isotherms that hold this frequency
-    "plot_08_master_curve": Number("storage_modulus", 7.73002e6, 3e-3),
+    "plot_08_master_curve": Number("storage_modulus", 7.73002e6, 3e-3, 7.721934e6),
     # of the planted rubber, solved to 1e-4; the prediction goes through sweeps with 1 % of noise
-    "plot_09_friction_and_speed": Number("friction", 0.0251646, 5e-3),
+    "plot_09_friction_and_speed": Number("friction", 0.0251646, 5e-3, 0.0251982),
     # of the planted rubber, solved to 1e-4; read off friction with 1.6 % of scatter, eight replicates a point
-    "plot_10_friction_master_curve": Number("from_the_curve", 0.0231309, 5e-3),
+    "plot_10_friction_master_curve": Number("from_the_curve", 0.0231309, 5e-3, 0.0230733),
     # solved to 1e-4; the example asks for 1e-3
     "plot_11_friction_from_shift": Number("friction", 0.00825208, 1e-3),
     # planted: 17.44·51.6/159.6 − 17.44·51.6/129.6, found within its standard error of 0.013; 1 % of noise
-    "plot_12_shift_from_friction": Number("log10_at_90", 17.44 * 51.6 * (1 / 159.6 - 1 / 129.6), 1e-2),
+    "plot_12_shift_from_friction": Number("log10_at_90", 17.44 * 51.6 * (1 / 159.6 - 1 / 129.6), 1e-2, -1.304127),
     # from 400 draws; that of 60 is known to 1/√120 = 9 % only
-    "plot_13_uncertainty": Number("standard_error", 0.0061663, 0.2),
+    "plot_13_uncertainty": Number("standard_error", 0.0061663, 0.2, 0.00671303),
     # the anchor is of that frequency, the planted rubber the truth; half the 95 % band is 2 %
-    "plot_14_identification": Number("ratio", 1.0, 2e-2),
+    "plot_14_identification": Number("ratio", 1.0, 2e-2, 0.998764),
     # the same track on 256² points; the example's error estimate is 3 %, as 128² points leave it
     "plot_15_rough_surface": Number("friction", 0.0366965, 1e-2),
     # integrals of the theory to 1e-6
@@ -98,8 +105,10 @@ def test_example_meets_its_number(script: Path, tmp_path: Path, monkeypatch: pyt
             plt.figure(number).draw_without_rendering()  # what cannot be drawn fails here
     finally:
         plt.close("all")
-    name, value, within = NUMBERS[script.stem]
+    name, value, within, seeded = NUMBERS[script.stem]
     assert found[name] == pytest.approx(value, rel=within)
+    if seeded is not None:
+        assert found[name] == pytest.approx(seeded, rel=SEEDED_DIGITS)
     assert not list(tmp_path.iterdir())
     assert sorted(EXAMPLES.iterdir()) == before
 
