@@ -40,9 +40,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``table`` ([measurement], with the dropped files in it), ``recognised`` and ``lines`` (name and value),
-        ``steps`` (number and text of each), ``synthetic`` (whether a file says that it was made up), ``runs`` (whether they are a tribometer's), ``refusal``
-        (why they cannot be separated, or null), ``notes``, and unless refused ``curves`` (by temperature, see
-        `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and ``download``.
+        ``steps`` (number and text of each), ``synthetic`` (whether a file says that it was made up), ``runs`` (whether
+        they are a tribometer's), ``refusal`` (why they cannot be separated, or null), ``notes``, and unless refused
+        ``curves`` (by temperature, see `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and
+        ``download``.
 
     Raises
     ------
