@@ -20,8 +20,9 @@ function logTicks(values) {
   );
   const decades = Math.log10(high / low);
   const plain = low >= 9e-4 && high <= 3e4;
-  if (!(decades > 1.8)) return { exponentformat: plain ? "none" : "power" };
-  return { exponentformat: plain ? "none" : "power", dtick: Math.max(1, Math.ceil(decades / 9)) };
+  // plotly draws powers a quarter larger than other ticks
+  const look = plain ? { exponentformat: "none" } : { exponentformat: "power", tickfont: { size: 10 } };
+  return decades > 1.8 ? { ...look, dtick: Math.max(1, Math.ceil(decades / 9)) } : look;
 }
 
 function plotlyAxis(axis = {}, dark, values = [], side = "bottom") {
@@ -33,6 +34,7 @@ function plotlyAxis(axis = {}, dark, values = [], side = "bottom") {
   return {
     title: { text: titled(axis), standoff: 8, font: { size: 13, color: look.ink } },
     type: axis.log ? "log" : "linear",
+    tickfont: { size: 12 },
     ...(axis.log ? logTicks(values) : { exponentformat: "power", minexponent: 4 }),
     showline: true,
     mirror: true,
@@ -45,7 +47,6 @@ function plotlyAxis(axis = {}, dark, values = [], side = "bottom") {
     gridcolor: look.line,
     zeroline: false,
     automargin: side,
-    tickfont: { size: 12 },
     ...(range ? { range, autorange: false } : {}),
     ...(axis.equal ? { scaleanchor: "x", scaleratio: 1 } : {}),
   };

@@ -52,9 +52,9 @@ function goTo(id, { focus = true } = {}) {
   }
 }
 
-function mount(step) {
+async function mount(step) {
   try {
-    step.module.mount(step.body, app);
+    await step.module.mount(step.body, app);
   } catch (error) {
     console.error(error);
     step.body.append(fields.note([`This step could not be shown: ${error.message}`], "error"));

@@ -1,0 +1,195 @@
+// The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
+
+import { cardCard, copyButton, fileLine } from "./export_card.js";
+
+/** Fill the step. */
+export function show(section, app) {
+  const { h } = app.fields;
+  section.append(
+    h(
+      "p",
+      {},
+      "All that this page shows follows from one run file. Take it along and repeat the study anywhere, or run it here.",
+    ),
+    h("div", { class: "grid" }, runFileCard(app), h("div", { class: "stack" }, studyCard(app), cardCard(app))),
+  );
+}
+
+/** Downloads what a job left. */
+function fetchFile(app, name) {
+  app.fields.h("a", { href: app.api.downloadUrl(name), download: name }).click();
+}
+
+function runFileCard(app) {
+  const { button, card, h, note, textField } = app.fields;
+  const text = h("pre", { tabindex: "0", role: "group", "aria-label": "Run file" });
+  const about = h("p", { class: "help" });
+  const wrong = note([], "error");
+  const show = (found) => {
+    if (!found) return;
+    text.replaceChildren(...coloured(found.text.trimEnd(), h));
+    const files = found.files?.length
+      ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which are packed with it`}.`
+      : "";
+    about.textContent = found.cases ? `It asks for ${found.cases} case${found.cases === 1 ? "" : "s"}.${files}` : "";
+    wrong.set(found.problems.map((one) => (one.field ? `${one.field}: ${one.message}` : one.message)));
+    take.disabled = found.problems.length > 0;
+  };
+  const take = button({
+    label: "Run file and data (zip)",
+    symbol: "down",
+    kind: "small",
+    onClick: async () => {
+      try {
+        const found = await app.api.runJob("export-run-file", { study: app.state.study, options: { pack: true } });
+        fetchFile(app, found.download.name);
+        app.announce("The run file is packed.");
+      } catch (error) {
+        wrong.set([error.message]);
+      }
+    },
+  });
+  app.state.onResult("run_file", show);
+  const made = card(
+    "Run file",
+    textField({ path: "title", label: "Title of study and report" }),
+    h(
+      "div",
+      { class: "row" },
+      take,
+      copyButton(app, () => app.state.result("run_file")?.text ?? ""),
+    ),
+    about,
+    wrong,
+    text,
+    h("p", { class: "help" }, "In its folder: ", h("code", {}, "viscofric run study.toml")),
+  );
+  show(app.state.result("run_file"));
+  return made;
+}
+
+/** A run file's lines, with headings, keys and remarks told apart. */
+function coloured(text, h) {
+  return text.split("\n").flatMap((line) => {
+    const key = /^([\w-]+)( = .*)$/.exec(line);
+    if (line.startsWith("#")) return [h("span", { class: "remark" }, line), "\n"];
+    if (line.startsWith("[")) return [h("span", { class: "heading" }, line), "\n"];
+    return key ? [h("span", { class: "key" }, key[1]), key[2], "\n"] : [line, "\n"];
+  });
+}
+
+function studyCard(app) {
+  const { button, card, choiceField, h, keyNumbers, note, numberField, progressBar } = app.fields;
+  let running = null;
+  const bar = progressBar({ label: "Running the study", onCancel: () => running?.abort() });
+  const numbers = keyNumbers();
+  const notes = note([]);
+  const warnings = note([], "warning");
+  const failures = note([], "error");
+  const files = h("ul", { class: "downloads", "aria-label": "Results" });
+  const workers = h("input", {
+    type: "number",
+    min: "1",
+    max: String(navigator.hardwareConcurrency || 1),
+    value: "1",
+    id: "export-workers",
+  });
+  const clear = () => {
+    for (const one of [notes, warnings, failures]) one.set([]);
+    numbers.set([]);
+    files.replaceChildren();
+  };
+
+  async function runStudy() {
+    clear();
+    const began = performance.now();
+    running = new AbortController();
+    go.disabled = true;
+    bar.start("Starting");
+    try {
+      const found = await app.api.runJob(
+        "export-study",
+        { study: app.state.study, options: { workers: Number(workers.value) || 1 } },
+        { signal: running.signal, onProgress: ({ done, total, label }) => bar.set(done, total, label) },
+      );
+      show(found, (performance.now() - began) / 1e3);
+    } catch (error) {
+      if (error.name === "AbortError") bar.fail("Cancelled; what is solved so far is kept for the next run.");
+      else {
+        bar.fail("");
+        if (!app.fields.showError(error)) failures.set([error.message]);
+        else failures.set([`Something is wrong with the study: ${error.message}`]);
+      }
+      app.announce(error.name === "AbortError" ? "The study is cancelled." : `Error: ${error.message}`);
+    } finally {
+      running = null;
+      go.disabled = false;
+    }
+  }
+
+  function show(found, seconds) {
+    const said = `Done in ${seconds < 90 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`}.`;
+    bar.finish(said);
+    numbers.set([
+      { label: "cases", value: String(found.cases), remark: found.failed ? `${found.failed} failed` : "all solved" },
+      {
+        label: "to look at",
+        value: String(found.warnings.length),
+        remark: found.warnings.length === 1 ? "warning" : "warnings",
+      },
+    ]);
+    files.replaceChildren(...found.downloads.map((one) => fileLine(app, one)));
+    failures.set(found.failures);
+    warnings.set(found.warnings);
+    notes.set(found.notes);
+    app.state.setResult("export", found);
+    app.announce(
+      `The study is finished: ${found.cases} cases, ${found.failed} failed. ${found.downloads.length} files can be downloaded.`,
+    );
+  }
+
+  const go = button({ label: "Run the whole study", kind: "main", onClick: runStudy });
+  app.state.subscribe("", () => {
+    if (files.children.length === 0) return;
+    clear();
+    bar.finish("The study has changed since; run it again.");
+    app.state.setResult("export", undefined);
+  });
+  return card(
+    "Results and report",
+    h(
+      "p",
+      { class: "help" },
+      "Solves every case to the accuracy asked for, with the rubber's uncertainty, and writes a report, tables and figures.",
+    ),
+    h(
+      "div",
+      { class: "form" },
+      numberField({
+        path: "solver.accuracy",
+        label: "Accuracy of friction",
+        min: 1e-4,
+        max: 0.1,
+        placeholder: "0.001",
+      }),
+      numberField({ path: "uncertainty.draws", label: "Draws of the rubber", min: 0, step: 1, placeholder: "200" }),
+      choiceField({
+        path: "outputs.fields",
+        label: "Pressure maps kept",
+        otherwise: "few",
+        options: [
+          ["few", "of a few cases"],
+          ["all", "of all cases"],
+          ["none", "none"],
+        ],
+      }),
+      h("div", { class: "field" }, h("label", { class: "field-label", for: "export-workers" }, "Processes"), workers),
+    ),
+    h("div", { class: "row" }, go, bar),
+    failures,
+    numbers,
+    files,
+    warnings,
+    notes,
+  );
+}
