@@ -29,7 +29,10 @@ def left_in(folder: Path) -> list[str]:
     return [path.name for path in folder.glob("viscofric-web-*")]
 
 
-@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+_MORE = (signal.SIGTERM, signal.SIGHUP)
+
+
+@pytest.mark.parametrize("kind", [signal.SIGINT, *(pytest.param(one, marks=pytest.mark.slow) for one in _MORE)])
 def test_interrupt_ends_it_at_once_with_nothing_left(tmp_path: Path, kind: signal.Signals) -> None:
     """Also while a job is at work, and an idle connection is open."""
     with started(tmp_path) as served, served.client() as client:
@@ -55,6 +58,7 @@ def test_interrupt_ends_it_at_once_with_nothing_left(tmp_path: Path, kind: signa
     assert left_in(tmp_path) == []
 
 
+@pytest.mark.slow
 def test_interrupt_while_it_starts_is_quick_too(tmp_path: Path) -> None:
     program = (
         "import sys; sys.argv = 'viscofric web --no-browser --port 0'.split(); import viscofric.cli as c; c.main()"

@@ -6,6 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pytest
 
 from web.test_kills import LONG, connect
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from web.served_page import Server
 
 
+@pytest.mark.slow
 def test_server_answers_at_once_while_three_studies_are_solved(server: Server) -> None:
     connections = [connect(server, workers=1) for _ in range(3)]
     try:

@@ -76,7 +76,10 @@ def long_line(folder: Path) -> bytes:
     return b"temperature,frequency,storage modulus\n" + b"1," * 5_000_000
 
 
-@pytest.mark.parametrize("made", [corner, hidden_corner, bomb, entities, cut, noise, long_line])
+_MORE = [hidden_corner, bomb, entities, noise, long_line]
+
+
+@pytest.mark.parametrize("made", [corner, cut, *(pytest.param(one, marks=pytest.mark.slow) for one in _MORE)])
 def test_hostile_file_is_refused_in_a_sentence(client: httpx.Client, tmp_path: Path, made: object) -> None:
     suffix = "csv" if made is long_line else "xlsx"
     content = made(tmp_path)  # type: ignore[operator]
