@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 import httpx
 import pytest
 
-from viscofric.web.access import Door, Limits
+from viscofric.web.access import Door
+from viscofric.web.limits import Limits
 from web.own_loop import run_apart
 
 if TYPE_CHECKING:

@@ -1,51 +1,23 @@
-"""Who may use the page: the user who started it, from the page itself, with requests of a bearable size and pace."""
+"""Who may use the page: the user who started it, from the page itself."""
 
 from __future__ import annotations
 
-import asyncio
 import ipaddress
-import json
 import re
 import secrets
 import socket
 from dataclasses import dataclass, field
 from http.cookies import CookieError, SimpleCookie
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 from urllib.parse import parse_qs
 
+from viscofric.web.answers import answer, headers_of, refuse, with_headers
+
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, MutableMapping
+    from viscofric.web.answers import App, Receive, Scope, Send
 
-    Scope = MutableMapping[str, Any]
-    Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
-    Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
-    App = Callable[[Scope, Receive, Send], Awaitable[None]]
-
-LARGEST_STUDY = 4_000_000  # bytes, of a job's body
-_BODY_PAUSE = 20.0  # s without a byte of a body that was announced
 _HOST = re.compile(r"(?P<name>\[[^\[\]]+\]|[^:\[\]]+)(?::(?P<port>\d{1,5}))?")
 _EVERYWHERE = {"0.0.0.0", "::", ""}
-_CONTENT = "; ".join(
-    [
-        "default-src 'none'",
-        "script-src 'self'",
-        "style-src 'self'",
-        "style-src-attr 'unsafe-inline'",  # the library of the figures sets attributes; its sheet is ours (index.html)
-        "img-src 'self' data: blob:",
-        "font-src 'self'",
-        "connect-src 'self'",
-        "base-uri 'none'",
-        "form-action 'none'",
-        "frame-ancestors 'none'",
-    ]
-)
-HEADERS = [
-    (b"content-security-policy", _CONTENT.encode()),
-    (b"x-content-type-options", b"nosniff"),
-    (b"referrer-policy", b"no-referrer"),
-    (b"cross-origin-opener-policy", b"same-origin"),
-    (b"cross-origin-resource-policy", b"same-origin"),
-]
 _NO_TOKEN = (
     "This page is for the person who started it: open the address that 'viscofric web' printed, which holds a token."
 )
@@ -144,14 +116,14 @@ class Access:
             return
         if scope["type"] != "http":
             return
-        headers = _headers(scope)
+        headers = headers_of(scope)
         refusal = self._refusal(scope, headers)
         if isinstance(refusal, str):
-            await _refuse(scope, send, 403, refusal)
+            await refuse(scope, send, 403, refusal)
         elif refusal:
             await self._welcome(headers, send)
         else:
-            await self.app(scope, receive, _with_headers(send))
+            await self.app(scope, receive, with_headers(send))
 
     def _refusal(self, scope: Scope, headers: dict[str, str]) -> str | bool:
         """Return why a request is refused; True if it brings the token in its address, False if it is let in."""
@@ -176,93 +148,14 @@ class Access:
         cookie = f"{self.door.cookie}={self.door.token}; Path=/; HttpOnly; SameSite=Strict"
         more = [(b"set-cookie", cookie.encode()), (b"content-type", b"text/html; charset=utf-8")]
         if headers.get("sec-fetch-site") == "cross-site":
-            await _answer(
+            await answer(
                 send,
                 200,
                 b'<!doctype html><title>viscofric</title><a href="/">viscofric</a>',
                 [*more, (b"refresh", b"0; url=/")],
             )
         else:
-            await _answer(send, 303, b"", [*more, (b"location", b"/")])
-
-
-class Limits:
-    """Refuses bodies that are too large, or that do not come.
-
-    Parameters
-    ----------
-    app : ASGI application
-    largest : callable
-        Path of a request -> how many bytes its body may have.
-    pause : float
-        Seconds that may pass without a byte of it.
-    """
-
-    def __init__(self, app: App, largest: Callable[[str], int], pause: float = _BODY_PAUSE) -> None:
-        self.app, self.largest, self.pause = app, largest, pause
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request."""
-        if scope["type"] != "http":
-            await self.app(scope, receive, send)
-            return
-        most = self.largest(scope["path"])
-        words = f"The body has more than {most / 1e6:g} MB."
-        announced = _headers(scope).get("content-length", "0")
-        if announced.isdecimal() and int(announced[:20]) > most:
-            await _refuse(scope, send, 413, words)
-            return
-        body = _Body(receive, most, self.pause)
-        answered = _Answered(send)
-        try:
-            await self.app(scope, body.receive, answered.send)
-        except _TooLarge:
-            if not answered.begun:
-                await _refuse(scope, send, 413, words)
-        except _TooSlow:
-            if not answered.begun:
-                await _refuse(scope, send, 408, f"Nothing of the body came for {self.pause:g} s.")
-
-
-class _TooLarge(BaseException):
-    """More of a body came than may."""
-
-
-class _TooSlow(BaseException):
-    """A body does not come."""
-
-
-class _Body:
-    def __init__(self, receive: Receive, most: int, pause: float) -> None:
-        self._receive, self._left, self._pause, self._more = receive, most, pause, True
-
-    async def receive(self) -> MutableMapping[str, Any]:
-        if not self._more:
-            return await self._receive()
-        try:
-            async with asyncio.timeout(self._pause):
-                message = await self._receive()
-        except TimeoutError:
-            raise _TooSlow from None
-        if message["type"] == "http.request":
-            self._left -= len(message.get("body", b""))
-            self._more = message.get("more_body", False)
-            if self._left < 0:
-                raise _TooLarge
-        return message
-
-
-class _Answered:
-    def __init__(self, send: Send) -> None:
-        self._send, self.begun = send, False
-
-    async def send(self, message: MutableMapping[str, Any]) -> None:
-        self.begun = True
-        await self._send(message)
-
-
-def _headers(scope: Scope) -> dict[str, str]:
-    return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+            await answer(send, 303, b"", [*more, (b"location", b"/")])
 
 
 def _cookie(headers: dict[str, str], name: str) -> str:
@@ -271,25 +164,3 @@ def _cookie(headers: dict[str, str], name: str) -> str:
     except CookieError:
         return ""
     return "" if found is None else found.value
-
-
-def _with_headers(send: Send) -> Send:
-    async def sending(message: MutableMapping[str, Any]) -> None:
-        if message["type"] == "http.response.start":
-            message["headers"] = [*message.get("headers", ()), *HEADERS]
-        await send(message)
-
-    return sending
-
-
-async def _refuse(scope: Scope, send: Send, status: int, words: str) -> None:
-    as_json = scope["path"].startswith("/api/")
-    body = json.dumps({"message": words}) if as_json else words + "\n"
-    kind = b"application/json" if as_json else b"text/plain; charset=utf-8"
-    await _answer(send, status, body.encode(), [(b"content-type", kind), (b"connection", b"close")])
-
-
-async def _answer(send: Send, status: int, body: bytes, headers: list[tuple[bytes, bytes]]) -> None:
-    more = [(b"content-length", str(len(body)).encode()), (b"cache-control", b"no-store"), *HEADERS]
-    await send({"type": "http.response.start", "status": status, "headers": [*headers, *more]})
-    await send({"type": "http.response.body", "body": body})

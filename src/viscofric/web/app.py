@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
-from contextlib import aclosing
 from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import Depends, FastAPI, Header, HTTPException, Query, Request, Response
@@ -17,19 +15,18 @@ from starlette.exceptions import HTTPException as StarletteHTTPException
 
 from viscofric import __version__
 from viscofric.errors import InputError
-from viscofric.web.access import LARGEST_STUDY, Access, Door, Limits
+from viscofric.web.access import Access, Door
+from viscofric.web.job_stream import NDJSON, JobStream
 from viscofric.web.jobs import KINDS
+from viscofric.web.limits import LARGEST_STUDY, Limits
 from viscofric.web.static_files import static_file
 from viscofric.web.workspace import KEY, LARGEST_UPLOAD, Workspace, Workspaces, checked_name
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
-
-    from starlette.types import ASGIApp, Receive, Scope, Send
+    from starlette.types import ASGIApp
 
     from viscofric.web.children import Children
 
-_NDJSON = "application/x-ndjson"
 _EXAMPLE = ("dma.csv", "mtm.csv")
 _KIND = Annotated[str, InAddress(min_length=1, max_length=1_000, json_schema_extra={"enum": [*KINDS]})]
 _ANY_NAME = Annotated[str, InAddress(min_length=1, max_length=1_000)]
@@ -71,42 +68,6 @@ class PlainJSON(JSONResponse):
     def render(self, content: Any) -> bytes:
         """Return the body."""
         return json.dumps(content, separators=(",", ":")).encode()
-
-
-class JobStream(Response):
-    """What is told of a job, a line each, for as long as somebody listens."""
-
-    media_type = _NDJSON
-
-    def __init__(self, lines: AsyncIterator[bytes]) -> None:
-        super().__init__()
-        del self.headers["content-length"]
-        self.headers["cache-control"] = "no-store"
-        self._lines = lines
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Send the lines; stop the job as soon as the other end is gone."""
-        await send({"type": "http.response.start", "status": 200, "headers": self.raw_headers})
-        tasks = [asyncio.create_task(self._send_all(send)), asyncio.create_task(_gone(receive))]
-        try:
-            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
-        if not tasks[0].cancelled() and (error := tasks[0].exception()) is not None and not isinstance(error, OSError):
-            raise error
-
-    async def _send_all(self, send: Send) -> None:
-        async with aclosing(self._lines) as lines:  # type: ignore[type-var]
-            async for line in lines:
-                await send({"type": "http.response.body", "body": line, "more_body": True})
-        await send({"type": "http.response.body", "body": b""})
-
-
-async def _gone(receive: Receive) -> None:
-    while (await receive())["type"] != "http.disconnect":
-        pass
 
 
 def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict[str, Any] | None = None) -> ASGIApp:
@@ -261,7 +222,7 @@ def _jobs(api: FastAPI, children: Children) -> None:
     @api.post(
         "/api/jobs/{kind}",
         response_class=Response,
-        responses={404: {"model": Told}, 200: {"content": {_NDJSON: {"schema": {"type": "string"}}}}},
+        responses={404: {"model": Told}, 200: {"content": {NDJSON: {"schema": {"type": "string"}}}}},
     )
     async def run_job(kind: _KIND, job: JobRequest, workspace: _ByHeader) -> Response:
         """Have something computed; closing the connection cancels it."""

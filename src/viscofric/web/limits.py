@@ -1,0 +1,91 @@
+"""Bodies of requests have a bearable size and pace."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+from viscofric.web.answers import headers_of, refuse
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, MutableMapping
+
+    from viscofric.web.answers import App, Receive, Scope, Send
+
+LARGEST_STUDY = 4_000_000  # bytes, of a job's body
+_BODY_PAUSE = 20.0  # s without a byte of a body that was announced
+
+
+class Limits:
+    """Refuses bodies that are too large, or that do not come.
+
+    Parameters
+    ----------
+    app : ASGI application
+    largest : callable
+        Path of a request -> how many bytes its body may have.
+    pause : float
+        Seconds that may pass without a byte of it.
+    """
+
+    def __init__(self, app: App, largest: Callable[[str], int], pause: float = _BODY_PAUSE) -> None:
+        self.app, self.largest, self.pause = app, largest, pause
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        most = self.largest(scope["path"])
+        words = f"The body has more than {most / 1e6:g} MB."
+        announced = headers_of(scope).get("content-length", "0")
+        if announced.isdecimal() and int(announced[:20]) > most:
+            await refuse(scope, send, 413, words)
+            return
+        body = _Body(receive, most, self.pause)
+        answered = _Answered(send)
+        try:
+            await self.app(scope, body.receive, answered.send)
+        except _TooLarge:
+            if not answered.begun:
+                await refuse(scope, send, 413, words)
+        except _TooSlow:
+            if not answered.begun:
+                await refuse(scope, send, 408, f"Nothing of the body came for {self.pause:g} s.")
+
+
+class _TooLarge(BaseException):
+    """More of a body came than may."""
+
+
+class _TooSlow(BaseException):
+    """A body does not come."""
+
+
+class _Body:
+    def __init__(self, receive: Receive, most: int, pause: float) -> None:
+        self._receive, self._left, self._pause, self._more = receive, most, pause, True
+
+    async def receive(self) -> MutableMapping[str, Any]:
+        if not self._more:
+            return await self._receive()
+        try:
+            async with asyncio.timeout(self._pause):
+                message = await self._receive()
+        except TimeoutError:
+            raise _TooSlow from None
+        if message["type"] == "http.request":
+            self._left -= len(message.get("body", b""))
+            self._more = message.get("more_body", False)
+            if self._left < 0:
+                raise _TooLarge
+        return message
+
+
+class _Answered:
+    def __init__(self, send: Send) -> None:
+        self._send, self.begun = send, False
+
+    async def send(self, message: MutableMapping[str, Any]) -> None:
+        self.begun = True
+        await self._send(message)
