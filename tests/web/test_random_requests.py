@@ -15,7 +15,7 @@ from schemathesis import GenerationMode
 if TYPE_CHECKING:
     from web.served_page import Server
 
-CASES = 60  # for each address, right and wrong ones
+CASES = 45  # for each address, right and wrong ones
 
 
 def ask_at_random(server: Server, cases: int) -> Counter[int]:
