@@ -6,10 +6,11 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from viscofric.errors import StudyError, brief
-from viscofric.study.run_file import FIELDS, parse_study
+from viscofric.study.run_file import FIELDS, TABLES, parse_study
+from viscofric.study.run_file_errors import keys
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
     from viscofric.study.run_file import Study
@@ -22,6 +23,7 @@ _LONGEST_LINE = 100
 _DEEPEST = 10
 #: Keys of a run file, in its order.
 KEYS = tuple(field.alias or name for name, field in FIELDS.items())
+_OF_INDENTERS = ("shape", "radius", "radius_x", "radius_y", "angle", "modulus", "poisson_ratio")
 _PLACE = re.compile(rf"((?:{'|'.join(KEYS)})(?:\.[\w-]+|\.'[^']*'|\[\d+\])*): (.+)", re.DOTALL)
 
 
@@ -134,13 +136,20 @@ def study_text(document: Mapping[str, Any]) -> str:
         for at, one in enumerate(value if isinstance(value, list) else [value]):
             path = f"{key}[{at}]" if isinstance(value, list) else key
             head = f"[[{_key(key)}]]\n" if isinstance(value, list) else f"[{_key(key)}]\n"
-            parts.append(head + "".join(_line(name, entry, f"{path}.{name}") for name, entry in one.items()))
+            parts.append(head + "".join(_line(name, entry, f"{path}.{name}") for name, entry in _in_order(key, one)))
     text = "\n".join(parts)
     try:
         text.encode()
     except UnicodeEncodeError:
         raise DocumentError((Problem("", "The study holds half of a character, which no file can."),)) from None
     return text
+
+
+def _in_order(key: str, table: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the entries of a table in the order of the documentation, those that it does not know last."""
+    order = {"indenter": _OF_INDENTERS}.get(key) or (keys(TABLES[key]) if key in TABLES else [])
+    yield from ((name, table[name]) for name in order if name in table)
+    yield from ((name, entry) for name, entry in table.items() if name not in order)
 
 
 def _is_table(value: object) -> bool:

@@ -22,7 +22,8 @@ function logTicks(values) {
   const plain = low >= 9e-4 && high <= 3e4;
   // plotly draws powers a quarter larger than other ticks
   const look = plain ? { exponentformat: "none" } : { exponentformat: "power", tickfont: { size: 10 } };
-  return decades > 1.8 ? { ...look, dtick: Math.max(1, Math.ceil(decades / 9)) } : look;
+  if (decades > 1.8) return { ...look, dtick: Math.max(1, Math.ceil(decades / 9)) };
+  return decades > 0.7 ? { ...look, dtick: "D2" } : look; // 1, 2, 5 of each decade
 }
 
 function plotlyAxis(axis = {}, dark, values = [], side = "bottom") {
