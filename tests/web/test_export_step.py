@@ -1,0 +1,47 @@
+"""The last step of the page in a real browser: the study run, cancelled, finished, and what is downloaded."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from web.browser_tab import Tab
+
+_FINISHED = {
+    "downloads": [{"name": "report.html", "title": "report", "size": 911_137}],
+    "cases": 75,
+    "failed": 1,
+    "failures": ["30 °C, 1 mm/s: it did not converge."],
+    "warnings": [],
+    "notes": ["The rubber is synthetic."],
+    "synthetic": True,
+}
+
+
+def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> None:
+    page = tab.page
+    page.get_by_role("button", name="Run the whole study").click()
+    page.get_by_text("solving contacts").wait_for()
+    page.get_by_role("button", name="Cancel").click()
+    page.get_by_text("Cancelled; what is solved so far is kept").wait_for(timeout=2_000)
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Run file and data").click()
+    with zipfile.ZipFile(download.value.path()) as packed:
+        assert packed.namelist() == ["study.toml"]
+
+    # the end of a run, without the minute that its report takes
+    told = [{"event": "progress", "done": 1, "total": 2, "label": "solving"}, {"event": "result", "result": _FINISHED}]
+    body = "".join(json.dumps(one) + "\n" for one in told)
+    page.route("**/api/jobs/export-study", lambda route: route.fulfill(body=body))
+    page.get_by_role("button", name="Run the whole study").click()
+    link = page.get_by_role("link", name="report.html")
+    assert (link.get_attribute("href") or "").startswith("/api/downloads/report.html?workspace=")
+    assert "75 cases, results ready" in tab.text("#steps")
+    tab.until("document.getElementById('announcements').textContent.startsWith('The study is finished: 75 cases, 1')")
+    assert tab.findings() == []
+    tab.screenshot("export-finished")
+    tab.value("page.state.state.set('title', 'Another')")
+    page.get_by_text("The study has changed since").wait_for()
+    assert link.count() == 0

@@ -1,0 +1,179 @@
+"""The page in a real browser: light, private, usable without a mouse and without eyes, and it forgets nothing."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import pytest
+
+from web.browser_tab import tab as opened_tab
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Browser
+
+    from web.browser_tab import Tab
+    from web.served_page import Server
+
+_LARGEST_PAGE = 2_000_000  # bytes over the wire
+_MOST_REQUESTS = 30
+
+
+def test_page_is_light_and_asks_no_other_host(browser: Browser, server: Server) -> None:
+    with opened_tab(browser, server) as tab:
+        tab.until("Boolean(window.Plotly)")
+        tab.page.wait_for_selector("#step-contact .figure")
+    # what is computed comes from /api/jobs and is no part of the page
+    fetched = [(path, size) for path, size in tab.requested if not path.startswith("/api/jobs/")]
+    assert len(fetched) <= _MOST_REQUESTS, fetched
+    assert sum(size for _, size in fetched) <= _LARGEST_PAGE
+    # that no other host was asked, and nothing was blocked by the content security policy, is what every tab minds
+    assert any(path.endswith("plotly-cartesian.min.js") for path, _ in fetched)
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(1400, "light"), (390, "dark")])
+def test_export_step_is_accessible(width: int, scheme: str, browser: Browser, server: Server) -> None:
+    viewport = {"width": width, "height": 850}
+    with opened_tab(browser, server, "#export", viewport=viewport, color_scheme=scheme) as tab:
+        tab.page.wait_for_selector("pre .heading")
+        assert tab.findings() == []
+        assert tab.page.evaluate("document.documentElement.scrollWidth") <= width
+        tab.screenshot(f"export-{width}-{scheme}")
+
+
+def test_keyboard_reaches_steps_and_focus_goes_to_their_heading(tab: Tab) -> None:
+    press = tab.page.keyboard.press
+    press("Tab")
+    assert tab.value("document.activeElement.textContent") == "Skip to the step"
+    press("Enter")
+    tab.page.focus('#steps a[href="#sweeps"]')
+    press("Enter")
+    assert tab.value("document.activeElement.textContent") == tab.text("#title-sweeps")
+    assert tab.page.title() == f"{tab.text('#title-sweeps')} · viscofric"
+    assert tab.value("document.querySelectorAll('[aria-current=step]').length") == 1
+    tab.page.go_back()
+    tab.page.wait_for_selector("#step-export:not([hidden])")
+    assert tab.page.title() == "Export · viscofric"
+
+
+def test_changes_are_checked_undone_and_survive_a_reload(tab: Tab) -> None:
+    page = tab.page
+    assert tab.text("#synthetic") == "synthetic rubber"
+    page.get_by_label("Accuracy of friction").fill("5")
+    page.get_by_label("Title of study and report").fill("My ball")
+    page.get_by_label("Title of study and report").press("Enter")
+    page.wait_for_selector(".field-error:not([hidden])")
+    error = page.get_by_label("Accuracy of friction").locator("xpath=..").locator(".field-error")
+    assert "it must be 0.1 or less" in error.inner_text()
+    described = page.get_by_label("Accuracy of friction").get_attribute("aria-describedby") or ""
+    assert error.get_attribute("id") in described.split()
+    assert page.get_by_label("Accuracy of friction").get_attribute("aria-invalid") == "true"
+    assert page.get_by_role("button", name="Run file and data").is_disabled()
+
+    page.reload()
+    page.wait_for_selector("pre .heading")
+    assert page.get_by_label("Title of study and report").input_value() == "My ball"
+    page.get_by_role("button", name="Undo").click()
+    page.get_by_role("button", name="Undo").click()
+    assert page.get_by_role("button", name="Undo").is_disabled()
+    page.wait_for_selector(".field-error", state="hidden")
+    tab.until("document.querySelector('pre').textContent.includes('accuracy = 0.01')")
+    tab.until("document.getElementById('announcements').textContent === 'Undone.'")
+    page.get_by_role("button", name="Redo").click()
+    assert page.get_by_label("Accuracy of friction").input_value() == "5"
+
+
+def test_units_are_the_users_and_are_remembered(tab: Tab) -> None:
+    shown = "[page.units.show(0.02, 'speed'), page.units.show(303.15, 'temperature'), page.units.show(2e6, 'modulus')]"
+    assert tab.value(shown) == ["20\u00a0mm/s", "30\u00a0°C", "2\u00a0MPa"]
+    tab.page.get_by_role("button", name="Units").click()
+    tab.page.get_by_role("button", name="SI").click()
+    tab.page.locator("#unit-temperature").select_option("°F")
+    tab.page.reload()
+    tab.page.wait_for_selector("#steps [aria-current]")
+    assert tab.value(shown) == ["0.02\u00a0m/s", "86\u00a0°F", "2×10⁶\u00a0Pa"]
+    # there and back, through the words of a run file, of all units that the menu offers
+    far = tab.value(
+        """page.units.choices().flatMap(({kind, units}) => units.map((unit) => {
+          page.units.choose(kind, unit);
+          const back = page.units.parse(page.units.words(412.5, kind, 12), kind);
+          return [kind, unit, Math.abs(back / 412.5 - 1)];
+        })).filter(([, , error]) => !(error < 1e-11))"""
+    )
+    assert far == []  # words have twelve digits
+
+
+@pytest.fixture(scope="module")
+def drawing(browser: Browser, server: Server) -> Iterator[Tab]:
+    """Have a tab in which figures are drawn."""
+    with opened_tab(browser, server, "#export") as tab:
+        yield tab
+
+
+_FIGURE = """page.figures.figure(document.querySelector('#step-export .step-body'), {
+  id: 'drawn', title: 'Two curves', caption: 'Of a test', synthetic: true,
+  x: {label: 'speed', kind: 'speed', log: true}, y: {label: 'friction'},
+  traces: [303.15, 363.15].map((temperature) => ({name: page.units.show(temperature, 'temperature'), temperature,
+    x: [0.001, 0.1], y: [0.01, 0.02], lower: [0.009, 0.018], upper: [0.011, null]}))})"""
+
+
+def test_figures_come_with_their_numbers_and_as_files(drawing: Tab) -> None:
+    drawing.value(f"{_FIGURE}.element.id")
+    figure = drawing.page.locator("#figure-drawn")
+    figure.locator(".main-svg").first.wait_for()
+    label = figure.locator(".plot").get_attribute("aria-label") or ""
+    assert "friction against speed. 30\u00a0°C: 0.01 to 0.02 for speed 1\u00a0mm/s to 100\u00a0mm/s" in label
+    figure.get_by_role("button", name="Table").click()
+    assert figure.locator("tbody tr").count() == 2
+    assert figure.locator("tbody tr").first.locator("td").first.inner_text() == "1"
+    files = {}
+    for form in ("CSV", "SVG", "PNG"):
+        with drawing.page.expect_download() as download:
+            figure.get_by_role("button", name=form).click()
+        assert download.value.suggested_filename == f"drawn.{form.lower()}"
+        files[form] = download.value.path().read_bytes()
+    rows = files["CSV"].decode().splitlines()
+    assert rows[0] == "# Two curves (synthetic rubber)"
+    assert rows[2].startswith('speed (mm/s),"friction, 30\u00a0°C","lower friction, 30\u00a0°C"')
+    assert rows[4] == "100,0.02,0.018,,0.02,0.018,"
+    assert b"Two curves" in files["SVG"]
+    assert b"synthetic data" in files["SVG"]
+    assert files["SVG"].startswith(b"<svg")
+    assert files["PNG"].startswith(b"\x89PNG")
+    # as wide as is asked for, twice over for sharp prints
+    assert int.from_bytes(files["PNG"][16:20], "big") == 1800
+
+
+def test_figures_follow_light_dark_and_units(drawing: Tab) -> None:
+    drawing.value(f"{_FIGURE}.element.id".replace("'drawn'", "'again'"))
+    drawing.page.wait_for_selector("#figure-again .main-svg")
+
+    def drawn() -> tuple[str, str]:
+        svg = drawing.page.locator("#figure-again svg.main-svg").first
+        return svg.get_attribute("style") or "", drawing.text("#figure-again .xtitle")
+
+    light, label = drawn()
+    assert label == "speed (mm/s)"
+    assert "255, 255, 255" in light
+    drawing.page.get_by_role("button", name=re.compile("change to dark")).click()
+    drawing.value("page.units.choose('speed', 'm/s')")
+    drawing.until("document.querySelector('#figure-again .xtitle')?.textContent === 'speed (m/s)'")
+    dark, _ = drawn()
+    assert "255, 255, 255" not in dark
+    drawing.page.reload()
+    drawing.page.wait_for_selector("#steps [aria-current]")
+    assert drawing.value("page.figures.isDark()")
+
+
+def test_temperatures_have_one_colour_each_from_cold_blue_to_warm_red(drawing: Tab) -> None:
+    colour = "((all) => all.map((one) => page.figures.temperatureColour(one, all, false)))(given)"
+    assert drawing.value(colour, 303.15, 333.15, 363.15) == ["#0072b2", "#009e73", "#d55e00"]  # as in reports
+    many = drawing.value(colour, *range(243, 503, 10))
+    assert len(set(many)) == len(many)
+
+    def redness(text: str) -> int:
+        return int(text[1:3], 16) - int(text[5:7], 16)
+
+    assert redness(many[0]) < 0 < redness(many[-1])
