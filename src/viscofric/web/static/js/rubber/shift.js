@@ -64,7 +64,8 @@ export function mount(section, app) {
   });
   const notes = note([], "warning");
   section.append(
-    wait,
+    h("p", {}, "The isotherms are shifted along the frequency, all at once, until they lie on one curve."),
+    h("div", { class: "waiting" }, wait),
     problem,
     nothing,
     h("div", { class: "columns" }, h("div", {}, form), h("div", {}, verdict, notes)),

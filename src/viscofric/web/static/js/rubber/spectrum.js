@@ -65,7 +65,8 @@ export function mount(section, app) {
   const table = h("div", {});
   fourth.append(h("details", {}, h("summary", {}, "Table of modes"), table));
   section.append(
-    wait,
+    h("p", {}, "Modes fitted to the master curve, and with them E′ and E″ at any temperature that the shift reaches."),
+    h("div", { class: "waiting" }, wait),
     problem,
     numbers,
     doubts,

@@ -22,7 +22,7 @@ export function mount(section, app) {
   const notes = note([]);
   const flagged = h("div", {});
   const wait = fields.progressBar({ label: "Reading" });
-  told.append(wait, numbers, problem, notes, files, flagged);
+  told.append(h("div", { class: "waiting" }, wait), numbers, problem, notes, files, flagged);
   const pictures = h("div", { class: "grid" });
   const onward = h(
     "div",
@@ -69,7 +69,7 @@ export function mount(section, app) {
       if (running !== mine || error.name === "AbortError") return;
       show(null);
       form.ask(error.field?.replace("material.", ""));
-      if (!fields.showError(error) || error.field === "material.dma") problem.set([error.message]);
+      problem.set([error.message]); // beside a field it would stand until the next check of the study only
     } finally {
       if (running === mine) wait.finish();
     }

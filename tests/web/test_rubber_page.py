@@ -1,0 +1,186 @@
+"""Data, shift and spectrum in a real browser: files dropped, an isotherm dragged, E(ω) at another temperature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+import viscofric as vf
+from web.browser_tab import Tab, tab
+from web.rubber_workspace import EXAMPLE
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+    from web.served_page import Server
+
+_DROP = "#step-sweeps .panel:not([hidden]) input[type=file]"
+
+
+def drawn(opened: Tab, figure: str, curves: int) -> None:
+    """Wait until a figure shows so many curves."""
+    opened.until(f"document.querySelector('#figure-{figure} .plot')?.data?.length >= {curves}")
+
+
+def example(opened: Tab) -> None:
+    """Choose the synthetic example's sweeps."""
+    opened.step("sweeps")
+    opened.page.check("input[name=material-source][value=dma]")
+    opened.page.get_by_role("button", name="Use the synthetic example").click()
+    drawn(opened, "isotherms-storage", 26)
+
+
+def rubber_is_made(opened: Tab) -> None:
+    opened.until("page.state.state.result('rubber')?.band !== undefined")
+
+
+def point_of(opened: Tab, figure: str, curve: str) -> tuple[float, float, float]:
+    """Return where the middle point of a curve is on the screen, and how many pixels a decade is."""
+    opened.page.locator(f"#figure-{figure} .plot").scroll_into_view_if_needed()
+    x, y, decade = opened.value(
+        """(() => { const plot = document.querySelector(`#figure-${given[0]} .plot`);
+        const trace = plot.data.find((one) => one.name === given[1]); const at = Math.floor(trace.x.length / 2);
+        const { xaxis, yaxis } = plot._fullLayout; const box = plot.getBoundingClientRect();
+        return [box.left + xaxis._offset + xaxis.d2p(trace.x[at]), box.top + yaxis._offset + yaxis.d2p(trace.y[at]),
+                xaxis._length / (xaxis.range[1] - xaxis.range[0])]; })()""",
+        figure,
+        curve,
+    )
+    return x, y, decade
+
+
+def held(opened: Tab) -> dict[str, float]:
+    found: dict[str, float] = opened.value("page.state.state.get('material.fixed_shift_factors') ?? {}")
+    return found
+
+
+@pytest.mark.slow  # a browser
+def test_from_the_example_to_its_spectrum(tab: Tab) -> None:
+    example(tab)
+    assert "26" in tab.text("#step-sweeps .key-numbers")
+    assert "measured in tension" in tab.text("#step-sweeps .notes.note")
+    assert tab.value("page.state.state.get('material')") == {"dma": "dma.csv", "reference_temperature": "30 degC"}
+    tab.screenshot("rubber-data")
+
+    tab.step("shift")
+    drawn(tab, "shifted-isotherms", 23)
+    assert tab.text("#step-shift .verdict") == "Superposition holds"
+    assert "0 °C was left out" in tab.text("#step-shift .notes.warning")
+    x, y, decade = point_of(tab, "shifted-isotherms", "60\N{NO-BREAK SPACE}°C")
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x + decade, y, steps=5)
+    assert "Moved by 1.00 decades" in tab.text("#dragged-misfit")
+    assert held(tab) == {}
+    tab.page.mouse.up()
+    fit = vf.superpose(vf.read_dma(EXAMPLE), "30 degC")
+    # a pixel is a fiftieth of a decade
+    assert held(tab) == {"60 degC": pytest.approx(fit.shift_factors.log10("60 degC") + 1.0, abs=0.03)}
+    tab.until("page.state.state.result('rubber')?.shift.origin === 'held'")
+    tab.until("document.querySelector('#dragged-misfit').textContent.startsWith('Held by hand')")
+    tab.screenshot("rubber-shift")
+    tab.page.get_by_role("button", name="Let go of all").click()
+    tab.until("page.state.state.result('rubber')?.shift.origin === 'found'")
+
+    tab.step("spectrum")
+    rubber_is_made(tab)
+    drawn(tab, "modulus", 8)
+    tab.page.fill("#modulus-temperature", "333.15")
+    tab.until("document.querySelector('#figure-modulus .figure-title').textContent.includes('60\N{NO-BREAK SPACE}°C')")
+    assert "sweep at 60\N{NO-BREAK SPACE}°C" in tab.text("#figure-modulus figcaption")
+    tab.screenshot("rubber-spectrum")
+
+
+@pytest.mark.slow  # a browser, and axe on three steps
+def test_steps_are_for_keyboards_and_screen_readers(tab: Tab) -> None:
+    example(tab)
+    assert tab.findings() == []
+    tab.step("shift")
+    drawn(tab, "shifted-isotherms", 23)
+    rubber_is_made(tab)
+    assert tab.findings() == []
+    tab.page.select_option("#dragged-isotherm", label="100\N{NO-BREAK SPACE}°C")
+    before = float(tab.page.input_value("#dragged-to"))
+    tab.page.focus("#dragged-by")
+    for _ in range(5):
+        tab.page.keyboard.press("ArrowRight")
+    tab.until("page.state.state.get('material.fixed_shift_factors') !== undefined")
+    assert held(tab) == {"100 degC": pytest.approx(before + 0.1, abs=0.002)}
+    tab.until("page.state.state.result('rubber')?.shift.origin === 'held'")
+    tab.page.fill("#dragged-to", "-2.5")
+    tab.page.keyboard.press("Tab")
+    tab.until("page.state.state.get('material.fixed_shift_factors')?.['100 degC'] === -2.5")
+    tab.page.keyboard.press("Control+z")
+    tab.until("page.state.state.get('material.fixed_shift_factors')?.['100 degC'] !== -2.5")
+    tab.step("spectrum")
+    rubber_is_made(tab)
+    drawn(tab, "modulus", 8)
+    assert tab.findings() == []
+
+
+@pytest.mark.slow  # a browser
+def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
+    rows = [f"{T},{f},{2e6 * f**0.2 * 10 ** (-0.01 * T)},{3e5}" for T in (20, 30, 40) for f in (0.1, 0.3, 1, 3, 10)]
+    bare = tmp_path / "bare.csv"
+    bare.write_text("\n".join(["T (degC),f (Hz),storage modulus,loss modulus", *rows, ""]))
+    tab.step("sweeps")
+    tab.page.check("input[name=material-source][value=dma]")
+    tab.page.set_input_files(_DROP, bare)
+    unit = tab.page.get_by_label("Unit of the moduli")
+    unit.wait_for()
+    tab.until("document.querySelector('#step-sweeps').textContent.includes('say here which unit it is')")
+    unit.fill("Pa")
+    unit.press("Tab")
+    drawn(tab, "isotherms-storage", 3)
+    kind = tab.page.locator("#step-sweeps .panel:not([hidden])").get_by_label("Measured in")
+    kind.wait_for()
+    kind.select_option(label="shear: G′, G″")
+    tab.until("document.querySelector('#step-sweeps .key-numbers').textContent.includes('shear')")
+    assert tab.value("page.state.state.get('material')") == {
+        "dma": "bare.csv",
+        "reference_temperature": "30 degC",
+        "modulus_unit": "Pa",
+        "deformation": "shear",
+    }
+    assert tab.value("page.state.state.get('data_origin') ?? null") is None
+
+
+@pytest.mark.slow  # a browser
+def test_rubbers_of_the_catalogue_and_laws(tab: Tab) -> None:
+    tab.step("sweeps")
+    tab.page.check("input[name=material-source][value=catalogue]")
+    tab.page.check("input[name=material-catalogue][value='PVB interlayer']")
+    tab.until("document.querySelector('#step-sweeps .notes.note').textContent.includes('Van Duser')")
+    drawn(tab, "isotherms-storage", 1)
+    assert tab.page.is_hidden("#synthetic")
+    tab.step("shift")
+    drawn(tab, "shift-factors", 1)
+    assert "answers above" in tab.text("#step-shift")
+    example(tab)
+    assert tab.page.is_visible("#synthetic")
+    tab.step("shift")
+    tab.page.get_by_role("button", name="Use WLF", exact=True).click()
+    tab.until("page.state.state.result('rubber')?.shift.used === 'wlf'")
+    assert tab.value("page.state.state.get('material.shift')") == "wlf"
+
+
+@pytest.mark.slow  # a browser
+def test_workbook_of_an_instrument_on_a_phone(browser: Browser, server: Server, real_data: Path) -> None:
+    with tab(
+        browser, server, "#sweeps", viewport={"width": 390, "height": 844}, has_touch=True, color_scheme="dark"
+    ) as opened:
+        opened.page.check("input[name=material-source][value=dma]")
+        opened.page.set_input_files(_DROP, real_data / "instruments" / "eplexor" / "freq_Eplexor_raw.xls")
+        drawn(opened, "isotherms-storage", 21)
+        assert "Eplexor" in opened.text("#step-sweeps .notes.note")
+        for step in ("sweeps", "shift", "spectrum"):
+            opened.step(step)
+            rubber_is_made(opened)
+            opened.page.wait_for_timeout(300)
+            wide = opened.value("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+            assert wide <= 0
+            opened.screenshot(f"rubber-phone-{step}")
+        assert opened.findings() == []
