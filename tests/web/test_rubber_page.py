@@ -115,6 +115,11 @@ def test_steps_are_for_keyboards_and_screen_readers(tab: Tab) -> None:
     tab.until("page.state.state.get('material.fixed_shift_factors')?.['100 degC'] === -2.5")
     tab.page.keyboard.press("Control+z")
     tab.until("page.state.state.get('material.fixed_shift_factors')?.['100 degC'] !== -2.5")
+    # what is held is about the reference
+    tab.page.locator("#step-shift").get_by_label("Reference temperature").fill("50 °C")
+    tab.page.keyboard.press("Tab")
+    tab.until("page.state.state.get('material.fixed_shift_factors') === undefined")
+    tab.until("page.state.state.result('rubber')?.shift.reference === 323.15")
     tab.step("spectrum")
     rubber_is_made(tab)
     drawn(tab, "modulus", 8)
@@ -135,7 +140,7 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
     unit.fill("Pa")
     unit.press("Tab")
     drawn(tab, "isotherms-storage", 3)
-    kind = tab.page.locator("#step-sweeps .panel:not([hidden])").get_by_label("Measured in")
+    kind = tab.page.locator("#step-sweeps").get_by_label("Measured in")
     kind.wait_for()
     kind.select_option(label="shear: G′, G″")
     tab.until("document.querySelector('#step-sweeps .key-numbers').textContent.includes('shear')")
@@ -146,6 +151,24 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
         "deformation": "shear",
     }
     assert tab.value("page.state.state.get('data_origin') ?? null") is None
+
+
+@pytest.mark.slow  # a browser
+def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
+    rows = [f"{10.0**k},{2e6 * 10.0 ** (0.1 * k)},{2e5}" for k in range(-5, 6)]
+    curve = tmp_path / "master.csv"
+    curve.write_text("\n".join(["f (Hz),E',E''", *rows, ""]))
+    tab.step("sweeps")
+    tab.page.check("input[name=material-source][value=master_curve]")
+    tab.page.locator(_DROP).first.set_input_files(curve)
+    unit = tab.page.get_by_label("Unit of the moduli")
+    unit.wait_for()
+    unit.fill("Pa")
+    unit.press("Tab")
+    tab.until("page.state.state.result('rubber')?.spectrum.measured?.storage.length === 11")
+    drawn(tab, "isotherms-storage", 1)
+    tab.step("shift")
+    tab.until("document.querySelector('#step-shift').textContent.includes('serves at one temperature only')")
 
 
 @pytest.mark.slow  # a browser

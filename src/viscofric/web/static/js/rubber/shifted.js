@@ -1,6 +1,7 @@
 // The isotherms on one another, and one of them corrected by hand: dragged, or moved by a slider or a number.
 
 import { draggable, moveTrace } from "./drag.js";
+import { heldFactors } from "./held.js";
 import { byTemperature, decades, fewEnough, named, pick, synthetic, worded } from "./made.js";
 
 const QUANTITIES = [
@@ -40,12 +41,9 @@ export function shiftedCard(app) {
   const slider = h("input", { type: "range", id: "dragged-by", min: -REACH, max: REACH, step: STEP, value: 0 });
   const exact = h("input", { type: "number", id: "dragged-to", step: 0.01 });
   const live = h("p", { class: "help", "aria-live": "polite", id: "dragged-misfit" });
+  const { hold, release, releaseAll } = heldFactors(app);
   const free = button({ label: "Let go of it", kind: "small", onClick: () => release(chosen) });
-  const freeAll = button({
-    label: "Let go of all",
-    kind: "small",
-    onClick: () => state.set("material.fixed_shift_factors", undefined),
-  });
+  const freeAll = button({ label: "Let go of all", kind: "small", onClick: releaseAll });
   const why = h("p", { class: "help" });
   const parts = h(
     "div",
@@ -78,23 +76,6 @@ export function shiftedCard(app) {
   );
 
   const isotherm = () => answer?.shift?.isotherms.find((one) => one.temperature === chosen);
-  const keyOf = (kelvin) =>
-    Object.keys(state.get("material.fixed_shift_factors") ?? {}).find(
-      (key) => Math.abs((app.units.parse(key, "temperature") ?? -1) - kelvin) < 0.5,
-    );
-  const release = (kelvin) => {
-    const left = { ...(state.get("material.fixed_shift_factors") ?? {}) };
-    delete left[keyOf(kelvin)];
-    state.set("material.fixed_shift_factors", Object.keys(left).length ? left : undefined);
-  };
-  const hold = (kelvin, log10) => {
-    const key = keyOf(kelvin) ?? worded(kelvin);
-    state.set("material.fixed_shift_factors", {
-      ...(state.get("material.fixed_shift_factors") ?? {}),
-      [key]: Number(log10.toFixed(4)),
-    });
-    app.announce(`${named(kelvin, app)}: log10 α held at ${log10.toFixed(2)}.`);
-  };
   const misfitAt = (by) => {
     if (!table) return null;
     const at = Math.round((by - table.moved[0]) / STEP);

@@ -130,9 +130,6 @@ export function sourceForm(app, onError) {
         onFiles: take("dma", true),
       }),
       present,
-      asks.deformation,
-      asks.modulus_unit,
-      asks.temperature,
       more,
       button({ label: "Use the synthetic example's sweeps", kind: "quiet", onClick: useExample }),
     ),
@@ -145,21 +142,17 @@ export function sourceForm(app, onError) {
         multiple: false,
         onFiles: take("master_curve", false),
       }),
-      fields.choiceField({
-        path: "material.deformation",
-        label: "Measured in",
-        otherwise: null,
-        options: [
-          [null, "as the file says"],
-          ["tension", "tension"],
-          ["shear", "shear"],
-        ],
-      }),
       fields.fileDrop({
         label: "Drop its shift factors",
         help: "A table of temperature and α; without it the curve serves at its reference alone.",
         multiple: false,
-        onFiles: async (files) => state.set("material.shift_factors", (await api.uploadFiles(files))[0]),
+        onFiles: async (files) => {
+          try {
+            state.set("material.shift_factors", (await api.uploadFiles(files))[0]);
+          } catch (error) {
+            onError(error);
+          }
+        },
       }),
     ),
     file: h(
@@ -197,13 +190,14 @@ export function sourceForm(app, onError) {
     shown = key;
     radios.get(key).checked = true;
     for (const [one, panel] of Object.entries(panels)) panel.hidden = one !== key;
-    making.hidden = key === "catalogue" || key === "file" || sourceOf(state.get("material")) !== key;
+    making.hidden = questions.hidden = key === "catalogue" || key === "file" || sourceOf(state.get("material")) !== key;
   };
   const refresh = () => {
     listFiles();
     showPanel(sourceOf(state.get("material")) ?? shown);
   };
-  const element = card("Rubber", group, ...Object.values(panels), making);
+  const questions = h("div", { class: "panel" }, asks.deformation, asks.modulus_unit, asks.temperature);
+  const element = card("Rubber", group, ...Object.values(panels), questions, making);
   element.ask = (key) => asks[key] && (asks[key].hidden = false);
   element.show = (answer) => {
     for (const [key, field] of Object.entries(asks))
