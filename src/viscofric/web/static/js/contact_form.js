@@ -44,7 +44,9 @@ export function nounOf(study) {
 
 /** Build the form; returns its cards. */
 export function contactForm({ state, fields, api, announce }) {
-  const { h, card, quantityField, numberField, rangeField, choiceField, toggleField } = fields;
+  const { h, card, rangeField, choiceField, toggleField } = fields;
+  const quantity = (path, label, kind, more = {}) => fields.quantityField({ path, label, kind, ...more });
+  const number = (path, label, min, step, more = {}) => fields.numberField({ path, label, min, step, ...more });
   const left = new Map(); // what the study had of other shapes
 
   const select = h(
@@ -81,30 +83,22 @@ export function contactForm({ state, fields, api, announce }) {
   };
   const indenters = ["ball", "cylinder", "ellipsoid", "cone"];
   const shape = [
-    group(["ball", "cylinder"], quantityField({ path: "indenter.radius", label: "Radius", kind: "length" })),
+    group(["ball", "cylinder"], quantity("indenter.radius", "Radius", "length")),
     group(
       ["ellipsoid"],
-      quantityField({ path: "indenter.radius_x", label: "Radius along the motion", kind: "length" }),
-      quantityField({ path: "indenter.radius_y", label: "Radius across", kind: "length" }),
+      quantity("indenter.radius_x", "Radius along the motion", "length"),
+      quantity("indenter.radius_y", "Radius across", "length"),
     ),
-    group(
-      ["cone"],
-      quantityField({
-        path: "indenter.angle",
-        label: "Angle of the flank",
-        kind: "angle",
-        help: "to the undeformed surface",
-      }),
-    ),
+    group(["cone"], quantity("indenter.angle", "Angle of the flank", "angle", { help: "to the undeformed surface" })),
     group(
       ["made"],
-      numberField({ path: "surface.hurst", label: "Hurst exponent", min: 0, max: 1, step: 0.05 }),
-      numberField({ path: "surface.rms_slope", label: "Rms slope", min: 0, step: 0.01 }),
-      quantityField({ path: "surface.rolloff", label: "Roll-off wavelength", kind: "length" }),
-      quantityField({ path: "surface.shortest", label: "Shortest wavelength", kind: "length" }),
-      numberField({ path: "surface.points", label: "Points along an edge", min: 8, step: 1 }),
-      quantityField({ path: "surface.spacing", label: "Distance of points", kind: "length" }),
-      numberField({ path: "surface.seed", label: "Seed", min: 0, step: 1, help: "of the random numbers" }),
+      number("surface.hurst", "Hurst exponent", 0, 0.05, { max: 1 }),
+      number("surface.rms_slope", "Rms slope", 0, 0.01),
+      quantity("surface.rolloff", "Roll-off wavelength", "length"),
+      quantity("surface.shortest", "Shortest wavelength", "length"),
+      number("surface.points", "Points along an edge", 8, 1),
+      quantity("surface.spacing", "Distance of points", "length"),
+      number("surface.seed", "Seed", 0, 1, { help: "of the random numbers" }),
     ),
     group(["scan"], ...scan()),
   ];
@@ -151,27 +145,17 @@ export function contactForm({ state, fields, api, announce }) {
       fields.textField({ path: "surface.file", label: "File", placeholder: "none yet" }),
       h("fieldset", {}, h("legend", { class: "field-label" }, "Preparation"), boxes),
       fields.textField({ path: "surface.unit", label: "Unit of heights", placeholder: "as the file says" }),
-      quantityField({
-        path: "surface.spacing",
-        label: "Distance of points",
-        kind: "length",
-        placeholder: "as the file says",
-      }),
+      quantity("surface.spacing", "Distance of points", "length", { placeholder: "as the file says" }),
     ];
   }
 
   const load = [
-    group(["ball", "ellipsoid", "cone"], quantityField({ path: "conditions.load", label: "Load", kind: "load" })),
-    group(["cylinder"], quantityField({ path: "conditions.load", label: "Load per length", kind: "line_load" })),
+    group(["ball", "ellipsoid", "cone"], rangeField({ path: "conditions.load", label: "Load", kind: "load" })),
+    group(["cylinder"], rangeField({ path: "conditions.load", label: "Load per length", kind: "line_load" })),
     group(
       ["made", "scan"],
-      quantityField({ path: "conditions.pressure", label: "Mean pressure", kind: "pressure" }),
-      quantityField({
-        path: "conditions.direction",
-        label: "Direction of motion",
-        kind: "angle",
-        placeholder: "along x",
-      }),
+      rangeField({ path: "conditions.pressure", label: "Mean pressure", kind: "pressure" }),
+      quantity("conditions.direction", "Direction of motion", "angle", { placeholder: "along x" }),
     ),
   ];
 
@@ -188,7 +172,7 @@ export function contactForm({ state, fields, api, announce }) {
     toggleField({ path: "layer", label: "Rubber is a layer on a rigid base", value: { thickness: "2 mm" } }),
     optional(
       "layer",
-      quantityField({ path: "layer.thickness", label: "Thickness", kind: "length" }),
+      quantity("layer.thickness", "Thickness", "length"),
       choiceField({
         path: "layer.base",
         label: "Base",
@@ -210,15 +194,8 @@ export function contactForm({ state, fields, api, announce }) {
       }),
       optional(
         `${table}.modulus`,
-        quantityField({ path: `${table}.modulus`, label: "Young's modulus", kind: "modulus" }),
-        numberField({
-          path: `${table}.poisson_ratio`,
-          label: "Poisson's ratio",
-          min: 0,
-          max: 0.5,
-          step: 0.01,
-          placeholder: "0.3",
-        }),
+        quantity(`${table}.modulus`, "Young's modulus", "modulus"),
+        number(`${table}.poisson_ratio`, "Poisson's ratio", 0, 0.01, { max: 0.5, placeholder: "0.3" }),
       ),
     ),
   );

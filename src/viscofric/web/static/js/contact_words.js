@@ -15,11 +15,7 @@ export function numbersOf(answer, units) {
     row("Loss factor tan δ there", plain(of.loss_factor.value)),
     one("storage_modulus", "Storage modulus E′ there", "modulus", 3),
   ];
-  const balance = row(
-    "Energy balance",
-    plain(100 * Math.abs(of.energy_balance.value), "%", 2),
-    "apart, of two ways to μ",
-  );
+  const balance = row("Energy balance, off by", plain(100 * Math.abs(of.energy_balance.value), "%", 2));
   if (answer.kind === "rough") {
     const [points, asked] = [of.points.value, of.points_asked.value];
     return {
@@ -27,7 +23,7 @@ export function numbersOf(answer, units) {
         friction,
         row("Real contact", plain(100 * of.contact_area_fraction.value, "%"), "of the area"),
         one("mean_contact_pressure", "Mean pressure in contact", "pressure", 3),
-        one("mean_gap", "Mean gap", "length"),
+        one("mean_gap", "Mean gap", "length", 3),
       ],
       others: [
         { ...one("max_pressure", "Largest pressure", "pressure", 3), remark: "on this grid" },

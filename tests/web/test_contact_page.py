@@ -1,0 +1,214 @@
+"""The step with which the page opens, in a real browser: a curve that fills in, a contact that follows its sliders."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from web.browser_tab import tab as opened_tab
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+    from web.browser_tab import Tab
+    from web.served_page import Server
+
+CURVE, MAP = "#figure-friction-curve", "#figure-pressure-map"
+_DRAWN = f"(document.querySelector('{CURVE} .plot').data ?? [])"
+
+
+def curves(tab: Tab) -> dict[str, list[float | None]]:
+    """Return what is drawn of friction: by its name, the values of each curve."""
+    return dict(tab.value(f"{_DRAWN}.filter((one) => one.name).map((one) => [one.name, Array.from(one.y)])"))
+
+
+def finished(tab: Tab) -> None:
+    """Wait until the friction curve is there to its end, and the live contact is sharp."""
+    tab.until("Boolean(document.querySelector('#step-contact .progress.done'))", 60.0)
+    tab.until("document.querySelector('.live-status').textContent === 'to the accuracy asked for'", 60.0)
+
+
+def asked(tab: Tab) -> int:
+    """Return how many contacts were asked for."""
+    return sum(path == "/api/jobs/contact" for path, _ in tab.requested)
+
+
+def drag(tab: Tab, name: str, *places: int) -> None:
+    """Move a slider from place to place, as quickly as a hand would."""
+    tab.page.evaluate(
+        """async ([id, places]) => {
+          const slider = document.getElementById(id);
+          for (const place of places) {
+            slider.value = String(place);
+            slider.dispatchEvent(new Event("input", { bubbles: true }));
+            await new Promise((resolve) => setTimeout(resolve, 10));
+          }
+        }""",
+        [f"live-{name}", list(places)],
+    )
+
+
+#: Small enough that its curve is there at once.
+SMALL = {
+    "title": "A ball on a synthetic rubber",
+    "data_origin": "synthetic",
+    "material": {"catalogue": "synthetic fluoroelastomer"},
+    "indenter": {"shape": "ball", "radius": "9.525 mm"},
+    "conditions": {"load": "25 N", "speed": ["10 mm/s", "100 mm/s"], "temperature": ["30 degC", "60 degC"]},
+    "solver": {"accuracy": 0.1, "cases": "each", "master_curve_points": 2},
+    "outputs": {"fields": "none"},
+}
+CONTACT = "page.state.state.result('contact')"
+
+
+@pytest.mark.slow
+def test_page_opens_with_a_friction_curve_and_a_contact_that_follows_sliders(tab: Tab) -> None:
+    finished(tab)
+    tab.until(f"{_DRAWN}.length > 3")
+    found = curves(tab)
+    assert {"30\u00a0°C", "60\u00a0°C", "90\u00a0°C", "doubtful", "live contact"} <= set(found)
+    assert all(len(found[f"{celsius}\u00a0°C"]) == 25 for celsius in (30, 60, 90))
+    result = tab.value("page.state.state.result('curve')")
+    assert found["30\u00a0°C"] == result["friction"][:25]
+    assert len(found["doubtful"]) == sum(map(bool, result["doubts"]))
+    assert "small strain" in tab.text("#step-contact .notes.warning")
+    assert "75 points" in tab.text("#step-contact .progress-text")
+    friction = tab.value(CONTACT)["numbers"]["friction_coefficient"]["value"]
+    assert found["live contact"] == [friction]
+    # Words follow the numbers: 60 °C, 100 mm/s.
+    assert tab.page.input_value(".live-number >> nth=0") == "100\u00a0mm/s"
+    assert f"μ = {friction:.3g}" in tab.text(".why")
+    assert "not sprung back" in tab.text(".why")
+    # The leading edge of the map is on the right, and farther from the axis.
+    x = tab.value(f"document.querySelector('{MAP} .plot').data[0].x")
+    assert max(x) > -min(x) > 0.0
+    assert tab.findings() == []
+    tab.screenshot("contact-1400-light")
+
+    before = asked(tab)
+    drag(tab, "speed", *range(100, 300, 4))
+    finished(tab)
+    assert 1 <= asked(tab) - before < 40  # 50 places
+    tab.until(f"Math.abs(Math.log10({CONTACT}.speed) - (-4 + 296 / 400 * 6)) < 0.01")
+    tab.page.fill(".live-number >> nth=1", "45")
+    tab.page.press(".live-number >> nth=1", "Enter")
+    tab.until(f"{CONTACT}.temperature === 318.15")
+    assert tab.page.get_attribute("#live-temperature", "aria-valuetext") == "45\u00a0°C"
+    # A point of the curve is clicked.
+    box = tab.page.locator(f"{CURVE} .scatterlayer .trace").first.locator(".point").nth(12).bounding_box()
+    assert box is not None
+    tab.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    tab.until(f"{CONTACT}.temperature === 303.15 && Math.abs({CONTACT}.speed - 0.1) < 1e-6")
+
+
+_FOLLOW = """async (given) => {
+  const { follow } = await import("/static/js/live.js");
+  const asked = [], shown = [], failures = [], sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  const ask = async (position, stage, signal) => {
+    asked.push([stage, position]);
+    await sleep(stage === "coarse" ? 40 : 150);
+    if (signal.aborted) throw new DOMException("gone", "AbortError");
+    if (position === 13) throw new Error("unlucky");
+    return { stage: stage === "coarse" && position === 7 ? "sharp" : stage, position };
+  };
+  const show = ({ stage }, position) => shown.push([stage, position]);
+  const live = follow({ ask, show, fail: (error) => failures.push(error.message), rest: 60 });
+  for (const [position, wait] of given) {
+    live.want(position);
+    await sleep(wait);
+  }
+  return { asked, shown, failures };
+}"""
+
+
+def followed(tab: Tab, *positions: tuple[int, int]) -> Any:
+    """Want positions, with a rest (ms) after each; return what was asked for and shown."""
+    return tab.page.evaluate(_FOLLOW, [list(pair) for pair in positions])
+
+
+def test_of_positions_that_come_too_fast_the_last_one_counts(browser: Browser, server: Server) -> None:
+    with opened_tab(browser, server, "#export") as tab:  # where nothing is solved
+        _follow_all(tab)
+
+
+def _follow_all(tab: Tab) -> None:
+    found = followed(tab, (1, 5), (2, 5), (3, 5), (4, 400))
+    assert found["asked"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
+    assert found["shown"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
+    # Sharpening that is overtaken is given up; what is sharp at once is not sharpened.
+    found = followed(tab, (5, 160), (7, 200))
+    assert found["asked"] == [["coarse", 5], ["sharp", 5], ["coarse", 7]]
+    assert found["shown"] == [["coarse", 5], ["sharp", 7]]
+    # An error is told where it is the newest position's, and does not stop the slider.
+    found = followed(tab, (13, 5), (1, 300))
+    assert found["failures"] == []
+    found = followed(tab, (13, 100), (1, 300))
+    assert found["failures"] == ["unlucky"]
+    assert found["shown"][-1] == ["sharp", 1]
+
+
+@pytest.mark.slow
+def test_what_is_changed_is_solved_again(browser: Browser, server: Server) -> None:
+    with opened_tab(browser, server, "#export", viewport={"width": 390, "height": 850}, color_scheme="dark") as tab:
+        tab.value(f"page.state.state.replace({json.dumps(SMALL)})")
+        tab.step("contact")
+        finished(tab)
+        _keep_and_change(tab)
+        _change_shapes(tab)
+        _make_a_mistake(tab)
+        assert tab.page.evaluate("document.documentElement.scrollWidth") <= 390
+        for figure in tab.page.locator("#step-contact .figure:visible .plot").all():
+            assert re.search(r"(against|map of) .*numbers are in the table", figure.get_attribute("aria-label") or "")
+        tab.screenshot("contact-390-dark")
+
+
+def _keep_and_change(tab: Tab) -> None:
+    cold, warm = "30\u00a0°C", "60\u00a0°C"
+    tab.until(f"{_DRAWN}.some((one) => one.name === '{cold}')")
+    old = curves(tab)
+    tab.page.get_by_role("button", name="Keep for comparison").click()
+    tab.until(f"{_DRAWN}.some((one) => one.name === 'kept')")
+    load = tab.page.get_by_role("textbox", name="Load", exact=True)
+    load.fill("5 N")
+    load.press("Enter")
+    tab.until(f"{_DRAWN}.some((one) => one.name === '{cold}' && one.y[0] !== {old[cold][0]})")
+    finished(tab)
+    now = curves(tab)
+    assert now["kept"] == old[warm]  # the last one drawn
+    assert now[cold][0] < old[cold][0]  # type: ignore[operator]  # the same ball, less deep
+    tab.page.get_by_label("Against", exact=True).select_option("shifted")
+    tab.until(f"document.querySelector('{CURVE} .xtitle').textContent.startsWith('α(T)·v at 30')")
+    assert "master curve" in curves(tab)
+
+
+def _change_shapes(tab: Tab) -> None:
+    study = "page.state.state.study"
+    tab.page.select_option("#contact-shape", "cylinder")
+    assert tab.value(f"[{study}.indenter.shape, {study}.conditions.load]") == ["cylinder", "2 N/mm"]
+    tab.until(f"{CONTACT}.kind === 'line'")
+    tab.page.wait_for_selector(MAP, state="hidden")
+    tab.page.select_option("#contact-shape", "made")
+    assert tab.value(f"[{study}.indenter, {study}.conditions.load, {study}.surface.hurst]") == [None, None, 0.8]
+    tab.until(f"{CONTACT}.kind === 'rough' && page.state.state.result('curve').kind === 'rough'")
+    assert "of the area" in tab.text("#step-contact .key-numbers")
+    tab.until(f"{_DRAWN}.some((one) => one.error_y?.array)")
+    tab.page.select_option("#contact-shape", "ball")
+    assert tab.value(f"[{study}.indenter.radius, {study}.conditions.load]") == ["9.525 mm", "5 N"]
+    assert tab.value(f"{study}.surface ?? null") is None
+    finished(tab)
+
+
+def _make_a_mistake(tab: Tab) -> None:
+    radius = tab.page.get_by_label("Radius", exact=True)
+    radius.fill("9 kg")
+    radius.press("Enter")
+    tab.until("document.querySelector('#step-contact .field.wrong .field-error')?.textContent.includes('kg')")
+    tab.until("Boolean(document.querySelector('.live-contact.stale'))")
+    assert "something in the form is not right" in tab.text("#step-contact .notes.error:not([hidden])")
+    radius.fill("5 mm")
+    radius.press("Enter")
+    tab.until("!document.querySelector('.live-contact.stale') && !document.querySelector('#step-contact .field.wrong')")
+    finished(tab)
