@@ -58,6 +58,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     StudyError, DataFileError, InputError
         If a table is wrong, or the measurement is not of a ball on a half-space.
     """
+    from viscofric.report.friction_checks import CIRCULAR
     from viscofric.study.execution import tree_of
     from viscofric.study.running import Serial, run_plan
     from viscofric.study.store import CaseStore
@@ -75,7 +76,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     with Serial() as executor:
         run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, tell)
     # What is to be said of the rubber and of the measurement, other steps say.
-    told = _told(tree_of(contacts)) | {"notes": texts(contacts.rubbers[0].bands.notes)}
+    rubber = contacts.rubbers[0]
+    told = _told(tree_of(contacts)) | {"notes": texts(rubber.bands.notes)}
+    if rubber.rubber.from_friction:
+        told["warnings"] = [CIRCULAR, *told["warnings"]]
     plain: dict[str, Any] = context.plain(told)
     return plain
 

@@ -16,6 +16,9 @@ export function fromZero(...columns) {
   return values.length > 0 && Math.min(...values) >= 0 && top > 0 ? [0, 1.08 * top] : undefined;
 }
 
+/** The upper ends of error bars. */
+export const reach = (values, bars) => values.map((value, at) => (value === null ? null : value + (bars?.[at] ?? 0)));
+
 /** What the pointer tells of a measured point. */
 function told(isotherm, what) {
   return isotherm.speed.map((_, at) => {
@@ -38,7 +41,10 @@ export function frictionFigure(measured, agreement, synthetic) {
     const doubtful = remarks.find((one) => Math.abs(one.temperature - isotherm.temperature) < 0.5)?.remark ?? [];
     return pointTraces(isotherm, "viscoelastic", doubtful);
   });
-  const top = [...isotherms.map((one) => one.viscoelastic), ...(agreement?.lines ?? []).map((one) => one.friction)];
+  const top = [
+    ...isotherms.flatMap((one) => [one.viscoelastic, reach(one.viscoelastic, one.viscoelastic_scatter)]),
+    ...(agreement?.lines ?? []).map((one) => one.friction),
+  ];
   const marked = remarks.some((one) => one.remark.some((word) => word));
   const caption = [
     points.length > 0 ? "Points: measured, with the standard deviation of the repetitions." : "",
@@ -97,7 +103,7 @@ export function lineTraces(line, ofTemperature) {
 /** Coulomb friction as points. */
 export function coulombFigure(measured, synthetic) {
   const isotherms = (measured?.curves ?? []).filter((one) => known(one.coulomb));
-  const range = fromZero(...isotherms.map((one) => one.coulomb));
+  const range = fromZero(...isotherms.flatMap((one) => [one.coulomb, reach(one.coulomb, one.coulomb_scatter)]));
   return {
     traces: isotherms.flatMap((one) => pointTraces(one, "coulomb")),
     temperatures: every(isotherms),

@@ -1,7 +1,7 @@
 // What the figures draw of what friction says of the rubber: its master curve, its shift factors, its modulus.
 
 import * as units from "../units.js";
-import { every, fromZero, known, lineTraces, name, pick } from "./measurement_figures.js";
+import { every, fromZero, known, lineTraces, name, pick, reach } from "./measurement_figures.js";
 
 /** All temperatures on one curve; the predicted line where it is at the same temperature, else the smoothed one. */
 export function masterFigure(master, along, synthetic) {
@@ -26,7 +26,10 @@ export function masterFigure(master, along, synthetic) {
     : smoothed
       ? [{ ...smoothed, name: "smoothed, with its 95 % band", mode: "lines", colour: "purple" }]
       : [];
-  const top = [...master.points.map((one) => one.friction), same ? along.friction : []];
+  const top = [
+    ...master.points.flatMap((one) => [one.friction, reach(one.friction, one.scatter)]),
+    same ? along.friction : [],
+  ];
   return {
     traces: [...lines, ...points],
     temperatures: every(master.points),
