@@ -27,6 +27,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "docstrings",
     "generated_pages",
+    "offline",
 ]
 exclude_patterns = ["_build", "_generated", "_extensions", "_templates", "README.md"]
 templates_path = ["_templates"]
@@ -96,4 +97,5 @@ sphinx_gallery_conf = {
     "remove_config_comments": True,
     "show_memory": False,
     "show_signature": False,
+    "write_computation_times": False,
 }

@@ -36,12 +36,13 @@ def extensions() -> dict[str, ModuleType]:
     try:
         import command_pages
         import curve_file_pages
+        import offline
         import page_parts
         import results_pages
         import run_file_pages
     finally:
         sys.path.remove(str(DOCS / "_extensions"))
-    modules = (command_pages, curve_file_pages, page_parts, results_pages, run_file_pages)
+    modules = (command_pages, curve_file_pages, offline, page_parts, results_pages, run_file_pages)
     return {module.__name__: module for module in modules}
 
 
@@ -170,6 +171,24 @@ def test_cells_of_tables_are_safe(extensions: dict[str, ModuleType]) -> None:
     parts = extensions["page_parts"]
     assert parts.cell("|E*|\n  <b> [x]") == r"\|E\*\| \<b\> \[x\]"
     assert parts.table(["a", "b"], [["x", "1"], ["y", "−2"]]).splitlines()[1] == "| --- | ---: |"
+
+
+def test_requests_to_other_hosts_are_found(extensions: dict[str, ModuleType], tmp_path: Path) -> None:
+    fetched = [
+        '<script src="https://a.org/x.js"></script>',
+        '<link href="//a.org/x.css" rel="stylesheet">',
+        '<img alt="" src="http://a.org/x.png">',
+        '<p style="background: url(https://a.org/x.png)">',
+        "<style>@font-face { src: url('https://a.org/x.woff2') }</style>",
+    ]
+    followed = '<a href="https://a.org">a</a><link rel="canonical" href="https://a.org"><script src="x.js"></script>'
+    offline = extensions["offline"]
+    for page in fetched:
+        assert len(offline.requests_of_page(page)) == 1, page
+    assert not offline.requests_of_page(followed)
+    (tmp_path / "page.html").write_text(followed, encoding="utf-8")
+    (tmp_path / "style.css").write_text('/* https://a.org */ @import "https://a.org/x.css";', encoding="utf-8")
+    assert list(offline.requests_of_site(tmp_path)) == ["style.css: https://a.org/x.css"]
 
 
 def test_run_tells_of_the_site() -> None:
