@@ -33,6 +33,7 @@ exclude_patterns = ["_build", "_generated", "_extensions", "_templates", "README
 templates_path = ["_templates"]
 root_doc = "index"
 language = "en"
+smartquotes = False  # E'' and --options stay what they are
 nitpicky = True
 #: Words in the types of docstrings, such as "array", that are no class; what is written as a link must lead somewhere.
 nitpick_ignore_regex = [("py:class", r"(?!viscofric).*")]

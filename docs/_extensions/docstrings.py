@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: Code, which stays as it is, or a mark that would be taken for markup.
 _MARK = re.compile(r"(``.+?``|`[^`]+`_?)|([*|])")
+#: An author's initial at the beginning of a line, which would begin a list.
+_INITIAL = re.compile(r"^(\s*)([A-Z]\. )")
 _EXAMPLE = re.compile(r"\s*(>>>|\.\.\. )")
 _NAME_AND_TYPE = re.compile(r"([\w, ]+) : (.+)")
 _PUBLIC = re.compile(r"\b(" + "|".join(sorted(viscofric.__all__, key=len, reverse=True)) + r")\b")
@@ -31,6 +33,7 @@ def prepare(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: li
         example = bool(_EXAMPLE.match(line)) or (example and bool(line.strip()))
         if example:
             continue
+        line = _INITIAL.sub(r"\1\\\2", line)
         line = _MARK.sub(lambda found: found[1] or "\\" + found[2], line)
         if section == "Attributes" and (found := _NAME_AND_TYPE.fullmatch(line)):
             line = f"{found[1]} : " + _PUBLIC.sub(r":py:obj:`\1`", found[2])
