@@ -27,7 +27,7 @@ layers = [vf.solve_steady(rubber, ball, layer=vf.Layer(one, bonded=True), **cont
 
 # %%
 # Friction forgets the base much sooner than the indentation does: what is lost is lost near the contact, but the rubber
-# gives way far below it. On a layer of four half widths (dashed) friction is 2 % low and the indentation 24 %, on one
+# gives way far below it. On a layer of four half widths (dashed) friction is 2.5 % low and the indentation 24 %, on one
 # of eight 0.4 % and 13 %.
 
 figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")
