@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.rheology.cards import read_card
-from viscofric.web.jobs import curve, export_card, export_run_file, export_study
+from viscofric.web.jobs import curve, export_card, export_run_file, export_study, open_run_file
 from viscofric.web.jobs.rubbers import made_rubber
 from viscofric.web.study_text import DocumentError
 from web.contact_studies import BALL, Desk
@@ -76,6 +76,20 @@ def test_run_file_is_told_with_its_cases_its_files_and_what_is_wrong(desk: Desk)
     assert 'shape = "bal"' in wrong["text"]
     with pytest.raises(DocumentError, match="did you mean 'ball'"):
         desk.run(export_run_file, {**SWEEPS, "indenter": {"shape": "bal", "radius": "9.525 mm"}}, pack=True)
+
+
+def test_run_file_that_was_taken_away_can_be_brought_back(desk: Desk) -> None:
+    text = desk.run(export_run_file, SWEEPS)["text"]
+    assert desk.run(open_run_file, {}, text=text) == {"study": SWEEPS, "missing": []}
+    moved = text.replace('"dma.csv"', r"""["C:\\sweeps\\dma.csv", "../more/two.csv", "*.txt"]""")
+    found = desk.run(open_run_file, {}, text="\ufeff" + moved)
+    assert found["study"]["material"]["dma"] == ["dma.csv", "two.csv", "*.txt"]
+    assert found["missing"] == ["two.csv", "*.txt"]
+    with pytest.raises(StudyError, match=r"study\.toml, line 2"):
+        desk.run(open_run_file, {}, text="[material]\nthis is no TOML")
+    with pytest.raises(StudyError, match="too deeply for a run file"):
+        desk.run(open_run_file, {}, text=f"deep{'.x' * 20_000} = 1")
+    assert desk.run(open_run_file, {}, text='material.dma = "/"')["missing"] == [""]
 
 
 @pytest.mark.parametrize("form", ["abaqus", "ansys", "comsol", "json", "csv"])

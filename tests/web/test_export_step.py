@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import zipfile
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from web.browser_tab import Tab
 
 _FINISHED = {
@@ -20,6 +22,12 @@ _FINISHED = {
 }
 
 
+def packed_study(path: Path) -> dict[str, Any]:
+    """Return the run file of an archive, as a browser is given files."""
+    with zipfile.ZipFile(path) as packed:
+        return {"name": "mine.toml", "mimeType": "text/plain", "buffer": packed.read("study.toml")}
+
+
 def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> None:
     page = tab.page
     page.get_by_role("button", name="Run the whole study").click()
@@ -30,6 +38,12 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
         page.get_by_role("button", name="Run file and data").click()
     with zipfile.ZipFile(download.value.path()) as packed:
         assert packed.namelist() == ["study.toml"]
+
+    taken = packed_study(download.value.path())
+    page.get_by_label("Title of study and report").fill("Another")
+    page.get_by_label("Title of study and report").press("Enter")
+    page.locator(".drop-field input").set_input_files(files=[taken])
+    tab.until("page.state.state.get('title') === 'Friction of a synthetic fluoroelastomer'")
 
     # the end of a run, without the minute that its report takes
     told = [{"event": "progress", "done": 1, "total": 2, "label": "solving"}, {"event": "result", "result": _FINISHED}]
@@ -42,6 +56,6 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
     tab.until("document.getElementById('announcements').textContent.startsWith('The study is finished: 75 cases, 1')")
     assert tab.findings() == []
     tab.screenshot("export-finished")
-    tab.value("page.state.state.set('title', 'Another')")
+    tab.value("page.state.state.set('title', 'A third')")
     page.get_by_text("The study has changed since").wait_for()
     assert link.count() == 0

@@ -44,6 +44,7 @@ KINDS: dict[str, Kind] = {
     "master": Kind("viscofric.web.jobs.master", seconds=120.0),
     "identify": Kind("viscofric.web.jobs.identify"),
     # what is taken away
+    "open-run-file": Kind("viscofric.web.jobs.open_run_file", seconds=30.0, memory=2 * _GB),
     "export-run-file": Kind("viscofric.web.jobs.export_run_file", seconds=60.0, memory=2 * _GB),
     "export-study": Kind("viscofric.web.jobs.export_study", seconds=24 * 3600.0, memory=8 * _GB),
     "export-card": Kind("viscofric.web.jobs.export_card", seconds=120.0, memory=2 * _GB),

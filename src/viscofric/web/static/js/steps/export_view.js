@@ -20,8 +20,28 @@ function fetchFile(app, name) {
   app.fields.h("a", { href: app.api.downloadUrl(name), download: name }).click();
 }
 
+/** Take in data files, and show the study of a run file among them. */
+async function openFiles(app, files, wrong) {
+  const isRunFile = (file) => file.name.toLowerCase().endsWith(".toml");
+  wrong.set([]);
+  try {
+    await app.api.uploadFiles(files.filter((file) => !isRunFile(file)));
+    const runFile = files.find(isRunFile);
+    if (!runFile) throw new Error("There is no run file among them; its name ends with .toml.");
+    const options = { text: await runFile.text() };
+    const { study, missing } = await app.api.runJob("open-run-file", { options });
+    app.state.replace(study);
+    app.announce(
+      `${runFile.name} is opened.${missing.length ? ` It names files that are not here: ${missing.join(", ")}.` : ""}`,
+    );
+  } catch (error) {
+    wrong.set([error.message]);
+    app.announce(`Error: ${error.message}`);
+  }
+}
+
 function runFileCard(app) {
-  const { button, card, h, note, textField } = app.fields;
+  const { button, card, fileDrop, h, note, textField } = app.fields;
   const text = h("pre", { tabindex: "0", role: "group", "aria-label": "Run file" });
   const about = h("p", { class: "help" });
   const wrong = note([], "error");
@@ -50,6 +70,19 @@ function runFileCard(app) {
     },
   });
   app.state.onResult("run_file", show);
+  const bring = fileDrop({
+    label: "Open a run file",
+    help: "Drop it here, together with its data files, or choose them.",
+    onFiles: (files) => openFiles(app, files, wrong),
+  });
+  const anew = button({
+    label: "Start over",
+    kind: "small",
+    onClick: () => {
+      app.state.replace(app.start.study);
+      app.announce("The page shows its first study again; undo takes that back.");
+    },
+  });
   const made = card(
     "Run file",
     textField({ path: "title", label: "Title of study and report" }),
@@ -58,11 +91,13 @@ function runFileCard(app) {
       { class: "row" },
       take,
       copyButton(app, () => app.state.result("run_file")?.text ?? ""),
+      anew,
     ),
     about,
     wrong,
     text,
     h("p", { class: "help" }, "In its folder: ", h("code", {}, "viscofric run study.toml")),
+    bring,
   );
   show(app.state.result("run_file"));
   return made;

@@ -1,0 +1,70 @@
+"""A run file that the user brings, as the page's document: its tables, in which files have plain names."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import PureWindowsPath
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from viscofric.errors import StudyError
+from viscofric.study.run_file import LONGEST_RUN_FILE, parse_study
+from viscofric.web.jobs.context import plain
+from viscofric.web.study_files import named_files
+from viscofric.web.study_text import RUN_FILE
+
+if TYPE_CHECKING:
+    from viscofric.web.jobs.context import Context
+
+
+class Options(BaseModel):
+    """What is opened.
+
+    Parameters
+    ----------
+    text : str
+        Of a run file.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+
+    text: str = Field(max_length=LONGEST_RUN_FILE)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Read a run file; what is wrong with its values is left for the page to show beside its fields.
+
+    Parameters
+    ----------
+    study : dict
+        Not looked at.
+    options : Options
+    context : Context
+
+    Returns
+    -------
+    dict
+        ``study``, its tables; ``missing``, names of data files that are not among the page's own.
+
+    Raises
+    ------
+    StudyError
+        If it is no TOML, or none that a run file can be.
+    """
+    text = options.text.removeprefix("\ufeff")
+    try:
+        document = tomllib.loads(text)
+    except (ValueError, RecursionError):
+        parse_study(text, context.files / RUN_FILE)  # says in a sentence what is wrong, and where
+        raise
+    missing = []
+    for named in named_files(document):
+        # folders, of whichever system, stay behind
+        names = [PureWindowsPath(name).name for name in named.names]
+        named.table[named.key] = names if isinstance(named.table[named.key], list) else names[0]
+        missing += [one for one in names if one not in missing and not (one and any(context.files.glob(one)))]
+    try:
+        return {"study": plain(document, digits=None), "missing": missing}
+    except RecursionError:
+        raise StudyError(f"{RUN_FILE}: lists or tables lie within each other too deeply for a run file.") from None
