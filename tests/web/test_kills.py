@@ -100,5 +100,6 @@ def test_killed_server_leaves_no_process(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_twenty_kills_leave_no_process(tmp_path: Path) -> None:
-    check_kills(tmp_path, times=20, seed=20261122)
+def test_kills_at_random_leave_no_process(tmp_path: Path) -> None:
+    """As many as VISCOFRIC_KILLS says; twenty take half a minute on a machine with nothing else to do."""
+    check_kills(tmp_path, times=int(os.environ.get("VISCOFRIC_KILLS", "6")), seed=20261122)
