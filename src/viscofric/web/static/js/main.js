@@ -164,7 +164,18 @@ async function begin() {
     summarise();
     showSynthetic();
   });
-  for (const key of ["sweeps", "rubber", "shift", "spectrum", "curve", "contact", "measured", "agreement", "export"])
+  for (const key of [
+    "run_file",
+    "sweeps",
+    "rubber",
+    "shift",
+    "spectrum",
+    "curve",
+    "contact",
+    "measured",
+    "agreement",
+    "export",
+  ])
     state.onResult(key, summarise);
   summarise();
   showSynthetic();
