@@ -73,7 +73,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     from viscofric.friction.identification.identify import LEVELS, identify_material
     from viscofric.web.jobs.context import JobError
-    from viscofric.web.jobs.friction_input import friction_curves, indenter_of
+    from viscofric.web.jobs.friction_input import friction_curves
+    from viscofric.web.jobs.friction_tables import indenter_of
     from viscofric.web.jobs.rubbers import made_rubber
 
     curves = friction_curves(study, context)
