@@ -65,7 +65,12 @@ CONTACT = "page.state.state.result('contact')"
 
 
 @pytest.mark.slow
-def test_page_opens_with_a_friction_curve_and_a_contact_that_follows_sliders(tab: Tab) -> None:
+def test_page_opens_with_a_friction_curve_and_a_contact_that_follows_sliders(browser: Browser, server: Server) -> None:
+    with opened_tab(browser, server) as tab:
+        _look_and_move(tab)
+
+
+def _look_and_move(tab: Tab) -> None:
     finished(tab)
     tab.until(f"{_DRAWN}.length > 3")
     found = curves(tab)
