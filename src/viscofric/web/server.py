@@ -115,7 +115,9 @@ def serve(
         if browser:
             threading.Thread(target=webbrowser.open, args=(door.invite(),), daemon=True).start()
         server = _server(door, children, study, workspaces)
-        stopping += [children.stop, lambda: setattr(server, "should_exit", True)]
+        stopping += [lambda: setattr(server, "should_exit", True), children.stop]
+        if stopping.asked:  # and the exception was lost: Python drops those raised where it collects garbage
+            raise KeyboardInterrupt
         server.run(sockets=[listening])
 
 
@@ -154,13 +156,20 @@ def _server(door: Door, children: Children, study: dict[str, Any] | None, worksp
     return Server(config)
 
 
+class _Stopping(list["Callable[[], object]"]):
+    """What is called when the program is to stop, and whether it was asked to."""
+
+    asked = False
+
+
 @contextlib.contextmanager
-def _stopped_by_signals() -> Iterator[list[Callable[[], object]]]:
+def _stopped_by_signals() -> Iterator[_Stopping]:
     """Call what is in the list at an interrupt, a hangup or the wish to terminate; before there is any, raise."""
-    stopping: list[Callable[[], object]] = []
+    stopping = _Stopping()
 
     def stop(number: int, frame: FrameType | None) -> None:
-        if len(stopping) < 2:
+        stopping.asked = True
+        if not stopping:
             raise KeyboardInterrupt
         for call in stopping:
             call()
