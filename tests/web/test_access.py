@@ -66,6 +66,25 @@ def test_address_with_the_token_lets_the_browser_in(server: Server) -> None:
         assert (elsewhere.status_code, elsewhere.headers["refresh"]) == (200, "0; url=/")
 
 
+def test_invitation_opened_again_by_the_browser_that_used_it_shows_the_page(server: Server) -> None:
+    """As a browser does that restores its tabs; the token in the address counts no more, the cookie does."""
+    with httpx.Client(base_url=server.base, trust_env=False) as browser:
+        browser.get(server.address)
+        assert browser.get("/?token=used").status_code == 200
+        browser.cookies.clear()
+        assert browser.get("/?token=used").status_code == 403
+
+
+@pytest.mark.parametrize("other", ['a={"x": 1}', "user[name]=1", "flag", "x=a b c", "=", "expires=5", 'q="', "a=1"])
+def test_cookies_of_other_programs_at_this_host_are_passed_over(server: Server, other: str) -> None:
+    """Browsers send the cookies of all ports of a host; some are no proper ones."""
+    name = f"viscofric-{server.base.rpartition(':')[2]}"
+    for cookies in (f"{other}; {name}={server.token}", f"{name}={server.token}; {other}"):
+        assert httpx.get(f"{server.base}/", headers={"Cookie": cookies}, trust_env=False).status_code == 200
+    for cookies in (f"{other}; {name}x={server.token}", f"x{name}={server.token}", f"{name}={server.token}x"):
+        assert httpx.get(f"{server.base}/", headers={"Cookie": cookies}, trust_env=False).status_code == 403
+
+
 @pytest.mark.parametrize("path", ["/", "/?token=wrong", "/?token=", "/static/js/main.js", "/api/start", "/nothing"])
 @pytest.mark.parametrize("authorization", [None, "Bearer wrong", "Basic eDp5", "Bearer \xfc"])
 def test_without_the_token_nothing_is_answered(server: Server, path: str, authorization: str | None) -> None:

@@ -7,7 +7,7 @@ import re
 import secrets
 import socket
 from dataclasses import dataclass, field
-from http.cookies import CookieError, SimpleCookie
+from functools import cache
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qs
 
@@ -72,7 +72,7 @@ class Door:
             return True
         if self.host not in _EVERYWHERE:
             return False
-        if name in {socket.gethostname().lower(), socket.getfqdn().lower()}:
+        if name in _own_names():
             return True
         try:
             ipaddress.ip_address(name)
@@ -132,8 +132,8 @@ class Access:
             return _FOREIGN
         if scope["path"] == "/" and scope["method"] == "GET":
             given = parse_qs(scope["query_string"].decode("latin-1")).get("token")
-            if given:
-                return True if self.door.opens(given[0]) else _NO_TOKEN
+            if given and self.door.opens(given[0]):
+                return True
         scheme, _, bearer = headers.get("authorization", "").partition(" ")
         if scheme.lower() == "bearer" and self.door.is_token(bearer.strip()):
             return False
@@ -159,8 +159,15 @@ class Access:
 
 
 def _cookie(headers: dict[str, str], name: str) -> str:
-    try:
-        found = SimpleCookie(headers.get("cookie", "")).get(name)
-    except CookieError:
-        return ""
-    return "" if found is None else found.value
+    """Return the value of a cookie; those of other programs at this host, which may be anything, are passed over."""
+    for one in headers.get("cookie", "").split(";"):
+        key, _, value = one.strip().partition("=")
+        if key == name:
+            return value
+    return ""
+
+
+@cache
+def _own_names() -> set[str]:
+    """Return the names of this machine; asked for once, as the network may be slow to tell."""
+    return {socket.gethostname().lower(), socket.getfqdn().lower()}
