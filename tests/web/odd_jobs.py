@@ -23,7 +23,9 @@ class Options(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    do: Literal["rest", "insist", "hold", "grow", "die", "fail", "refuse", "solve", "share", "tell", "print", "write"]
+    do: Literal[
+        "rest", "insist", "hold", "grow", "die", "fail", "leak", "refuse", "solve", "share", "tell", "print", "write"
+    ]
     amount: float = 0.0
 
 
@@ -67,6 +69,11 @@ def die(amount: float, context: Context) -> dict[str, Any]:
 
 def fail(amount: float, context: Context) -> dict[str, Any]:
     raise KeyError("odd\ud800")
+
+
+def leak(amount: float, context: Context) -> dict[str, Any]:
+    """Fail with a place on this machine in the words."""
+    raise OSError(f"{context.cache / 'kept'} and {context.files / 'sweeps.csv'} are odd")
 
 
 def refuse(amount: float, context: Context) -> dict[str, Any]:
@@ -127,6 +134,7 @@ ODD: dict[str, Callable[[float, Context], dict[str, Any]]] = {
     "grow": grow,
     "die": die,
     "fail": fail,
+    "leak": leak,
     "refuse": refuse,
     "solve": solve,
     "share": share,

@@ -115,6 +115,8 @@ def test_what_goes_wrong_is_one_sentence_and_the_next_job_is_done(bench: Callabl
         assert refused["field"] == "conditions.load"
         failed = await bench.last("fail")
         assert failed["message"].startswith("This is an error of viscofric, KeyError")
+        leaked = await bench.last("leak")
+        assert leaked["message"] == "This is an error of viscofric, OSError: 'cache/kept and sweeps.csv are odd'."
         died = await bench.last("die")
         assert died["message"].startswith("The process that computed this ended")
         unknown = await bench.last("nothing")

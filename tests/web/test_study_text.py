@@ -92,6 +92,14 @@ def test_what_no_run_file_of_the_page_can_hold_is_refused(document: dict[str, An
     assert caught.value.field == field
 
 
+@pytest.mark.parametrize("name", ["study.toml", "Study.TOML"])
+def test_data_file_with_the_name_of_the_run_file_is_refused(name: str, tmp_path: Path) -> None:
+    """Packed together, one would replace the other."""
+    (tmp_path / name).write_text("1\n")
+    with pytest.raises(DocumentError, match=f"called {name}, as the run file itself"):
+        study_of(changed(material={"file": name}), tmp_path)
+
+
 def test_a_fresh_page_tells_the_synthetic_rubber_from_published_ones() -> None:
     told = start()
     synthetic = {one["name"]: one["synthetic"] for one in told["catalogue"]}

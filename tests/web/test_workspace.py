@@ -7,6 +7,8 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import aclosing, closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,9 +16,13 @@ import pytest
 
 from viscofric.errors import InputError
 from viscofric.web import workspace as module
+from viscofric.web.cache_folder import make_room
 from viscofric.web.workspace import Workspace, Workspaces, checked_name, remove_stale
+from web.own_loop import run_apart
 
 if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+
     import httpx
 
     from web.served_page import Server
@@ -124,6 +130,66 @@ def test_workspace_that_rested_longest_makes_room(temporary: Path, monkeypatch: 
     finally:
         spaces.close()
     assert not spaces.root.exists()
+
+
+def test_workspace_with_a_job_at_work_makes_no_room(temporary: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "_MOST_WORKSPACES", 2)
+
+    async def told() -> AsyncIterator[bytes]:
+        yield b"queued"
+        yield b"started"
+
+    async def work() -> None:
+        with closing(Workspaces()) as spaces:
+            first, second = spaces.get("first-workspace"), spaces.get("second-workspace")
+            async with aclosing(first.while_at_work(told())) as lines:
+                assert await anext(lines) == b"queued"
+                spaces.get("third-workspace")
+                assert first.folder.exists()
+                assert not second.folder.exists()
+                third = spaces.get("third-workspace").while_at_work(told())
+                async with aclosing(third):
+                    await anext(third)
+                    with pytest.raises(InputError, match="2 tabs are at work"):
+                        spaces.get("fourth-workspace")
+            spaces.get("fourth-workspace")  # the job was let go of
+            assert len([one for one in spaces.root.iterdir() if one.is_dir()]) == 2
+
+    run_apart(work())
+
+
+def test_first_requests_of_a_tab_at_once_get_one_workspace(temporary: Path) -> None:
+    given = temporary / "given.csv"
+    given.write_text("1\n" * 100_000)
+    with closing(Workspaces({"data.csv": given})) as spaces, ThreadPoolExecutor(16) as several:
+        found = list(several.map(lambda _: spaces.get("same-workspace"), range(64)))
+        assert len({id(one) for one in found}) == 1
+        assert found[0].listing() == [("data.csv", 200_000)]
+
+
+def test_nobody_else_can_look_into_the_folders(temporary: Path) -> None:
+    with closing(Workspaces()) as spaces:
+        spaces.get("some-workspace").store("data.csv", b"1")
+        assert os.name == "nt" or spaces.root.stat().st_mode & 0o077 == 0
+
+
+def test_oldest_of_what_jobs_keep_makes_room(tmp_path: Path) -> None:
+    places = [tmp_path, tmp_path / "cases", tmp_path / "friction cases", tmp_path / "study" / "study.results" / "cases"]
+    kept = []
+    for age, folder in enumerate(places):
+        folder.mkdir(parents=True, exist_ok=True)
+        kept.append(folder / ("rubber.pickle" if folder is tmp_path else "case.json"))
+        kept[-1].write_bytes(b"0" * 100)
+        os.utime(kept[-1], (time.time() - 1000.0 * (age + 1),) * 2)
+    other = tmp_path / "study" / "dma.csv"
+    other.write_bytes(b"0" * 1_000)
+    make_room(tmp_path, most=400)
+    assert all(path.exists() for path in kept)
+    make_room(tmp_path, most=250)
+    assert [path.exists() for path in kept] == [True, True, False, False]
+    make_room(tmp_path, most=0, young=1500.0)
+    assert [path.exists() for path in kept] == [True, False, False, False]  # it may be of a job at work
+    assert other.exists()
 
 
 def test_folders_of_killed_servers_are_removed_at_the_next_start(temporary: Path) -> None:

@@ -228,4 +228,5 @@ def _jobs(api: FastAPI, children: Children) -> None:
         """Have something computed; closing the connection cancels it."""
         if kind not in KINDS:
             raise HTTPException(404, f"There is no job {kind}; there are {', '.join(KINDS)}.")
-        return JobStream(children.run(kind, job.study, job.options, workspace.folder))
+        lines = children.run(kind, job.study, job.options, workspace.folder)
+        return JobStream(workspace.while_at_work(lines))

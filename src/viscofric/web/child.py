@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from viscofric.errors import ViscofricError, brief
+from viscofric.web.cache_folder import look_after
 from viscofric.web.jobs import WARM
 from viscofric.web.jobs.context import Context, plain
 from viscofric.web.study_files import check_confined
@@ -89,7 +90,7 @@ def _keep_from_jobs() -> None:
         import resource
 
         _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, most))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (_at_most(_LARGEST_FILE, most), most))
 
 
 class Desk:
@@ -178,6 +179,7 @@ def _result(job: dict[str, Any], tell: Any) -> Any:
     module = import_module(job["module"])
     check_confined(job["study"])
     folder = Path(job["folder"])
+    look_after(folder / "cache")
     context = Context(folder / "files", folder / "downloads", folder / "cache", tell)
     return module.run(job["study"], module.Options.model_validate(job["options"]), context)
 
@@ -190,7 +192,12 @@ def _limit_memory(most: int) -> None:
 
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     with contextlib.suppress(OSError, ValueError):
-        resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+        resource.setrlimit(resource.RLIMIT_AS, (_at_most(most, hard), hard))
+
+
+def _at_most(wanted: int, hard: int) -> int:
+    """Return a limit that the system, which may set one already, lets a process have."""
+    return wanted if hard < 0 else min(wanted, hard)  # below zero: there is none
 
 
 def _json(message: dict[str, Any]) -> bytes:
@@ -209,22 +216,27 @@ def _was_importing(trace: TracebackType | None) -> bool:
 def _told(error: BaseException, files: Path) -> dict[str, Any]:
     """Return what the page says of an error: a sentence, and the field of the study that it is about."""
     if isinstance(error, ViscofricError):
-        words = str(error).replace(f"{files}{os.sep}", "")
+        words = _without_folder(str(error), files)
         found = _FIELD.search(words)
         field = getattr(error, "field", None) or (found[1] if found else None)
         problems = [{"field": one.field, "message": one.message} for one in getattr(error, "problems", ())]
         return {"message": words, "field": field, "problems": problems or [{"field": field, "message": words}]}
     if isinstance(error, MemoryError):
-        return {
-            "message": _NO_MEMORY,
-            "field": None,
-        }
+        return {"message": _NO_MEMORY, "field": None}
     if type(error).__name__ == "ValidationError" and hasattr(error, "errors"):
         first = error.errors()[0]
         place = ".".join(["options", *map(str, first["loc"])])
         return {"message": f"{place}: {first['msg']}.", "field": place}
     traceback.print_exception(error)
-    return {"message": f"This is an error of viscofric, {type(error).__name__}: {brief(str(error))}.", "field": None}
+    words = brief(_without_folder(str(error), files))
+    return {"message": f"This is an error of viscofric, {type(error).__name__}: {words}.", "field": None}
+
+
+def _without_folder(words: str, files: Path) -> str:
+    """Name files as the user knows them."""
+    for folder in (files, files.parent):
+        words = words.replace(f"{folder}{os.sep}", "")
+    return words
 
 
 def end_all() -> None:

@@ -216,7 +216,7 @@ class Children:
 async def _until(child: Child, sending: asyncio.Future[None], seconds: float) -> AsyncIterator[Message]:
     """Yield what a process says of its job, to the end of that or of the time for it."""
     end = asyncio.get_running_loop().time() + seconds
-    await sending
+    await asyncio.shield(sending)  # a job that is cancelled must be sent all the same, so that its end is told
     while True:
         try:
             async with asyncio.timeout_at(end):

@@ -83,7 +83,7 @@ def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
     Raises
     ------
     DocumentError
-        With every wrong key, unit and range, or if a data file lies outside the folder.
+        With every wrong key, unit and range, or if a data file lies outside the folder or has the run file's name.
     """
     text = study_text(document)
     path = folder / RUN_FILE
@@ -94,6 +94,9 @@ def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
     for file in study.inputs:
         if file.parent != folder or file.name in ("", ".."):
             words = f"{brief(str(file))} lies elsewhere; drop the file on the page, and give its name alone."
+            raise DocumentError((Problem("", words),))
+        if file.name.casefold() == RUN_FILE:
+            words = f"A data file is called {file.name}, as the run file itself will be; drop it under another name."
             raise DocumentError((Problem("", words),))
     return text, study
 

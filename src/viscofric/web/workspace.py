@@ -8,12 +8,17 @@ import re
 import shutil
 import sys
 import tempfile
+import threading
 import time
 import unicodedata
+from contextlib import aclosing
 from pathlib import Path
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 from viscofric.errors import InputError, brief
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
 
 #: What a tab may call itself.
 KEY = r"^[A-Za-z0-9_-]{8,64}$"
@@ -66,6 +71,18 @@ class Workspace:
         for one in (self.files, self.downloads, self.cache):
             one.mkdir(parents=True, exist_ok=True)
         self.used = time.monotonic()
+        self.jobs = 0  # at work in it
+
+    async def while_at_work(self, lines: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
+        """Yield what a job tells; as long as it does, the workspace makes room for no other."""
+        self.jobs += 1
+        try:
+            async with aclosing(lines):  # type: ignore[type-var]
+                async for line in lines:
+                    yield line
+        finally:
+            self.jobs -= 1
+            self.used = time.monotonic()
 
     def listing(self) -> list[tuple[str, int]]:
         """Return names and sizes (bytes) of the user's files, by name."""
@@ -116,20 +133,33 @@ class Workspaces:
         self.root = Path(tempfile.mkdtemp(prefix=_PREFIX))
         self._lock = _locked(self.root)
         self._known: dict[str, Workspace] = {}
+        self._one_at_a_time = threading.Lock()  # a fresh tab asks for several things at once
 
     def get(self, key: str) -> Workspace:
-        """Return the workspace of a tab, a new one if need be; the one that rested longest makes room for it."""
-        if key not in self._known:
-            while len(self._known) >= _MOST_WORKSPACES:
-                oldest = min(self._known, key=lambda one: self._known[one].used)
-                shutil.rmtree(self._known.pop(oldest).folder, ignore_errors=True)
-            workspace = Workspace(self.root / f"{len(key)}-{key.encode().hex()}")
-            for name, path in self.given.items():
-                with contextlib.suppress(OSError):
-                    shutil.copyfile(path, workspace.files / name)
-            self._known[key] = workspace
-        workspace = self._known[key]
-        workspace.used = time.monotonic()
+        """Return the workspace of a tab, a new one if need be; the one that rested longest makes room for it.
+
+        Raises
+        ------
+        InputError
+            If all others are at work.
+        """
+        with self._one_at_a_time:
+            workspace = self._known.get(key) or self._new(key)
+            workspace.used = time.monotonic()
+            return workspace
+
+    def _new(self, key: str) -> Workspace:
+        while len(self._known) >= _MOST_WORKSPACES:
+            resting = [one for one, workspace in self._known.items() if not workspace.jobs]
+            if not resting:
+                raise InputError(f"{len(self._known)} tabs are at work already; close some first.")
+            oldest = min(resting, key=lambda one: self._known[one].used)
+            shutil.rmtree(self._known.pop(oldest).folder, ignore_errors=True)
+        workspace = Workspace(self.root / f"{len(key)}-{key.encode().hex()}")
+        for name, path in self.given.items():
+            with contextlib.suppress(OSError):
+                shutil.copyfile(path, workspace.files / name)
+        self._known[key] = workspace
         return workspace
 
     def close(self) -> None:
