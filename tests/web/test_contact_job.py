@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from shutil import copyfile
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,8 +11,9 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import InputError, ViscofricError
-from viscofric.web.jobs import contact
+from viscofric.web.jobs import contact, curve
 from web.contact_studies import BALL, CYLINDER, ROUGH, Desk
+from web.rubber_workspace import EXAMPLE, SWEEPS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -102,7 +104,7 @@ def test_map_holds_the_load(desk: Desk) -> None:
     answer = desk.run(contact, BALL, speed=0.1, temperature=333.15, stages="coarse")
     x, y, pressure = (np.array(answer["map"][name]) for name in ("x", "y", "pressure"))
     assert pressure.shape == (len(y), len(x))
-    assert max(pressure.shape) <= contact_fields().MOST_CELLS
+    assert max(pressure.shape) <= contact_pictures().MOST_CELLS
     # Three digits of each pressure.
     assert pressure.sum() * (x[1] - x[0]) * (y[1] - y[0]) == pytest.approx(25.0, rel=1e-3)
     # The outline encloses the contact's area, but for what smoothing takes off at its edge.
@@ -112,14 +114,14 @@ def test_map_holds_the_load(desk: Desk) -> None:
     assert area == pytest.approx(value(answer, "contact_area"), rel=0.03)
 
 
-def contact_fields() -> Any:
-    from viscofric.web.jobs import contact_fields
+def contact_pictures() -> Any:
+    from viscofric.web.jobs import contact_pictures
 
-    return contact_fields
+    return contact_pictures
 
 
 def test_thinning_keeps_the_mean_and_cuts_what_is_left_over() -> None:
-    fields = contact_fields()
+    fields = contact_pictures()
     field = np.arange(24.0).reshape(6, 4)
     x, y, thin = fields.thinned(np.arange(6.0), np.arange(4.0), field, 3)
     assert (x.tolist(), y.tolist()) == ([0.5, 2.5, 4.5], [0.5, 2.5])
@@ -162,6 +164,32 @@ def test_one_of_several_loads_is_solved(desk: Desk) -> None:
     assert [value(desk.run(contact, study, combination=which, **where), "load") for which in (0, 1)] == [10.0, 25.0]
     with pytest.raises(ViscofricError, match="combination = 2: the study has 2 of them"):
         desk.run(contact, study, combination=2, **where)
+
+
+@pytest.mark.parametrize(
+    ("surface", "speed", "temperature", "said"),
+    [
+        (False, 0.1, 333.15, []),
+        (False, 0.1, 500.15, ["227 °C the shift factor is extrapolated"]),
+        (False, 1e5, 333.15, ["v/a lies beyond"]),
+        (True, 0.1, 333.15, []),
+        (True, 1e5, 333.15, ["2πv/λ of its waves lie beyond"]),
+        (True, 1e-9, 333.15, ["2πv/λ of its waves lie beyond"]),  # slow, but within for its shortest waves
+    ],
+)
+def test_extrapolated_rubber_is_told_where_the_study_tells_it(
+    desk: Desk, surface: bool, speed: float, temperature: float, said: list[str]
+) -> None:
+    copyfile(EXAMPLE, desk.context.files / "dma.csv")
+    study = {**(ROUGH if surface else BALL), "material": {**SWEEPS, "shift": "wlf"}, "uncertainty": {"draws": 0}}
+    answer = desk.run(contact, study, speed=speed, temperature=temperature, stages="coarse")
+    warnings = [words for words in answer["warnings"] if "small strain" not in words]
+    assert [part in words for part, words in zip(said, warnings, strict=True)] == [True] * len(said)
+    assert answer["numbers"]["within"]["value"] == float("beyond those" not in " ".join(warnings))
+    once = {**study["conditions"], "speed": f"{speed} m/s", "temperature": f"{temperature} K"}
+    (doubts,) = desk.run(curve, {**study, "conditions": once})["doubts"]
+    assert ("extrapolated" in doubts) == ("beyond those" in " ".join(warnings))
+    assert ("shift" in doubts) == ("shift factor" in " ".join(warnings))
 
 
 def test_what_cannot_be_solved_is_one_sentence(desk: Desk) -> None:

@@ -1,70 +1,23 @@
-"""What the page shows of one contact: map, outline and profile, thinned for a browser; numbers with their errors."""
+"""What the page shows of one contact: numbers with their errors, what is doubtful, and pictures."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from scipy.ndimage import uniform_filter
-
-from viscofric.contact.fields.trail import surface_displacement
 from viscofric.contact.solution import ContactSolution
+from viscofric.study.record import CaseRecord
+from viscofric.study.surface_record import SurfaceRecord
 from viscofric.study.sweep import Case
+from viscofric.web.jobs.contact_pictures import Asked, around, outline, pressure_map, profile, shown, surface_profile
 from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.study.run_file import Study
-    from viscofric.study.study_rubber import StudyRubber
-    from viscofric.study.sweep import AnyCase, SurfaceCase
+    from viscofric.study.record import Record
+    from viscofric.study.sweep import SurfaceCase
 
-    Array: TypeAlias = NDArray[np.float64]
-
-#: Points of a map along its longer edge, and of a profile, at most.
-MOST_CELLS, MOST_POINTS = 110, 400
-# Free space around the contact in the map, over the contact's length.
-_MARGIN = 0.05
-# How far a profile reaches behind the contact and ahead of it, over the contact's length.
-_BEHIND, _AHEAD = 1.2, 0.6
-# Points of the contact's outline at most; of a rough surface's spots, colours tell.
-_OUTLINE = 1_500
-_DIGITS, _FEW_DIGITS = 6, 3
-
-
-@dataclass(frozen=True, eq=False)
-class Asked:
-    """A contact that the page asks for.
-
-    Attributes
-    ----------
-    case : Case or SurfaceCase
-    rubber : StudyRubber
-    study : Study
-    """
-
-    case: AnyCase
-    rubber: StudyRubber
-    study: Study
-
-
-class Profile(NamedTuple):
-    """What a cut along the motion shows, SI; heights upwards from the undeformed surface.
-
-    Attributes
-    ----------
-    x : (n,) array
-    pressure, surface, indenter : (n,) array
-        NaN where there is nothing to show.
-    """
-
-    x: Array
-    pressure: Array
-    surface: Array
-    indenter: Array
+_DIGITS = 6
 
 
 def told(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: bool) -> dict[str, Any]:
@@ -82,20 +35,44 @@ def told(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: b
     dict
         ``stage`` ("coarse" or "sharp"), ``kind`` ("point", "line" or "rough"), ``speed``, ``temperature``,
         ``direction`` (rad, of the motion in the map), ``numbers`` (each ``value`` and ``error``), ``peak_resolved``,
-        ``within`` (whether the rubber was measured at these frequencies; null where that is not known), ``map`` (null
-        of line contacts; ``pressure`` has a row for each y), ``outline`` (closed lines), ``profile``, ``warnings``.
+        ``map`` (null of line contacts; ``pressure`` has a row for each y), ``outline`` (closed lines), ``profile``,
+        ``warnings``.  Of the numbers, ``within`` is 1 where the rubber was measured at the contact's frequencies, 0
+        where it is extrapolated, null where that is not known.
     """
     case = asked.case
+    record: Record
+    if isinstance(solution, ContactSolution):
+        record = CaseRecord.of(solution, case.temperature)
+    else:
+        record = SurfaceRecord.of(solution, case.temperature)
+    known = asked.rubber.frequency_range is not None
+    within = asked.rubber.is_within(case, record) if known else None
     shared: dict[str, Any] = {
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
-        "warnings": list(solution.warnings),
+        "warnings": [*solution.warnings, *_doubts(asked, within)],
     }
     if isinstance(solution, ContactSolution):
         assert isinstance(case, Case)
-        return shared | _of_indenter(asked, case, solution)
-    return shared | _of_surface(asked, case, solution)  # type: ignore[arg-type]  # it is one of a surface
+        found = _of_indenter(asked, case, solution)
+    else:
+        found = _of_surface(asked, case, solution)  # type: ignore[arg-type]  # it is one of a surface
+    found["numbers"]["within"] = _with_error(None if within is None else float(within))
+    return shared | found
+
+
+def _doubts(asked: Asked, within: bool | None) -> list[str]:
+    """Tell where the rubber is extrapolated, in temperature or in frequency."""
+    rubber = asked.rubber
+    at_any = rubber.doubts([])  # of the rubber as such, which other steps tell
+    said = [words for words in rubber.doubts([asked.case.temperature]) if words not in at_any]
+    if within is False:
+        what = "The frequency v/a lies" if isinstance(asked.case, Case) else "Frequencies 2πv/λ of its waves lie"
+        said.append(
+            f"{what} beyond those at which the rubber was measured: the friction rests on the extrapolated spectrum."
+        )
+    return said
 
 
 def _of_indenter(asked: Asked, case: Case, solution: ContactSolution) -> dict[str, Any]:
@@ -105,16 +82,15 @@ def _of_indenter(asked: Asked, case: Case, solution: ContactSolution) -> dict[st
         "direction": 0.0,
         "numbers": _numbers(asked, case, solution),
         "peak_resolved": solution.diagnostics.peak_resolved,
-        "map": None if line else _map(*_around(solution)),
+        "map": None if line else pressure_map(*around(solution)),
         "outline": [] if line else outline(solution.x, solution.y, solution.pressure),
-        "profile": _shown(profile(asked, case, solution)),
+        "profile": shown(profile(asked, case, solution)),
     }
 
 
 def _of_surface(asked: Asked, case: SurfaceCase, solution: PeriodicSolution) -> dict[str, Any]:
     line = solution.pressure.shape[1] == 1
     shortest, longest = case.surface.wavelengths
-    spots = Profile(*surface_profile(solution))
     return {
         "kind": "rough",
         "direction": math.atan2(solution.direction[1], solution.direction[0]),
@@ -138,13 +114,13 @@ def _of_surface(asked: Asked, case: SurfaceCase, solution: PeriodicSolution) -> 
             _DIGITS,
         ),
         "peak_resolved": None,
-        "map": None if line else _map(solution.x, solution.y, solution.pressure),
+        "map": None if line else pressure_map(solution.x, solution.y, solution.pressure),
         "outline": [],
-        "profile": _shown(spots),
+        "profile": shown(surface_profile(solution)),
     }
 
 
-def _with_error(value: float, error: float | None = None) -> dict[str, float | None]:
+def _with_error(value: float | None, error: float | None = None) -> dict[str, float | None]:
     return {"value": value, "error": error}
 
 
@@ -185,145 +161,10 @@ def _rubber_at(asked: Asked, frequency: float) -> dict[str, Any]:
     rubber, temperature = asked.rubber, asked.case.temperature
     modulus = complex(rubber.material.modes_at(temperature).complex_modulus(frequency))
     alpha = float(rubber.shift(temperature))
-    known = rubber.frequency_range
-    within = None if known is None else float(known[0] <= alpha * frequency <= known[1])
     return {
         "storage_modulus": _with_error(modulus.real),
         "loss_factor": _with_error(modulus.imag / modulus.real),
         "shift_factor": _with_error(alpha),
         "reduced_frequency": _with_error(alpha * frequency),
         "reduced_speed": _with_error(alpha * asked.case.speed),
-        "within": _with_error(math.nan if within is None else within),
     }
-
-
-def _around(solution: ContactSolution) -> tuple[Array, Array, Array]:
-    """Cut the window down to the contact and a little free space."""
-    loaded = solution.pressure > 0.0
-    kept = []
-    margin = _MARGIN * (solution.front + solution.rear)
-    for places, there in ((solution.x, loaded.any(axis=1)), (solution.y, loaded.any(axis=0))):
-        low, high = places[there].min() - margin, places[there].max() + margin
-        kept.append(np.flatnonzero((places >= low) & (places <= high)))
-    along, across = kept
-    return solution.x[along], solution.y[across], solution.pressure[np.ix_(along, across)]
-
-
-def thinned(x: Array, y: Array, field: Array, most: int = MOST_CELLS) -> tuple[Array, Array, Array]:
-    """Take means over blocks of cells, so that no edge has more than so many; cells left over at the ends are cut off.
-
-    Parameters
-    ----------
-    x, y : (nx,) and (ny,) array
-    field : (nx, ny) array
-    most : int
-    """
-    every = max(1, -(-max(field.shape) // most))
-    if every == 1:
-        return x, y, field
-    rows, columns = (max(1, size // every) for size in field.shape)
-    tall, wide = min(every, field.shape[0]), min(every, field.shape[1])
-    cut = field[: rows * tall, : columns * wide].reshape(rows, tall, columns, wide)
-    return (
-        x[: rows * tall].reshape(rows, tall).mean(axis=1),
-        y[: columns * wide].reshape(columns, wide).mean(axis=1),
-        cut.mean(axis=(1, 3)),
-    )
-
-
-def _map(x: Array, y: Array, pressure: Array) -> dict[str, Any]:
-    along, across, shown = thinned(x, y, pressure)
-    return {"x": plain(along, _DIGITS), "y": plain(across, _DIGITS), "pressure": plain(shown.T, _FEW_DIGITS)}
-
-
-def outline(x: Array, y: Array, pressure: Array) -> list[dict[str, list[float]]]:
-    """Return the edge of the contact as lines, (x, y) each, m; the staircase of the loaded cells is smoothed.
-
-    Parameters
-    ----------
-    x, y : (nx,) and (ny,) array
-    pressure : (nx, ny) array
-    """
-    from contourpy import contour_generator
-
-    # Averaged over three cells, the staircase is a curve.
-    loaded = uniform_filter((pressure > 0.0).astype(float), 3, mode="constant")
-    lines: list[Any] = contour_generator(x, y, loaded.T).lines(0.5)  # type: ignore[assignment]
-    every = max(1, -(-sum(len(line) for line in lines) // _OUTLINE))
-    return [{"x": plain(line[::every, 0], 5), "y": plain(line[::every, 1], 5)} for line in map(_closed, lines)]
-
-
-def _closed(line: Any) -> Array:
-    return np.asarray(line if np.array_equal(line[0], line[-1]) else np.vstack([line, line[:1]]))
-
-
-def profile(asked: Asked, case: Case, solution: ContactSolution) -> Profile:
-    """Cut a contact along its centre line, with the trail behind it.
-
-    Where the indenter is elastic, what is solved for is the sum of both bodies' displacements; the rubber's share is
-    found from the pressure.
-    """
-    trail_x, trail = _trail(asked, case, solution)
-    x, pressure = solution.x, _centre(solution.y, solution.pressure)
-    displacement = _centre(solution.y, solution.displacement)
-    gap = displacement - (solution.indentation - case.indenter.height(x, np.zeros_like(x)))
-    loaded = pressure > 0.0
-    own = np.interp(x, trail_x, trail)
-    if case.indenter_modulus is None or solution.geometry == "line":  # a line's level is a convention
-        trail += float(np.mean((displacement - own)[loaded]))
-        own = np.interp(x, trail_x, trail)
-    surface = displacement if case.indenter_modulus is None else own
-    beyond = (trail_x < x[0]) | (trail_x > x[-1])
-    order = np.argsort(np.concatenate([x, trail_x[beyond]]))
-
-    def joined(inside: Array, outside: Array) -> Array:
-        return np.asarray(np.concatenate([inside, outside[beyond]])[order])
-
-    none = np.full_like(trail_x, np.nan)
-    return Profile(
-        joined(x, trail_x),
-        joined(pressure, np.zeros_like(trail_x)),
-        joined(-surface, -trail),
-        joined(gap - surface, none),
-    )
-
-
-def _trail(asked: Asked, case: Case, solution: ContactSolution) -> tuple[Array, Array]:
-    """Return the rubber's displacement on the centre line, from well behind the contact to well ahead."""
-    modes = asked.rubber.material.modes_at(case.temperature)
-    x, y, pressure = solution.x, solution.y, solution.pressure
-    if solution.geometry == "point" and all(size % 2 == 0 for size in pressure.shape):
-        x, y, pressure = thinned(x, y, pressure, max(pressure.shape) // max(1, max(pressure.shape) // 64))
-    length = solution.front + solution.rear
-    found = surface_displacement(
-        x,
-        y,
-        pressure,
-        speed=case.speed,
-        E_inf=modes.E_inf,
-        C=modes.C,
-        tau=modes.tau,
-        poisson_ratio=asked.rubber.material.poisson_ratio,
-        layer=case.layer,
-        behind=_BEHIND * length,
-        ahead=_AHEAD * length,
-    )
-    return found.x, _centre(found.y, found.displacement)
-
-
-def _centre(y: Array, field: Array) -> Array:
-    """Return the line of a field through the axis."""
-    middle = np.flatnonzero(np.isclose(np.abs(y), np.abs(y).min(), rtol=1e-6))
-    return np.asarray(field[:, middle].mean(axis=1))
-
-
-def surface_profile(solution: PeriodicSolution) -> tuple[Array, Array, Array, Array]:
-    """Cut a rough contact along x where its pressure is largest; see `Profile`."""
-    row = int(np.argmax(solution.pressure.max(axis=0)))
-    surface = -solution.displacement[:, row]
-    return solution.x, solution.pressure[:, row], surface, surface + solution.gap[:, row]
-
-
-def _shown(cut: Profile) -> dict[str, Any]:
-    every = max(1, -(-len(cut.x) // MOST_POINTS))
-    return {name: plain(values[::every], 5) for name, values in cut._asdict().items()}
