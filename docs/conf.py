@@ -93,6 +93,7 @@ sphinx_gallery_conf = {
     "filename_pattern": "/plot_",
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
+    "capture_repr": (),  # what a script prints is its output; what an expression at its end stands for is not
     "download_all_examples": False,
     "min_reported_time": 10_000,  # how long an example took on the machine that built the site says little
     "remove_config_comments": True,
