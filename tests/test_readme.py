@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import re
 import shlex
 import subprocess
 import sys
 import traceback
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+import matplotlib
+import matplotlib.pyplot as plt
 import pytest
 from click.testing import CliRunner
 
 from viscofric.cli import main
 from viscofric.report import drawing
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 ROOT = Path(__file__).parents[1]
 #: What building the site leaves there.
@@ -25,8 +32,8 @@ PAGES = sorted([ROOT / "README.md", ROOT / "ARCHITECTURE.md", *WRITTEN])
 FENCE = re.compile(r"^```([\w-]*)([^\n`]*)\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
 OUTPUT = {"", "text", "mermaid"}
 SHELL = {"console", "bash", "sh", "shell"}
-FETCHES_OR_MOVES = {"git", "cd", "pip", "uv", "python3.11"}  # what gets the checkout: named, not run
-COMPARED = {"printed", "roughly"}  # said after ```text: it is what the command before it prints
+FETCHES_OR_MOVES = {"git", "cd", "pip", "uv", "python3.11", "source"}  # what gets the checkout: named, not run
+COMPARED = {"printed", "roughly"}  # said after ```text: it is what the command or the Python before it prints
 STAYS = {"web"}  # serves until it is stopped: only asked for its help
 
 
@@ -121,16 +128,9 @@ def run_command(words: list[str], folder: Path) -> str:
     return viscofric(arguments)
 
 
-def draw_less(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Turn figures of reports into images, most of the time of a quick study, for the README only, and once each.
-
-    Tests of the report look at the others.
-    """
-    image = drawing._image
-    wanted = {"svg"} if page.name == "README.md" else set()
-    monkeypatch.setattr(
-        drawing, "_image", lambda figure, form: image(figure, form) if form in wanted else form.encode()
-    )
+def draw_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave the images of reports out, most of the time of a quick study: tests of the report look at them."""
+    monkeypatch.setattr(drawing, "_image", lambda figure, form: form.encode())
 
 
 def check_study(block: Block, folder: Path) -> None:
@@ -146,18 +146,29 @@ def check_study(block: Block, folder: Path) -> None:
     load_study(path)
 
 
+@pytest.fixture
+def drawn_apart() -> Iterator[None]:
+    """Leave matplotlib as it was: pages set its look and leave figures open, as readers do."""
+    with matplotlib.rc_context():
+        yield
+    plt.close("all")
+
+
+@pytest.mark.usefixtures("drawn_apart")
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("page", PAGES, ids=[path.relative_to(ROOT).as_posix() for path in PAGES])
 def test_what_the_page_shows_works(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
-    draw_less(page, monkeypatch)
+    draw_less(monkeypatch)
     namespace: dict[str, Any] = {"__name__": "__main__"}
     printed = ""
     for block in blocks(page.read_text(encoding="utf-8")):
         if block.language in {"python", "py"}:
             code = "\n" * (block.line - 1) + block.text  # so that a traceback names the page's line
-            exec(compile(code, str(page), "exec"), namespace)
+            with contextlib.redirect_stdout(io.StringIO()) as heard:
+                exec(compile(code, str(page), "exec"), namespace)
+            printed = heard.getvalue()
         elif block.language in SHELL:
             for words in commands(block):
                 printed = run_command(words, tmp_path)

@@ -9,6 +9,7 @@ import curve_file_pages
 import overview_figure
 import results_pages
 import run_file_pages
+import tutorial_figures
 import verification_pages
 from page_parts import write
 from sphinx.util import logging
@@ -27,6 +28,7 @@ def generate(app: Sphinx) -> None:
     write("run_file.md", run_file_pages.page())
     overview_figure.generate()
     results_pages.generate()
+    tutorial_figures.generate()
     verification_pages.generate()
 
 
