@@ -204,3 +204,12 @@ def test_blocks_and_commands_are_found() -> None:
     assert commands(console) == [["viscofric", "run", "a.toml"]]
     assert commands(script) == [["./run", "demo"]]
     assert (console.line, script.line, output.language) == (3, 8, "")
+
+
+def test_the_tutorial_shows_the_figures_that_it_draws() -> None:
+    """They are drawn by its own Python when the site is built, so that each that it shows must be saved there."""
+    page = (ROOT / "docs" / "tutorial" / "index.md").read_text(encoding="utf-8")
+    shown = re.findall(r"_generated/tutorial/([\w-]+\.svg)", page)
+    saved = re.findall(r'savefig\("([\w-]+\.svg)"\)', page)
+    assert shown
+    assert shown == saved

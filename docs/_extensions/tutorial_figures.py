@@ -50,11 +50,9 @@ def draw(page: str) -> dict[str, bytes]:
                     if line.startswith(_FILES):
                         CliRunner().invoke(main, line.split()[2:], catch_exceptions=False)
             elif _NEEDS_A_STUDY not in text:
-                code = (
-                    "\n" * (page.count("\n", 0, block.start()) + 1) + text
-                )  # so that a traceback names the page's line
+                above = page.count("\n", 0, block.start()) + 1  # lines, so that a traceback names the page's
                 with contextlib.redirect_stdout(io.StringIO()):
-                    exec(compile(code, str(PAGE), "exec"), names)
+                    exec(compile("\n" * above + text, str(PAGE), "exec"), names)
         return {path.name: path.read_bytes() for path in sorted(Path().glob("*.svg"))}
 
 
