@@ -13,7 +13,8 @@ from viscofric.study.record import Failure
 from viscofric.study.surface_solving import SurfaceTask
 from viscofric.study.surface_source import surface_of
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
-from viscofric.web.jobs.contact_fields import Asked, told
+from viscofric.web.jobs.contact_fields import told
+from viscofric.web.jobs.contact_pictures import Asked
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
