@@ -158,13 +158,22 @@ def test_workspace_with_a_job_at_work_makes_no_room(temporary: Path, monkeypatch
     run_apart(work())
 
 
-def test_first_requests_of_a_tab_at_once_get_one_workspace(temporary: Path) -> None:
+def test_first_requests_of_a_tab_at_once_get_one_workspace(temporary: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A second one would copy the given files anew, while the job of the first reads them."""
     given = temporary / "given.csv"
-    given.write_text("1\n" * 100_000)
-    with closing(Workspaces({"data.csv": given})) as spaces, ThreadPoolExecutor(16) as several:
-        found = list(several.map(lambda _: spaces.get("same-workspace"), range(64)))
+    given.write_text("1")
+    copied: list[Path] = []
+
+    def slowly(source: Path, target: Path) -> None:
+        time.sleep(0.02)
+        copied.append(target)
+        target.write_bytes(source.read_bytes())
+
+    monkeypatch.setattr(module.shutil, "copyfile", slowly)
+    with closing(Workspaces({"data.csv": given})) as spaces, ThreadPoolExecutor(8) as several:
+        found = list(several.map(lambda _: spaces.get("same-workspace"), range(8)))
         assert len({id(one) for one in found}) == 1
-        assert found[0].listing() == [("data.csv", 200_000)]
+        assert copied == [found[0].files / "data.csv"]
 
 
 def test_nobody_else_can_look_into_the_folders(temporary: Path) -> None:
