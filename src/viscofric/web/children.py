@@ -19,6 +19,7 @@ MOST_CHILDREN = 4
 _FROM_THE_BEGINNING = 2
 _SOFT = 1.0  # s that a cancelled job has to end by itself
 _LONGEST_START = 20.0  # s
+_LONGEST_REST = 900.0  # s without a job, after which a process gives its memory back
 _BEFORE_SPARE = 2.0  # s before another process is started in store: those that have work go first
 _LAST = {"result", "error", "cancelled", "ended"}
 _STOPPED = "The program was stopped."
@@ -39,6 +40,7 @@ class Children:
         self._waiting: deque[tuple[str, asyncio.Future[Child]]] = deque()
         self._numbers = itertools.count(1)
         self._cancelling: set[asyncio.Task[None]] = set()
+        self._looking: asyncio.TimerHandle | None = None
         self._closed = False
 
     @property
@@ -153,6 +155,9 @@ class Children:
         return child
 
     def _give_back(self, child: Child) -> None:
+        child.used = time.monotonic()
+        if self._looking is None:
+            self._looking = asyncio.get_running_loop().call_later(_LONGEST_REST, self._end_resting)
         if child.alive and not self._closed:
             self._idle.append(child)
         else:
@@ -166,6 +171,17 @@ class Children:
                 self._give_back(free)
             else:
                 place.set_result(free)
+
+    def _end_resting(self) -> None:
+        """End processes that had nothing to do for long, but for as many as there are from the beginning."""
+        self._looking = None
+        for child in sorted(self._idle, key=lambda child: child.used):
+            rested = child.key is not None and time.monotonic() - child.used >= _LONGEST_REST
+            if rested and len(self._all) > _FROM_THE_BEGINNING:
+                self._idle.remove(child)
+                self._bury(child)
+        if len(self._all) > _FROM_THE_BEGINNING:
+            self._looking = asyncio.get_running_loop().call_later(_LONGEST_REST, self._end_resting)
 
     def _bury(self, child: Child) -> None:
         child.close()
@@ -201,6 +217,8 @@ class Children:
     def stop(self) -> None:
         """End all processes; what they were at ends with a sentence."""
         self._closed = True
+        if self._looking is not None:
+            self._looking.cancel()
         for child in self._all:
             child.kill()
 
