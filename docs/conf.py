@@ -94,6 +94,7 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "capture_repr": (),  # what a script prints is its output; what an expression at its end stands for is not
+    "image_scrapers": ("gallery_figures",),
     "download_all_examples": False,
     "min_reported_time": 10_000,  # how long an example took on the machine that built the site says little
     "remove_config_comments": True,

@@ -1,9 +1,12 @@
-"""Docstrings tell the truth: the parameters that they document are those of the signature."""
+"""Docstrings tell the truth: parameters are those of the signature, and examples print what they show."""
 
 from __future__ import annotations
 
 import dataclasses
+import doctest
 import inspect
+import io
+import itertools
 import re
 
 import pytest
@@ -58,3 +61,85 @@ def test_documented_parameters_of_a_dataclass_are_those_it_takes(name):
     one = getattr(viscofric, name)
     told = documented(one.__doc__)
     assert not told or told == signature(one)
+
+
+#: Names of results, which verbs return and users do not make: their verbs have the examples.  And errors.
+RETURNED = {
+    "Agreement",
+    "AssumptionCheck",
+    "Card",
+    "CatalogueEntry",
+    "Citations",
+    "ContactSolution",
+    "ContactStatistics",
+    "Diagnostics",
+    "FrictionByWavelength",
+    "FrictionDerivatives",
+    "FrictionMasterCurve",
+    "IdentifiedMaterial",
+    "LawComparison",
+    "MaterialSamples",
+    "OverlapQuality",
+    "PeriodicDiagnostics",
+    "PeriodicSolution",
+    "PerssonTheory",
+    "ResultsComparison",
+    "RoughFriction",
+    "ShiftAgreement",
+    "SpectrumFit",
+    "Study",
+    "StudyResults",
+    "Superposition",
+    "SuperpositionCheck",
+    "TractionStep",
+}
+#: What other names need that no example can have: a class to be derived from, a workbook of an instrument.
+WITHOUT_EXAMPLE = {"ShiftLaw", "VerticalShift", "read_vendor_law"}
+
+
+def examples() -> list[doctest.DocTest]:
+    """Examples of all public names and of their methods."""
+    finder = doctest.DocTestFinder(exclude_empty=True)
+    found = [one for name in PUBLIC for one in finder.find(getattr(viscofric, name), name, module=False)]
+    return [one for one in found if one.examples]
+
+
+@pytest.mark.parametrize("example", examples(), ids=lambda one: one.name)
+def test_examples_of_docstrings_print_what_they_show(example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    said = io.StringIO()
+    example.globs = {}
+    doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(example, out=said.write)
+    assert not said.getvalue(), said.getvalue()
+
+
+def test_an_example_that_is_wrong_is_found(tmp_path):
+    wrong = doctest.DocTestParser().get_doctest(">>> 1 + 1\n3\n", {}, "wrong", None, 0)
+    said = io.StringIO()
+    assert doctest.DocTestRunner().run(wrong, out=said.write).failed == 1
+    assert "Expected" in said.getvalue()
+
+
+def sections(docstring: str) -> set[str]:
+    lines = inspect.cleandoc(docstring).splitlines()
+    return {line for line, below in itertools.pairwise(lines) if re.fullmatch(r"-{3,}", below)}
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_docstrings_are_complete(name):
+    one = getattr(viscofric, name)
+    has = sections(one.__doc__)
+    is_error = inspect.isclass(one) and issubclass(one, Exception)
+    if inspect.isclass(one):
+        assert is_error or name in WITHOUT_EXAMPLE or has & {"Parameters", "Attributes"}
+    else:
+        assert "Parameters" in has or not signature(one)
+        returns = inspect.signature(one).return_annotation
+        assert ("Returns" in has) == (returns not in (None, "None"))
+    assert "Examples" in has or is_error or name in RETURNED | WITHOUT_EXAMPLE
+
+
+def test_lists_of_names_without_examples_hold_only_such():
+    for name in RETURNED | WITHOUT_EXAMPLE:
+        assert "Examples" not in sections(getattr(viscofric, name).__doc__), name

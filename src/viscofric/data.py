@@ -73,6 +73,13 @@ class Isotherm:
         As measured (tensile or shear, see `IsothermalSweeps.deformation`), positive, Pa.
     strain_amplitude : (n,) array, optional
         Of the oscillation, as a fraction (0.01 is 1 %); NaN where it was not recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> omega = 2.0 * np.pi * np.array([0.1, 1.0, 10.0])
+    >>> warm = vf.Isotherm(298.15, omega, np.array([3.1e6, 3.4e6, 4.0e6]), np.array([0.30e6, 0.41e6, 0.62e6]))
     """
 
     temperature: float
@@ -117,6 +124,16 @@ class IsothermalSweeps:
         What the reader took the file for, in words; empty for sweeps that no file holds.
     deformation_told : bool
         Whether a file or a person said what `deformation` is; False where it was assumed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> omega = 2.0 * np.pi * np.array([0.1, 1.0, 10.0])
+    >>> warm = vf.Isotherm(298.15, omega, np.array([1.0e6, 1.1e6, 1.3e6]), np.array([0.10e6, 0.14e6, 0.20e6]))
+    >>> sweeps = vf.IsothermalSweeps((warm,), deformation="shear")
+    >>> sweeps.in_tension(0.5).isotherms[0].storage_modulus  # E = 2(1+ν)G
+    array([3000000., 3300000., 3900000.])
     """
 
     isotherms: tuple[Isotherm, ...]
@@ -170,6 +187,14 @@ class MasterCurve:
         Of the isotherm that each point comes from, K.
     reference : float
         K.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> curve = vf.MasterCurve(
+    ...     np.array([0.1, 10.0]), np.array([3e6, 4e6]), np.array([3e5, 6e5]), np.full(2, 303.15), 303.15
+    ... )
     """
 
     angular_frequency: Array

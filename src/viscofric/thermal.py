@@ -26,6 +26,13 @@ class ThermalProperties:
     ------
     InputError
         If a value is not above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> steel = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "bearing steel")
+    >>> f"{steel.diffusivity:.2g} m²/s"
+    '1.2e-05 m²/s'
     """
 
     conductivity: Quantity

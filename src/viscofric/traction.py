@@ -92,6 +92,18 @@ class TractionRuns:
     steps : tuple of TractionStep
         What the files say of the steps, which `step` numbers; counts and means are taken from the rows, and steps
         without rows are left out.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> disc, ball = np.array([-0.1, -0.1, 0.1, 0.1]), np.array([-0.15, -0.05, 0.15, 0.05])
+    >>> force = 0.3 + 1.1 * np.sign(disc - ball) + 0.4 * np.sign(disc)
+    >>> runs = vf.TractionRuns(
+    ...     disc, ball, force, load=np.full(4, 25.0), temperature=np.full(4, 303.15), replicate=np.ones(4)
+    ... )
+    >>> vf.separate(runs).coulomb.round(3)  # 1.1 N of 25 N
+    array([0.044])
     """
 
     disc_speed: Array

@@ -62,6 +62,12 @@ class Layer:
     ------
     InputError
         If the thickness is not a length above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> f"{vf.Layer('2 mm').yielding(1e5, 0.5):.3f}"  # waves much shorter than the layer see a half-space
+    '1.000'
     """
 
     thickness: Quantity

@@ -145,6 +145,32 @@ def compare(
         If a measured point has no prediction at its speed, temperature and load (within 5 %), or its
         friction is not above zero; if master curves have different references or loads, or do not overlap; or if one is
         a master curve and the other is not.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> n = 3
+    >>> curves = vf.FrictionCurves(
+    ...     speed=np.array([0.02, 0.06, 0.2]),
+    ...     temperature=np.full(n, 333.15),
+    ...     load=np.full(n, 25.0),
+    ...     viscoelastic=np.array([0.025, 0.020, 0.016]),
+    ...     viscoelastic_error=np.full(n, 2e-4),
+    ...     viscoelastic_scatter=np.full(n, 6e-4),
+    ...     replicates=np.full(n, 9),
+    ... )
+    >>> predicted = vf.predict_friction(
+    ...     vf.synthetic_fluoroelastomer(),
+    ...     vf.Ball("9.525 mm"),
+    ...     speeds=[0.02, 0.06, 0.2],
+    ...     temperatures=333.15,
+    ...     load=25.0,
+    ...     accuracy=1e-2,
+    ... )
+    >>> agreement = vf.compare(curves, predicted)
+    >>> agreement.points, agreement.rms < 0.05
+    (3, True)
     """
     shifted = isinstance(measured, FrictionMasterCurve)
     if shifted != isinstance(predicted, FrictionMasterCurve):

@@ -79,6 +79,24 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
         If there is nothing to write.
     DataFileError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> n = 3
+    >>> curves = vf.FrictionCurves(
+    ...     speed=np.array([0.02, 0.06, 0.2]),
+    ...     temperature=np.full(n, 333.15),
+    ...     load=np.full(n, 25.0),
+    ...     viscoelastic=np.array([0.025, 0.020, 0.016]),
+    ...     viscoelastic_error=np.full(n, 2e-4),
+    ...     viscoelastic_scatter=np.full(n, 6e-4),
+    ...     replicates=np.full(n, 9),
+    ... )
+    >>> vf.write_friction_curves(curves, "curves.csv")
+    >>> bool((vf.read_friction_curves("curves.csv").speed == curves.speed).all())
+    True
     """
     target = file_path(path)
     if not len(insist_on_curves(curves, "curves")):
@@ -126,6 +144,25 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
     DataFileError
         If the file cannot be read, a column or its unit is missing or wrong, or a cell is not a number, or not one
         that such a quantity may have.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> n = 3
+    >>> curves = vf.FrictionCurves(
+    ...     speed=np.array([0.02, 0.06, 0.2]),
+    ...     temperature=np.full(n, 333.15),
+    ...     load=np.full(n, 25.0),
+    ...     viscoelastic=np.array([0.025, 0.020, 0.016]),
+    ...     viscoelastic_error=np.full(n, 2e-4),
+    ...     viscoelastic_scatter=np.full(n, 6e-4),
+    ...     replicates=np.full(n, 9),
+    ... )
+    >>> vf.write_friction_curves(curves, "curves.csv")
+    >>> again = vf.read_friction_curves("curves.csv")
+    >>> again.viscoelastic
+    array([0.025, 0.02 , 0.016])
     """
     table = read_table(path)
     places = _places(table)

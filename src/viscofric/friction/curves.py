@@ -120,6 +120,23 @@ class FrictionCurves:
     InputError
         If a column has the wrong length, a value is not finite, or a speed, temperature or load is not
         above zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> n = 3
+    >>> curves = vf.FrictionCurves(
+    ...     speed=np.array([0.02, 0.06, 0.2]),
+    ...     temperature=np.full(n, 333.15),
+    ...     load=np.full(n, 25.0),
+    ...     viscoelastic=np.array([0.025, 0.020, 0.016]),
+    ...     viscoelastic_error=np.full(n, 2e-4),
+    ...     viscoelastic_scatter=np.full(n, 6e-4),
+    ...     replicates=np.full(n, 9),
+    ... )
+    >>> curves.select(curves.speed > 0.05).viscoelastic
+    array([0.02 , 0.016])
     """
 
     speed: Array

@@ -55,7 +55,18 @@ class CatalogueEntry:
 
 
 def catalogue() -> tuple[CatalogueEntry, ...]:
-    """Return the entries of the catalogue: what there is, where it comes from, and how far it holds."""
+    """Return the entries of the catalogue: what there is, where it comes from, and how far it holds.
+
+    Returns
+    -------
+    tuple of CatalogueEntry
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> [entry.name for entry in vf.catalogue() if entry.kind == "SYNTHETIC"][:1]
+    ['synthetic fluoroelastomer']
+    """
     return _ENTRIES
 
 
@@ -66,6 +77,10 @@ def catalogue_entry(name: str) -> CatalogueEntry:
     ----------
     name : str
         One of the names in `catalogue()`; capitals, hyphens and underscores do not matter.
+
+    Returns
+    -------
+    CatalogueEntry
 
     Raises
     ------
@@ -90,10 +105,20 @@ def catalogue_material(name: str) -> Material:
     name : str
         One of the names in `catalogue()`; capitals, hyphens and underscores do not matter.
 
+    Returns
+    -------
+    Material
+
     Raises
     ------
     InputError
         If there is none of that name; the sentence names the nearest.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> vf.catalogue_material("synthetic fluoroelastomer").poisson_ratio
+    0.5
     """
     entry = catalogue_entry(name)
     material = entry.make()
@@ -156,6 +181,13 @@ def synthetic_fluoroelastomer() -> Material:
     -------
     Material
         With E0 = 3 MPa, E_inf = 1.5 GPa, τ in geometric progression of ratio e, reference 30 °C.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.synthetic_fluoroelastomer()
+    >>> f"{rubber.spectrum.E0 / 1e6:.1f} MPa to {rubber.spectrum.E_inf / 1e9:.1f} GPa"
+    '3.0 MPa to 1.5 GPa'
     """
     rubber, between, glass = 3e6, 12e6, 1.5e9  # Pa
     fast = {"centre": -3.85, "long": 0.3, "short": 1.2}  # decades of seconds

@@ -50,6 +50,14 @@ class Material:
     InputError
         If the Poisson ratio is out of range, spectrum or shift are not what they should be, or there is a vertical
         shift without a shift.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> spectrum = vf.RetardationSpectrum(E0="1 MPa", E_inf="10 MPa", C=[9e-7], tau=[1e-3])
+    >>> rubber = vf.Material(spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference="30 degC"))
+    >>> f"{rubber.shift('60 degC'):.3g}", f"{abs(rubber.complex_modulus(1e5, '60 degC')) / 1e6:.3f} MPa"
+    ('0.0143', '1.724 MPa')
     """
 
     spectrum: RetardationSpectrum | ModulusTable

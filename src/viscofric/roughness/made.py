@@ -160,6 +160,14 @@ def surface_from_spectrum(
     ------
     InputError
         If a value is out of range, the spectrum is of the wrong kind, or has no wave that the grid holds.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> spectrum = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="80 um", rms_slope=0.2)
+    >>> made = vf.surface_from_spectrum(spectrum, shape=(128, 128), spacing="10 um", seed=1)
+    >>> made.heights.shape
+    (128, 128)
     """
     points, steps = _grid(shape, spacing)
     wanted = LineSpectrum if points[1] == 1 else PowerSpectrum

@@ -45,6 +45,15 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
     C at a point is the mean of |ĥ_q|² A/4π² over the waves of a ring of wave numbers, the point their mean logarithm.
     By Parseval's theorem their sum over all waves is the mean square height; the curve through the points integrates to
     it within some per cent, most of which lies between the few longest waves.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    >>> spectrum = vf.power_spectrum(road)
+    >>> bool(abs(spectrum.rms_height() / road.rms_height - 1.0) < 0.1)
+    True
     """
     _insist(topography)
     if topography.is_line:
@@ -72,10 +81,23 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     per_decade : int
         Points of the spectrum for each decade of wave number.
 
+    Returns
+    -------
+    LineSpectrum
+
     Raises
     ------
     InputError
         If heights are missing, or there is one point only along the axis.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    >>> line = vf.line_spectrum(road)
+    >>> bool(0.5 < (line.moment(0) ** 0.5 / road.rms_height) < 1.5)
+    True
     """
     _insist(topography)
     check_choice(axis, "axis", "x", "y")

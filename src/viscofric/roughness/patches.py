@@ -78,6 +78,15 @@ def contact_statistics(solution: PeriodicSolution) -> ContactStatistics:
     ------
     InputError
         If it is something else.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    >>> solution = vf.solve_periodic(rubber, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
+    >>> vf.contact_statistics(solution).patches
+    3
     """
     _insist(solution)
     loaded = solution.pressure > 0.0
@@ -124,6 +133,16 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
     ------
     InputError
         If it is no solution of a periodic contact, or the edges are no numbers that increase.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    >>> solution = vf.solve_periodic(rubber, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
+    >>> pressure, density = vf.pressure_distribution(solution, 20)
+    >>> pressure.shape, density.shape
+    ((20,), (20,))
     """
     _insist(solution)
     loaded = solution.pressure[solution.pressure > 0.0]

@@ -59,6 +59,15 @@ def read_topography(
         on no grid.
     InputError
         If an argument cannot be used.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> np.savetxt("scan.csv", [[0.0, 1.0, 0.5], [0.2, 0.8, 0.1]], delimiter=",")
+    >>> scan = vf.read_topography("scan.csv", unit="um", spacing="2 um")
+    >>> scan.heights.shape, f"{np.ptp(scan.heights):.1e} m"
+    ((2, 3), '1.0e-06 m')
     """
     steps = None
     if spacing is not None:

@@ -78,6 +78,16 @@ def friction_by_wavelength(
     of the motion, û = 2(1−ν²) S(−q·v) p̂/|q|.  Waves do not exchange energy, so that their sum is the friction force
     per area, to rounding.  The waves are those of the pressure: where contact is partial, its edges have waves shorter
     than all those of the surface.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    >>> solution = vf.solve_periodic(rubber, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
+    >>> parts = vf.friction_by_wavelength(solution)
+    >>> bool(abs(parts.cumulative[-1] / parts.total - 1.0) < 1e-9)
+    True
     """
     if not isinstance(solution, PeriodicSolution):
         raise InputError(f"solution = {brief(solution)}: must be what solve_periodic gave.")

@@ -193,6 +193,15 @@ class LineSpectrum:
     ------
     InputError
         If these are not two rows of equal length, positive and finite, with increasing wave numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> q = np.geomspace(1e3, 1e5, 200)
+    >>> line = vf.LineSpectrum(q, 1e-10 * q**-1.6)
+    >>> f"{line.moment(0) ** 0.5:.1e} m rms"
+    '2.2e-06 m rms'
     """
 
     wave_number: Array

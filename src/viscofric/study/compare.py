@@ -136,6 +136,15 @@ def compare_results(
         If results cannot be read.
     InputError
         If they have no case or no variable in common, or the tolerance is none.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber, ball = vf.synthetic_fluoroelastomer(), vf.Ball("9.525 mm")
+    >>> case = dict(speeds=[0.02, 0.2], temperatures="60 degC", load="5 N")
+    >>> rough, fine = (vf.predict_friction(rubber, ball, accuracy=one, **case) for one in (1e-2, 1e-3))
+    >>> vf.compare_results(rough, fine, tolerance=1e-2).equal
+    True
     """
     if tolerance is not None and not (_is_number(tolerance) and 0.0 <= tolerance < math.inf):
         raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.")

@@ -44,7 +44,7 @@ def run_study(
     finished_only: bool = False,
     progress: Progress = silent,
 ) -> StudyResults:
-    """Run a study: material from DMA, friction of every case, measurement beside it.
+    r"""Run a study: material from DMA, friction of every case, measurement beside it.
 
     Parameters
     ----------
@@ -80,6 +80,27 @@ def run_study(
         If a data file cannot be used, or the folder cannot be written.
     ViscofricError
         If there are no workers of use.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import viscofric as vf
+    >>> lines = [
+    ...     "[material]",
+    ...     'catalogue = "synthetic fluoroelastomer"',
+    ...     "[indenter]",
+    ...     'radius = "9.525 mm"',
+    ...     "[conditions]",
+    ...     'load = "5 N"',
+    ...     'speed = "0.1 m/s"',
+    ...     'temperature = ["60 degC", "90 degC"]',
+    ...     "[solver]",
+    ...     "accuracy = 1e-2",
+    ... ]
+    >>> _ = Path("ball.toml").write_text("\n".join(lines))
+    >>> results = vf.run_study("ball.toml")
+    >>> results.dataset["friction_coefficient"].values.round(3)
+    array([0.01 , 0.017])
     """
     path = file_path(path)
     text = read_study_text(path)

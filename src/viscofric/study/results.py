@@ -138,17 +138,43 @@ class StudyResults:
 
 
 def open_results(path: str | Path) -> StudyResults:
-    """Open the results of a study.
+    r"""Open the results of a study.
 
     Parameters
     ----------
     path : str or Path
         The folder that `run_study` wrote, or the ``results.nc`` in it.
 
+    Returns
+    -------
+    StudyResults
+
     Raises
     ------
     DataFileError
         If there are no results, they are of something else, or they are damaged.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import viscofric as vf
+    >>> lines = [
+    ...     "[material]",
+    ...     'catalogue = "synthetic fluoroelastomer"',
+    ...     "[indenter]",
+    ...     'radius = "9.525 mm"',
+    ...     "[conditions]",
+    ...     'load = "5 N"',
+    ...     'speed = "0.1 m/s"',
+    ...     'temperature = ["60 degC", "90 degC"]',
+    ...     "[solver]",
+    ...     "accuracy = 1e-2",
+    ... ]
+    >>> _ = Path("ball.toml").write_text("\n".join(lines))
+    >>> _ = vf.run_study("ball.toml")
+    >>> results = vf.open_results("ball.results")
+    >>> float(results.dataset["indentation"].sel(temperature=333.15)) > 0.0
+    True
     """
     import xarray
 

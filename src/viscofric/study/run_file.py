@@ -140,7 +140,7 @@ TABLES: dict[str, type[BaseModel]] = {
 
 
 def load_study(path: str | Path) -> Study:
-    """Read and check a run file.
+    r"""Read and check a run file.
 
     Parameters
     ----------
@@ -155,6 +155,27 @@ def load_study(path: str | Path) -> Study:
     ------
     StudyError
         If the file is missing or is not TOML, or with every wrong key, unit and range in it.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import viscofric as vf
+    >>> lines = [
+    ...     "[material]",
+    ...     'catalogue = "synthetic fluoroelastomer"',
+    ...     "[indenter]",
+    ...     'radius = "9.525 mm"',
+    ...     "[conditions]",
+    ...     'load = "5 N"',
+    ...     'speed = "0.1 m/s"',
+    ...     'temperature = ["60 degC", "90 degC"]',
+    ...     "[solver]",
+    ...     "accuracy = 1e-2",
+    ... ]
+    >>> _ = Path("ball.toml").write_text("\n".join(lines))
+    >>> study = vf.load_study("ball.toml")
+    >>> study.title
+    'Viscoelastic friction'
     """
     path = file_path(path)
     return parse_study(read_study_text(path), path)

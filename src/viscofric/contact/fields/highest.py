@@ -63,6 +63,15 @@ def highest_von_mises(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, poisson_r
     Looked for below cell centres, at depths from 0.02 to 2.5 radii of a circle of the contact's area (half-widths of a
     line contact), but not less than one cell, where the steps from cell to cell would be felt.  The depth is then
     refined.  Error where the pressure is resolved: about (cell/depth)², from the position sideways.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
+    >>> highest = vf.highest_von_mises(contact.x, contact.y, contact.pressure, poisson_ratio=0.5)
+    >>> 0.5 < highest.von_mises / contact.max_pressure < 0.7
+    True
     """
     from scipy.optimize import minimize_scalar
 

@@ -46,6 +46,16 @@ def surface_power(x: ArrayLike, pressure: ArrayLike, displacement: ArrayLike, sp
     -----
     Slopes are differences over neighbouring cells of the contact; a cell at its edge has a one-sided one, since the
     slope outside is infinite there.  For a paraboloid they are exact elsewhere.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
+    >>> power = vf.surface_power(contact.x, contact.pressure, contact.displacement, speed=1.0)  # W/m²
+    >>> cell = (contact.x[1] - contact.x[0]) * (contact.y[1] - contact.y[0])
+    >>> bool(abs(power.sum() * cell / (contact.friction_coefficient * 1.0) - 1.0) < 0.02)  # μ F v, 1 N at 1 m/s
+    True
     """
     step = spacing(x, "x")
     shape = (len(np.asarray(x)), *np.shape(pressure)[1:])

@@ -98,6 +98,26 @@ def surface_displacement(
     Notes
     -----
     The convolution of the paper's Eq. 8, with the influence coefficients that the solver uses.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
+    >>> modes = rubber.spectrum
+    >>> trail = vf.surface_displacement(
+    ...     contact.x,
+    ...     contact.y,
+    ...     contact.pressure,
+    ...     speed=1.0,
+    ...     E_inf=modes.E_inf,
+    ...     C=modes.C,
+    ...     tau=modes.tau,
+    ...     poisson_ratio=0.5,
+    ...     behind=2e-3,
+    ... )
+    >>> bool(trail.x[0] < contact.x[0] - 1.9e-3)
+    True
     """
     along, across = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     step = spacing(along, "x")

@@ -44,6 +44,15 @@ class HeightMap(Indenter):
     ------
     InputError
         If the heights are not a finite two-dimensional array, or a spacing is not a length above zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> x = np.linspace(-2e-3, 2e-3, 81)
+    >>> bowl = vf.HeightMap((x[:, None] ** 2 + x**2) / 20e-3, spacing="50 um")
+    >>> round(float(bowl.height(1e-3, 0.0)), 12)
+    5e-05
     """
 
     noun: ClassVar[str] = "height map"
@@ -148,6 +157,14 @@ class Profile(Indenter):
     ------
     InputError
         If the heights are not a finite one-dimensional array, or the spacing is not a length above zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> x = np.linspace(-2e-3, 2e-3, 81)
+    >>> round(float(vf.Profile(x**2 / 20e-3, spacing="50 um").height(1e-3, 0.0)), 12)
+    5e-05
     """
 
     geometry: ClassVar[Geometry] = LINE

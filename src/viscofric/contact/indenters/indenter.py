@@ -134,6 +134,13 @@ class Ball(Indenter):
     ------
     InputError
         If the radius is not a length above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> ball = vf.Ball("9.525 mm")
+    >>> float(ball.height(1e-3, 0.0)) == 1e-6 / (2 * 9.525e-3)
+    True
     """
 
     noun: ClassVar[str] = "ball"
@@ -179,6 +186,12 @@ class Cylinder(Indenter):
     ------
     InputError
         If the radius is not a length above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> vf.Cylinder("10 mm").radius
+    0.01
     """
 
     geometry: ClassVar[Geometry] = LINE

@@ -33,6 +33,12 @@ class Ellipsoid(Indenter):
     ------
     InputError
         If a radius is not a length above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> vf.Ellipsoid("10 mm", "20 mm").radius_y
+    0.02
     """
 
     noun: ClassVar[str] = "ellipsoid"
@@ -79,6 +85,12 @@ class Cone(Indenter):
     ------
     InputError
         If the angle is not between zero and a right angle.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> f"{vf.Cone('10 deg').height(1e-3, 0.0):.3e}"
+    '1.763e-04'
     """
 
     noun: ClassVar[str] = "cone"
@@ -128,6 +140,12 @@ class FlatPunch(Indenter):
     ------
     InputError
         If the radius is not a length above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> float(vf.FlatPunch("1 mm").height(2e-3, 0.0))
+    inf
     """
 
     noun: ClassVar[str] = "punch"

@@ -48,6 +48,14 @@ class PeriodicSurface:
     Notes
     -----
     The value that follows the last one is the first: the period is ``nx * spacing``, not ``(nx - 1) * spacing``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
+    >>> wave.z.shape
+    (64, 1)
     """
 
     z: Array

@@ -46,6 +46,13 @@ class ModulusAnchor:
     ------
     InputError
         If a value is out of range or the part unknown.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> anchor = vf.ModulusAnchor("8 MPa", "1 Hz", "30 degC", error=0.02)
+    >>> f"{anchor.angular_frequency:.3f} rad/s"
+    '6.283 rad/s'
     """
 
     modulus: Quantity
@@ -86,6 +93,11 @@ class ContactAnchor:
     ------
     InputError
         If a value is out of range, or not exactly one size is given.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> seen = vf.ContactAnchor("20 mm/s", "60 degC", "25 N", half_width="2.4 mm", error=0.02)
     """
 
     speed: Quantity

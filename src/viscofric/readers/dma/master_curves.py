@@ -35,7 +35,7 @@ def read_master_curve(
     *,
     modulus_unit: str | None = None,
 ) -> MasterCurve:
-    """Read a master curve: moduli over reduced frequency at one reference temperature.
+    r"""Read a master curve: moduli over reduced frequency at one reference temperature.
 
     Parameters
     ----------
@@ -64,6 +64,15 @@ def read_master_curve(
         whether the moduli are tensile or shear, or the file tells another reference temperature.
     InputError
         If an argument is wrong.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import viscofric as vf
+    >>> _ = Path("curve.csv").write_text("frequency (Hz),E' (MPa),E'' (MPa)\n0.01,3.1,0.2\n1,3.6,0.5\n100,5.2,1.6\n")
+    >>> curve = vf.read_master_curve("curve.csv", reference="30 degC", deformation="tension")
+    >>> curve.storage_modulus
+    array([3100000., 3600000., 5200000.])
     """
     kelvin = positive(reference, "K", "reference")
     if deformation not in (None, "tension", "shear"):

@@ -64,6 +64,15 @@ def read_dma(
         the temperatures form a ramp, not isotherms.
     InputError
         If no file is given, or an argument is wrong.
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> import viscofric as vf
+    >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
+    >>> sweeps = vf.read_dma(path, deformation="tension")
+    >>> len(sweeps.isotherms), sweeps.isotherms[0].storage_modulus.shape
+    (26, (17,))
     """
     return trace_dma(*paths, deformation=deformation, temperature=temperature, modulus_unit=modulus_unit).sweeps
 

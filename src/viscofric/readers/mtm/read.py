@@ -72,6 +72,15 @@ def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lu
 
     Assumed, since no sample shows it: that the zero reading is still in ``Traction Force`` where there is no ``TF1``,
     and that in ``TF3`` and ``TF4`` disc and ball run backwards although their speeds may be printed without sign.
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> import viscofric as vf
+    >>> path = files("viscofric") / "example" / "mtm.csv"  # synthetic
+    >>> runs = vf.read_mtm(path)
+    >>> sorted({round(kelvin - 273.15, -1) for kelvin in runs.temperature.tolist()})
+    [30.0, 60.0, 90.0]
     """
     if not paths:
         raise InputError("read_mtm needs at least one file.")

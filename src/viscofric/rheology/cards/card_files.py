@@ -104,6 +104,13 @@ def write_card(
         If the format is unknown or cannot hold the material.
     DataFileError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> path = vf.write_card(vf.synthetic_fluoroelastomer(), "rubber.inp", format="abaqus", poisson_ratio=0.49)
+    >>> "*VISCOELASTIC" in path.read_text().upper()
+    True
     """
     if format not in get_args(CardFormat):
         raise InputError(f"format = {format!r}: must be one of {', '.join(get_args(CardFormat))}.")
@@ -175,6 +182,14 @@ def open_card(
     ------
     DataFileError
         If the file cannot be read as a card, with the reason.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> path = vf.write_card(vf.synthetic_fluoroelastomer(), "rubber.inp", format="abaqus", poisson_ratio=0.49)
+    >>> card = vf.open_card(path)
+    >>> card.format
+    'an Abaqus card'
     """
     if format is not None and format not in get_args(CardFormat):
         raise InputError(f"format = {format!r}: must be one of {', '.join(get_args(CardFormat))}.")
@@ -232,6 +247,14 @@ def read_card(
     ------
     DataFileError
         If the file cannot be read as a card, with the reason.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.synthetic_fluoroelastomer()
+    >>> _ = vf.write_card(rubber, "rubber.json", format="json")
+    >>> bool((vf.read_card("rubber.json").spectrum.C == rubber.spectrum.C).all())
+    True
     """
     card = open_card(path, format, modulus_unit=modulus_unit, time_unit=time_unit, temperature_unit=temperature_unit)
     for note in card.notes:

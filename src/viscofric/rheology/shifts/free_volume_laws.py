@@ -39,6 +39,14 @@ class WLF(ParametricLaw):
     References
     ----------
     M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, doi:10.1021/ja01619a008.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.WLF(C1=17.44, C2=51.6, reference="-18 degC")
+    >>> there = law.at_reference("30 degC")
+    >>> round(there.C1, 3), round(there.C2, 3)
+    (9.035, 99.6)
     """
 
     C1: float
@@ -142,6 +150,14 @@ class VFT(ParametricLaw):
     H. Vogel, Physikalische Zeitschrift 22 (1921) 645; G. S. Fulcher, J. Am. Ceram. Soc. 8 (1925) 339,
     doi:10.1111/j.1151-2916.1925.tb16731.x; G. Tammann, W. Hesse, Z. anorg. allg. Chem. 156 (1926) 245,
     doi:10.1002/zaac.19261560121.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> wlf = vf.WLF(C1=8.0, C2=100.0, reference=303.15)
+    >>> vft = vf.VFT(B=800.0, T0=203.15, reference=303.15)  # the same curve: B = C1 C2, T0 = reference − C2
+    >>> round(float(wlf.log10(333.15) - vft.log10(333.15)), 12)
+    0.0
     """
 
     B: float

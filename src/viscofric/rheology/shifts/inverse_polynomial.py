@@ -49,6 +49,13 @@ class InversePolynomial(ParametricLaw):
     InputError
         If the law rises with temperature somewhere in its range, the reference lies outside, or the range is
         missing.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.InversePolynomial([5000.0, 1e6], "30 degC", fitted_range=("0 degC", "90 degC"))
+    >>> round(float(law.log10("60 degC")), 3)
+    -1.397
     """
 
     coefficients: tuple[float, ...]

@@ -52,6 +52,13 @@ class ShiftFactors(ShiftLaw):
         Of the values, given that the one at the reference is exactly zero; zero if not given.
     notes : tuple of str
         What was corrected by hand: one sentence each.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> factors = vf.ShiftFactors(["30 degC", "60 degC", "90 degC"], [0.0, -1.5, -2.5], "30 degC")
+    >>> round(float(factors("60 degC")), 5), factors.at_reference("60 degC").log10_values.round(3)
+    (0.03162, array([ 1.5,  0. , -1. ]))
     """
 
     temperatures: Array

@@ -64,6 +64,13 @@ def read_shift_factors(
         passes zero nowhere and no reference is given.
     InputError
         If `reference` is not a temperature, or lies outside the table.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> vf.ShiftFactors(["30 degC", "60 degC"], [0.0, -1.5], "30 degC").save("alpha.csv")
+    >>> vf.read_shift_factors("alpha.csv").log10_values.round(3) + 0.0
+    array([ 0. , -1.5])
     """
     source = Source(str(path), read_bytes(path))
     found = _from_workbook(source) if is_workbook(source) else _from_text(source)

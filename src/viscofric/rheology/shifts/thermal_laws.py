@@ -34,6 +34,12 @@ class Arrhenius(ParametricLaw):
         Of the activation energy, where the law was fitted.
     fitted_range, bounded
         See `ParametricLaw`.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> round(float(vf.Arrhenius("100 kJ/mol", reference="30 degC").log10("60 degC")), 3)
+    -1.552
     """
 
     activation_energy: float
@@ -84,6 +90,13 @@ class WLFArrhenius(ParametricLaw):
         Of C1, C2 and Tg, where the law was fitted.
     fitted_range, bounded
         See `ParametricLaw`.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-18 degC", reference="30 degC")
+    >>> round(float(law.log10("-30 degC")), 2)
+    12.66
     """
 
     C1: float

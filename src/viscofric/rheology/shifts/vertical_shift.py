@@ -94,6 +94,12 @@ class DensityShift(VerticalShift):
     References
     ----------
     L. A. Wood, Rubber Chem. Technol. 49 (1976) 189 (the expansivity, 660e-6 1/K).
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> round(float(vf.DensityShift(303.15)(333.15)), 4)  # ρT/ρ₀T₀
+    1.0774
     """
 
     reference: float
@@ -136,6 +142,13 @@ class VerticalShiftFactors(VerticalShift):
     ------
     InputError
         If the columns do not fit each other or the reference lies outside them.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> b = vf.VerticalShiftFactors(["30 degC", "60 degC"], [0.0, 0.04], "30 degC")
+    >>> round(float(b("60 degC")), 4)
+    1.0965
     """
 
     temperatures: Array

@@ -52,6 +52,13 @@ class ModulusTable(FrequencyResponse):
     ------
     InputError
         If a value is not above zero, the arrays differ in length, or the frequencies do not ascend.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> table = vf.ModulusTable([0.1, 1.0, 10.0], [3.0e6, 3.4e6, 4.0e6], [0.30e6, 0.41e6, 0.62e6])
+    >>> complex(table.complex_modulus(1.0).round(3))
+    (3400000+410000j)
     """
 
     angular_frequency: Array

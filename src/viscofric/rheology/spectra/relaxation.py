@@ -51,6 +51,14 @@ class RelaxationSpectrum(FrequencyResponse):
     ------
     InputError
         If a value is out of range, the arrays differ in length, or all moduli are zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> prony = vf.RelaxationSpectrum(E0="1 MPa", E=[9e6], tau=[1e-4])
+    >>> creep = prony.to_retardation()
+    >>> f"{creep.tau[0]:.4g} s"  # the retardation time is longer by E_inf/E0
+    '0.001 s'
     """
 
     E0: float

@@ -156,6 +156,13 @@ class RetardationSpectrum(FrequencyResponse):
     InputError
         If a value is out of range, the arrays differ in length, E0 is zero (a liquid has no rubber
         plateau), or 1/E_inf + ΣC differs from 1/E0 by more than a millionth.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> creep = vf.RetardationSpectrum(E0="1 MPa", E_inf="10 MPa", C=[9e-7], tau=[1e-3])
+    >>> f"{creep.to_relaxation().tau[0]:.4g} s", f"{creep.creep_compliance(1e9) * 1e6:.3g} 1/MPa"
+    ('0.0001 s', '1 1/MPa')
     """
 
     E0: float

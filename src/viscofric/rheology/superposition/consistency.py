@@ -148,6 +148,16 @@ def check_superposition(fit: Superposition) -> SuperpositionCheck:
     Palmen, Theoretical and Applied Rheology, 1992, 321; M. van Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5).  Each is
     compared with its neighbour, at right angles to that curve, so that plateaus, where it runs steeply, count as
     well; the noise is the scatter of each isotherm about its own smooth curve.
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> import viscofric as vf
+    >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
+    >>> sweeps = vf.read_dma(path, deformation="tension")
+    >>> fit = vf.superpose(sweeps, reference="30 degC")
+    >>> vf.check_superposition(fit).holds
+    True
     """
     vertical = fit.vertical_shift
     temperatures = np.array([isotherm.temperature for isotherm in fit.isotherms])

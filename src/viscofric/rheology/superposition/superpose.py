@@ -164,6 +164,16 @@ def superpose(
     Values given with `shift` carry no uncertainty here, unless they are `ShiftFactors` with a covariance.  Where the
     reference lies between isotherms, α = 1 there by the interpolation that `ShiftFactors` makes: given values
     are moved together by what that differs from the law.
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> import viscofric as vf
+    >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
+    >>> sweeps = vf.read_dma(path, deformation="tension")
+    >>> fit = vf.superpose(sweeps, reference="30 degC")
+    >>> f"{fit.shift_factors.log10('60 degC'):.1f} ± {fit.shift_factors.standard_error('60 degC'):.2f}"
+    '-2.1 ± 0.02'
     """
     if not isinstance(sweeps, IsothermalSweeps):
         raise InputError(

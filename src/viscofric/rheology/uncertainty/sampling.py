@@ -94,6 +94,18 @@ def sample_materials(
     Not drawn are errors common to a whole measurement (of the sample's dimensions, the temperature scale or the
     clamping), and what a fit cannot follow: sparse modes ripple about the truth, so that their 95 % bands
     of E'' held 90 % in planted tests; use the non-negative spectrum where the band matters.
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> import viscofric as vf
+    >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
+    >>> sweeps = vf.read_dma(path, deformation="tension")
+    >>> fit = vf.superpose(sweeps, reference="30 degC")
+    >>> draws = vf.sample_materials(fit, samples=20, seed=1)
+    >>> band = draws.modulus_band([1.0, 1e3])
+    >>> bool((band.lower.real < band.upper.real).all())
+    True
     """
     if samples != int(samples) or samples < FEWEST_SAMPLES:
         raise InputError(f"samples = {samples!r}: must be a whole number, {FEWEST_SAMPLES} or more.")

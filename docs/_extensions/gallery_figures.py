@@ -1,0 +1,47 @@
+"""Figures of the gallery in words for those who cannot see them: titles, axes and curves, as scripts name them."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def plain(text: str) -> str:
+    """Return a label without the marks of formulas, in one line."""
+    text = re.sub(r"\\(?:mathrm|mathsf|mathit|text)\{([^}]*)\}", r"\1", text)
+    text = re.sub(r"[${}^]|\\(?=[A-Za-z])|\\,", "", text).replace("_", " ")
+    return " ".join(text.split())
+
+
+def words_of_axes(axes: Axes) -> str:
+    """Tell what one Axes shows: its title, what stands on its axes, and the names of its curves."""
+    x, y = plain(axes.get_xlabel()), plain(axes.get_ylabel())
+    against = f"{y} against {x}" if x and y else y or x
+    names = [plain(str(label)) for label in axes.get_legend_handles_labels()[1]]
+    parts = [plain(axes.get_title()), against, ", ".join(names)]
+    return ": ".join(part for part in parts if part)
+
+
+def words(figure: Figure) -> str:
+    """Tell what a figure shows; of several Axes one after the other."""
+    told = dict.fromkeys(words_of_axes(axes) for axes in figure.axes)
+    return "; ".join(part for part in told if part)
+
+
+def scrape(block: tuple[Any, ...], block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:
+    """Save the open figures as sphinx-gallery does, each with an alternative text of its own."""
+    import matplotlib.pyplot as plt
+    from sphinx_gallery.scrapers import matplotlib_scraper
+
+    alternatives = iter([words(plt.figure(number)) for number in plt.get_fignums()])
+    rst: str = matplotlib_scraper(block, block_vars, gallery_conf)
+    return re.sub(r"(?m)^(\s*:alt:).*$", lambda found: f"{found[1]} {next(alternatives)}", rst)
+
+
+def _get_sg_image_scraper() -> Any:
+    """Name the scraper to sphinx-gallery."""
+    return scrape
