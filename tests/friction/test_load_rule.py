@@ -33,17 +33,32 @@ BALL = Ball(radius="9.525 mm")
 VERTICAL = VerticalShiftFactors(["20 degC", "50 degC", "90 degC"], [-0.1, 0.0, 0.12], "50 degC")
 
 
+@pytest.mark.parametrize("modulus", [None, "3 MPa"])
 @pytest.mark.parametrize(
     ("indenter", "loads"),
     [(BALL, (5.0, 25.0)), (Cylinder(radius="10 mm"), (500.0, 2000.0)), (Cone(angle=0.1), (1.0, 8.0))],
 )
-def test_contacts_at_all_loads_are_alike(indenter: Indenter, loads: tuple[float, float]) -> None:
-    """The grids are alike too, so that equal numbers come out, to rounding and the tolerance of the solver."""
+def test_contacts_at_all_loads_are_alike(indenter: Indenter, loads: tuple[float, float], modulus: str | None) -> None:
+    """Rigid indenters and soft ones; the grids are alike too, so that numbers are equal to rounding and tolerance."""
     rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3, poisson_ratio=0.5)
     speed, friction = LoadRule.of(indenter).factors(np.asarray(loads[1] / loads[0]))
-    light = solve_steady(rubber, indenter, speed=1.0, load=loads[0], accuracy=5e-3)
-    heavy = solve_steady(rubber, indenter, speed=float(speed), load=loads[1], accuracy=5e-3)
+    settings = {"accuracy": 5e-3, "indenter_modulus": modulus}
+    light = solve_steady(rubber, indenter, speed=1.0, load=loads[0], **settings)  # type: ignore[arg-type]
+    heavy = solve_steady(rubber, indenter, speed=float(speed), load=loads[1], **settings)  # type: ignore[arg-type]
     assert heavy.friction_coefficient == pytest.approx(float(friction) * light.friction_coefficient, rel=1e-6)
+
+
+def test_an_elastic_indenter_does_not_follow_the_vertical_shift() -> None:
+    """Under b = 1.2 the contact is that at F/b with E_i/b, and no longer that at F/b with E_i."""
+    b, speed = 1.2, 1.0
+    modes = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3).modes_at()
+    stiffer = Material(replace(modes, E0=b * modes.E0, E_inf=b * modes.E_inf, C=modes.C / b), poisson_ratio=0.5)
+    reference, settings = Material(modes, poisson_ratio=0.5), {"speed": speed, "accuracy": 5e-3}
+    asked = solve_steady(stiffer, BALL, load=5.0, indenter_modulus=3e6, **settings)  # type: ignore[arg-type]
+    softer = solve_steady(reference, BALL, load=5.0 / b, indenter_modulus=3e6 / b, **settings)  # type: ignore[arg-type]
+    same = solve_steady(reference, BALL, load=5.0 / b, indenter_modulus=3e6, **settings)  # type: ignore[arg-type]
+    assert softer.friction_coefficient == pytest.approx(asked.friction_coefficient, rel=1e-6)
+    assert abs(same.friction_coefficient / asked.friction_coefficient - 1.0) > 0.02
 
 
 def test_loads_and_vertical_shifts_make_one_curve() -> None:

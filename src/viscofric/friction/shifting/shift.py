@@ -57,8 +57,9 @@ def shift_friction(
     vertical_shift : VerticalShift, optional
         b(T) of the modulus; 1 if left out.  Needs the indenter.
     indenter : Indenter, optional
-        A Ball, Ellipsoid, Cylinder or Cone, rigid and on a half-space: then friction at all loads is reduced to one by
-        an exact rule (see `FrictionMasterCurve`), as μ(v, T, F) = μ(α(T) v, T0, F/b(T)).
+        A Ball, Ellipsoid, Cylinder or Cone on a half-space: then friction at all loads is reduced to one by an exact
+        rule (see `FrictionMasterCurve`), as μ(v, T, F) = μ(α(T) v, T0, F/b(T)).  It may be elastic where there is no
+        vertical shift, and must be rigid where there is one.
     load : float, str or pint.Quantity, optional
         Of the master curve, with an indenter; the median of the curves' loads if left out.
     level_error : float
