@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from viscofric.errors import ViscofricError as ViscofricError
     from viscofric.friction.agreement import Agreement as Agreement
     from viscofric.friction.agreement import compare as compare
-    from viscofric.friction.assumptions import AssumptionCheck as AssumptionCheck
+    from viscofric.friction.assumption_check import AssumptionCheck as AssumptionCheck
     from viscofric.friction.assumptions import check_assumptions as check_assumptions
     from viscofric.friction.curve_files import read_friction_curves as read_friction_curves
     from viscofric.friction.curve_files import write_friction_curves as write_friction_curves
@@ -169,7 +169,7 @@ _HOME = {
     "compare": "viscofric.friction.agreement",
     "read_friction_curves": "viscofric.friction.curve_files",
     "write_friction_curves": "viscofric.friction.curve_files",
-    "AssumptionCheck": "viscofric.friction.assumptions",
+    "AssumptionCheck": "viscofric.friction.assumption_check",
     "check_assumptions": "viscofric.friction.assumptions",
     "FrictionCurves": "viscofric.friction.curves",
     "ThermalProperties": "viscofric.thermal",

@@ -95,6 +95,8 @@ def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:
     assert verdict["one temperature"] == 1
     (sentence,) = checked["sentence"].values[checked["assumption_name"].values == "half-space"]
     assert "do not pass for a half-space" in sentence
+    assert "friction on a bonded layer of 5 mm is about" in sentence
+    assert sentence in results.warnings
 
 
 def test_the_report_says_so(results: StudyResults) -> None:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
+from viscofric.friction.assumption_check import AssumptionCheck, verdict
+from viscofric.friction.contact_size import ContactSize
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
+from viscofric.friction.half_space import check_half_space
 from viscofric.friction.warming import Warming
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties
-from viscofric.units import Quantity, celsius, plain, positive, to_si_array, told_speed
+from viscofric.units import Quantity, plain, to_si_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,42 +24,12 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
-#: A layer so many contact radii thick passes for a half-space.
-THICK = 4.0
 #: Representative strain under a ball over a/R (D. Tabor, The Hardness of Metals (1951); K. L. Johnson, Contact
 #: Mechanics (1985), section 6.3).
 REPRESENTATIVE_STRAIN = 0.2
-#: Change of friction by warming that passes, relative: tribometers repeat no better.
-WARMING = 0.05
+#: Change of friction by warming or by the rubber's thickness that passes, relative: tribometers repeat no better.
+CHANGE = 0.05
 _SOLVE = "solve the contact and give contact_radius"
-
-
-@dataclass(frozen=True)
-class AssumptionCheck:
-    """One assumption behind predicted friction, checked.
-
-    Attributes
-    ----------
-    name : str
-        "half-space", "small contact", "linearity" or "one temperature".
-    value : float or None
-        What is judged, a pure number, at most; None where something needed was not given.
-    limit : float
-        Largest value at which the assumption holds well.
-    holds : bool or None
-        Whether it does; None where it cannot be told.
-    sentence : str
-        The same in words, with lengths in mm and temperatures in °C.
-    """
-
-    name: str
-    value: float | None
-    limit: float
-    holds: bool | None
-    sentence: str
-
-    def __str__(self) -> str:
-        return self.sentence
 
 
 def check_assumptions(
@@ -82,7 +53,7 @@ def check_assumptions(
         Measured or predicted: speeds, temperatures, loads and friction.  Measured ones also tell the Coulomb friction
         and the sliding velocity, and with them the heat on the surface.
     thickness : float, str or pint.Quantity, optional
-        Of the rubber, m.
+        Of the rubber, m; its base is taken for bonded, on which it is felt more than on a sliding one.
     contact_radius : float, str, pint.Quantity, or one for each point, optional
         Half width or half length of the contact, whichever is larger, where it was solved, m.  If not given, it lies
         between Hertz's at |E(ω = v/a)|, an estimate, and at the rubber modulus E0: no contact on this rubber is wider.
@@ -93,7 +64,8 @@ def check_assumptions(
     Returns
     -------
     tuple of AssumptionCheck
-        - "half-space": contact radius over thickness, at most 1/4.
+        - "half-space": contact radius over thickness, at most 1/4, and less where friction on a bonded layer would
+          still differ by more than 5 % from that on the half-space.
         - "small contact": contact radius over the radius of a ball or cylinder (of the paraboloid that is as deep, for
           other shapes), at most 0.3.
         - "linearity": representative strain 0.2 a/R, at most that of the limit above, 6 %.
@@ -106,6 +78,12 @@ def check_assumptions(
 
     Notes
     -----
+    What the thickness changes is estimated from the waves that are longer than the layer is thick (see
+    `viscofric.friction.finite_thickness`), with the friction of the curves for that on the half-space.  Against layers
+    solved on four contact radii and more it is true to 8 % of the change under a ball, 20 % under a cylinder and half
+    of it under other shapes, or to 0.002 of friction (0.006 for other shapes) where that is more.  Broad spectra, and
+    memory longer than the layer is thick, vτ > H, feel the base farther than the contact's size does.
+
     Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction along its slope over log speed, fitted to
     the curve at that temperature (one, that of the lowest speeds, where there are not two speeds).  ΔT is the flash
     temperature of the Coulomb heat μ_c F v_slip, shared between the bodies, and the warming of the bulk by the
@@ -137,62 +115,23 @@ def check_assumptions(
             raise InputError(f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.")
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))
     sizes = [
-        _Size.of(material, indenter, curves, row, None if radii is None else float(radii[row]))
+        ContactSize.of(material, indenter, curves, row, None if radii is None else float(radii[row]))
         for row in range(len(curves))
     ]
-    # By both bounds: the upper one, at E0, is often the same everywhere.
-    widest = max(sizes, key=lambda size: size.largest * size.smallest)
+    # By both bounds, as the widest of `check_half_space`.
     steepest = max(sizes, key=lambda size: size.largest * size.smallest * size.curvature**2)
     try:
         warming = Warming.of(curves, material.shift, [size.smallest for size in sizes], rubber, counterbody)
-        isothermal = _one_temperature(curves, warming, rubber, counterbody)
+        isothermal = _one_temperature(curves, [size.where for size in sizes], warming, rubber, counterbody)
     except InputError as error:  # the shift factors end where their slope is asked for
         said = f"What warming changes in friction cannot be told: {error}"
-        isothermal = AssumptionCheck("one temperature", None, WARMING, None, said)
+        isothermal = AssumptionCheck("one temperature", None, CHANGE, None, said)
     return (
-        _half_space(widest, thickness),
+        check_half_space(material, curves, sizes, thickness, CHANGE),
         _small_contact(steepest, indenter.noun),
         _linearity(steepest),
         isothermal,
     )
-
-
-@dataclass(frozen=True)
-class _Size:
-    """Between what radii one contact lies, m, the curvature of the paraboloid in its place, 1/m, and where it is."""
-
-    smallest: float
-    largest: float
-    curvature: float
-    where: str
-
-    @classmethod
-    def of(
-        cls, material: Material, indenter: Indenter, curves: FrictionCurves, row: int, solved: float | None
-    ) -> _Size:
-        spectrum = material.modes_at(float(curves.temperature[row]))
-        plane_strain = 1.0 - material.poisson_ratio**2
-        scale = Scale.for_load(indenter, spectrum.E0 / plane_strain, float(curves.load[row]))
-        curvature, where = scale.slope / scale.length, _at(curves, row)
-        if solved is not None:
-            return cls(solved, solved, curvature, where)
-        # Hertz: a³ ~ F R/E of a ball, a² ~ F R/E of a cylinder.
-        power = 1.0 / (1.0 + scale.geometry.dimension)
-        radius = scale.length
-        for _ in range(50):
-            modulus = abs(complex(spectrum.complex_modulus(curves.speed[row] / radius)))
-            before, radius = radius, scale.length * (spectrum.E0 / modulus) ** power
-            if abs(radius - before) <= 1e-3 * radius:
-                break
-        return cls(radius, scale.length, curvature, where)
-
-    def __str__(self) -> str:
-        if self.smallest == self.largest:
-            return f"The contact's radius is {1e3 * self.largest:.2g} mm ({self.where})"
-        return (
-            f"The contact's radius is about {1e3 * self.smallest:.2g} and at most {1e3 * self.largest:.2g} mm "
-            f"(Hertz's at |E(v/a)| and at the rubber modulus, {self.where})"
-        )
 
 
 def _radii(given: Quantities, count: int) -> Array:
@@ -204,30 +143,9 @@ def _radii(given: Quantities, count: int) -> Array:
     return np.broadcast_to(radii, (count,))
 
 
-def _at(curves: FrictionCurves, row: int) -> str:
-    load = f"{plain(float(curves.load[row]), 3)} {curves.load_unit}"
-    return f"at {celsius(float(curves.temperature[row])):.0f} °C, {told_speed(float(curves.speed[row]), 3)} and {load}"
-
-
-def _half_space(size: _Size, thickness: Quantity | None) -> AssumptionCheck:
-    limit, needed = 1.0 / THICK, f"{THICK:.0f} contact radii, {1e3 * THICK * size.largest:.2g} mm,"
-    if thickness is None:
-        said = f"{size}. Rubber of {needed} and more passes for a half-space; how thick it is was not told."
-        return AssumptionCheck("half-space", None, limit, None, said)
-    given = positive(thickness, "m", "thickness")
-    holds = _verdict(size.smallest / given, size.largest / given, limit)
-    said = {
-        True: f"{size}, so that {1e3 * given:.3g} mm of rubber, {needed} and more, pass for a half-space.",
-        None: f"{size}. Whether {1e3 * given:.3g} mm of rubber pass for a half-space depends on it; {_SOLVE}.",
-        False: f"{size}. {1e3 * given:.3g} mm of rubber, less than {needed} do not pass for a half-space: solve the "
-        "contact on a layer (layer=Layer(…), in the shell --layer) or use thicker rubber.",
-    }[holds]
-    return AssumptionCheck("half-space", size.largest / given, limit, holds, said)
-
-
-def _small_contact(size: _Size, noun: str) -> AssumptionCheck:
+def _small_contact(size: ContactSize, noun: str) -> AssumptionCheck:
     low, high = size.smallest * size.curvature, size.largest * size.curvature
-    holds = _verdict(low, high, SMALL_STRAIN)
+    holds = verdict(low, high, SMALL_STRAIN)
     ratio = f"{high:.2f}" if low == high else f"{low:.2f} to {high:.2f}"
     said = f"{size}, {ratio} of the {noun}'s radius: up to {SMALL_STRAIN:g} half-space and parabolic {noun} serve"
     said += {True: ".", None: f"; {_SOLVE}.", False: ", beyond they are doubtful; press less or use a larger one."}[
@@ -236,10 +154,10 @@ def _small_contact(size: _Size, noun: str) -> AssumptionCheck:
     return AssumptionCheck("small contact", high, SMALL_STRAIN, holds, said)
 
 
-def _linearity(size: _Size) -> AssumptionCheck:
+def _linearity(size: ContactSize) -> AssumptionCheck:
     low, high = (REPRESENTATIVE_STRAIN * one * size.curvature for one in (size.smallest, size.largest))
     limit = REPRESENTATIVE_STRAIN * SMALL_STRAIN
-    holds = _verdict(low, high, limit)
+    holds = verdict(low, high, limit)
     strain = f"{100 * high:.2g} %" if low == high else f"{100 * low:.2g} to {100 * high:.2g} %"
     beside = {True: "within", None: "about", False: "beyond"}[holds]
     said = (
@@ -250,28 +168,23 @@ def _linearity(size: _Size) -> AssumptionCheck:
     return AssumptionCheck("linearity", high, limit, holds, said)
 
 
-def _verdict(low: float, high: float, limit: float) -> bool | None:
-    """Whether a value that lies between two is within its limit; None if that depends."""
-    if high <= limit:
-        return True
-    return False if low > limit else None
-
-
 def _one_temperature(
-    curves: FrictionCurves, warming: Warming, rubber: ThermalProperties, counterbody: ThermalProperties
+    curves: FrictionCurves,
+    places: list[str],
+    warming: Warming,
+    rubber: ThermalProperties,
+    counterbody: ThermalProperties,
 ) -> AssumptionCheck:
     worst = int(np.argmax(warming.change))
     surface, bulk, decades, change = (float(column[worst]) for column in warming)
     counted = f"Coulomb heat warms the surface by {surface:.2g} K and the viscoelastic loss"
     if curves.coulomb is None or curves.slip is None:
         counted = "Coulomb heat is not counted, for no Coulomb friction is known; the viscoelastic loss warms"
-    holds = change <= WARMING
-    verdict = (
-        ": one temperature serves." if holds else f", above the {100 * WARMING:.0f} % that pass: slide more slowly."
-    )
+    holds = change <= CHANGE
+    served = ": one temperature serves." if holds else f", above the {100 * CHANGE:.0f} % that pass: slide more slowly."
     said = (
-        f"{counted} the rubber by {bulk:.2g} K at most ({_at(curves, worst)}; typical handbook values of {rubber.name} "
+        f"{counted} the rubber by {bulk:.2g} K at most ({places[worst]}; typical handbook values of {rubber.name} "
         f"and {counterbody.name} are assumed). That shifts the speed by {decades:.2g} decades and friction by "
-        f"{plain(100 * change, 2)} %{verdict}"
+        f"{plain(100 * change, 2)} %{served}"
     )
-    return AssumptionCheck("one temperature", change, WARMING, holds, said)
+    return AssumptionCheck("one temperature", change, CHANGE, holds, said)

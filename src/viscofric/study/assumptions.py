@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.assumptions import AssumptionCheck, check_assumptions
+from viscofric.friction.assumptions import check_assumptions
 from viscofric.study import labels
 from viscofric.study.bands import curves_of
 from viscofric.study.surface_words import surface_checks
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     import xarray
 
+    from viscofric.friction.assumption_check import AssumptionCheck
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.contacts import Contacts, Solved
     from viscofric.study.record import CaseRecord
@@ -25,10 +26,14 @@ if TYPE_CHECKING:
 _OF_HALF_SPACES = "half-space"
 
 
-def assumptions(contacts: Contacts, asked: Solved, at_points: Solved) -> dict[str, xarray.Dataset]:
-    """Return what `assumption_checks` finds as a group of results; none where there is nothing to check."""
-    found = assumption_checks(contacts, asked, at_points)
+def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
+    """Return what `assumption_checks` found as a group of results; none where there was nothing to check."""
     return {"/assumptions": labels.assumption_data(found)} if found else {}
+
+
+def thickness_warnings(found: Sequence[AssumptionCheck]) -> list[str]:
+    """Tell of rubber that is no half-space; what else does not hold is told contact by contact, or is no fault."""
+    return [check.sentence for check in found if check.name == _OF_HALF_SPACES and check.holds is False]
 
 
 def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> list[AssumptionCheck]:
@@ -76,8 +81,12 @@ def _reach(record: CaseRecord) -> float:
 
 
 def _keep_worst(found: dict[str, AssumptionCheck], checks: Iterable[AssumptionCheck]) -> None:
-    """Keep, of two checks of the same assumption, the one with more to tell."""
+    """Keep, of two checks of the same assumption, the one with more to tell: the farther beyond its limit."""
     for check in checks:
         known = found.setdefault(check.name, check)
-        if (check.value or 0.0) > (known.value or 0.0):
+        if (check.holds is not False, -_share(check)) < (known.holds is not False, -_share(known)):
             found[check.name] = check
+
+
+def _share(check: AssumptionCheck) -> float:
+    return (check.value or 0.0) / check.limit

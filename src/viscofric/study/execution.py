@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from viscofric.errors import StudyError
 from viscofric.files import file_path
 from viscofric.study import labels
-from viscofric.study.assumptions import assumptions
+from viscofric.study.assumptions import assumption_checks, assumptions, thickness_warnings
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.export import export_results
 from viscofric.study.measurement import Measurement, read_measurement
@@ -189,7 +189,8 @@ def tree_of(contacts: Contacts) -> xarray.DataTree:
             pairs = zip(at_points.cases, points, strict=True)
             inside = [one is not None and rubbers[0].is_within(case, one) for case, one in pairs]
             groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
-    groups |= assumptions(contacts, asked, at_points)
+    checked = assumption_checks(contacts, asked, at_points)
+    groups |= assumptions(checked)
     tree = xarray.DataTree.from_dict(groups)
     notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
     said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
@@ -197,7 +198,7 @@ def tree_of(contacts: Contacts) -> xarray.DataTree:
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
         "notes": _listed([*notes, *surface_notes(study), *(measured.notes if measured else ())]),
-        "warnings": _listed([*said, *doubts((asked, at_points, along), rubbers)]),
+        "warnings": _listed([*said, *doubts((asked, at_points, along), rubbers), *thickness_warnings(checked)]),
         "failures": _listed(failures),
         **about,
         **setting(contacts),

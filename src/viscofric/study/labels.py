@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.friction.agreement import Agreement
-    from viscofric.friction.assumptions import AssumptionCheck
+    from viscofric.friction.assumption_check import AssumptionCheck
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from viscofric.friction.assumptions import AssumptionCheck
+from viscofric.friction.assumption_check import AssumptionCheck
 from viscofric.study.surface_source import MadeSurface, surface_of
 from viscofric.study.sweep import SurfaceCase
 

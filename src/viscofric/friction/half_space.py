@@ -1,0 +1,125 @@
+"""Whether rubber of finite thickness passes for a half-space: by the contact's size, and by what friction changes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from viscofric.contact.layers import Layer
+from viscofric.friction.assumption_check import AssumptionCheck, verdict
+from viscofric.friction.finite_thickness import THINNEST, ContactOnLayers
+from viscofric.units import plain, positive
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.friction.contact_size import ContactSize
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.finite_thickness import ThicknessEffect
+    from viscofric.rheology.material import Material
+    from viscofric.units import Quantity
+
+#: A layer thinner than so many contact radii never passes for a half-space.
+THICK = 4.0
+# A change so small is told as that much at most.
+_SMALLEST = 1e-3
+
+
+@dataclass(frozen=True)
+class _OnLayers:
+    """A contact of friction curves, to be put on layers, and where it is."""
+
+    contact: ContactOnLayers
+    where: str
+
+    @classmethod
+    def of(cls, material: Material, curves: FrictionCurves, row: int, size: ContactSize) -> _OnLayers:
+        contact = ContactOnLayers(
+            material.modes_at(float(curves.temperature[row])),
+            material.poisson_ratio,
+            # a long ellipse is felt, far away, as the circle that is no larger than that
+            min(size.smallest, size.relaxed),
+            size.curvature,
+            float(curves.speed[row]),
+            float(curves.load[row]),
+            curves.load_unit == "N/m",
+            abs(float(curves.viscoelastic[row])),
+        )
+        return cls(contact, size.where)
+
+
+def check_half_space(
+    material: Material,
+    curves: FrictionCurves,
+    sizes: Sequence[ContactSize],
+    thickness: Quantity | None,
+    passes: float,
+) -> AssumptionCheck:
+    """Check it for all points of friction curves, and tell of the worst.
+
+    Parameters
+    ----------
+    material : Material
+    curves : FrictionCurves
+    sizes : sequence of ContactSize
+        Of the contact at each point.
+    thickness : float, str or pint.Quantity, optional
+        Of the rubber, m; how thick it had to be is told if not given.
+    passes : float
+        Relative change of friction up to which rubber passes for a half-space.
+    """
+    # By both bounds: the upper one, at E0, is often the same everywhere.
+    widest = max(sizes, key=lambda size: size.largest * size.smallest)
+    given = None if thickness is None else positive(thickness, "m", "thickness")
+    layer = Layer(THICK * widest.smallest if given is None else given)
+    contacts = (_OnLayers.of(material, curves, row, size) for row, size in enumerate(sizes))
+    worst, effect = max(((one, one.contact.on(layer)) for one in contacts), key=lambda pair: abs(pair[1].friction))
+    enough = worst.contact.thickness_for(passes)
+    limit = min(1.0 / THICK, widest.largest / enough)
+    there = "" if worst.where == widest.where else f" ({worst.where})"
+    radii, percent = f"{THICK:.0f} contact radii, {1e3 * THICK * widest.largest:.2g} mm", f"{100.0 * passes:.0f} %"
+    if given is None:
+        said = (
+            f"{widest}. Rubber passes for a half-space from {radii}, on, if friction on it is that on the half-space "
+            f"within {percent}: on a bonded layer from about {_mm(enough)} on{there}. How thick it is was not "
+            "told."
+        )
+        return AssumptionCheck("half-space", None, limit, None, said)
+    holds = verdict(widest.smallest / given, widest.largest / given, 1.0 / THICK)
+    compared = {True: f", {radii}, and more,", None: "", False: f", less than {radii},"}[holds]
+    rubber, felt = f"{_mm(given)} of rubber{compared}", f"{_effect(effect, given, worst)}{there}"
+    if abs(effect.friction) <= passes and holds is not False:
+        said = {
+            True: f"{widest}, so that {rubber} pass for a half-space: {felt}.",
+            None: f"{widest}. Whether {rubber} pass for a half-space depends on it: solve the contact and give "
+            f"contact_radius. As it is estimated, {felt}.",
+        }[holds]
+    else:
+        why = ":" if abs(effect.friction) > passes else ", although"
+        said = (
+            f"{widest}. {rubber} do not pass for a half-space{' all the same' if holds else ''}{why} {felt}. Solve the "
+            "contact on a layer (layer=Layer(…), in the shell --layer, in a run file [layer]) or use thicker rubber: "
+            f"{radii}, and about {_mm(enough)} for friction within {percent}."
+        )
+        holds = False
+    return AssumptionCheck("half-space", widest.largest / given, limit, holds, said)
+
+
+def _effect(effect: ThicknessEffect, thickness: float, worst: _OnLayers) -> str:
+    """Say what a bonded layer changes."""
+    if thickness < THINNEST * worst.contact.radius:
+        return "it is thinner than the contact's radius, and nothing on such a layer is as on the half-space"
+    friction = f"friction on a bonded layer of {_mm(thickness)} is {_change(effect.friction, 'lower', 'higher')}"
+    if worst.contact.line:
+        return f"{friction} than on the half-space, with which the indentation of a line contact cannot be compared"
+    return f"{friction} than on the half-space, the indentation {_change(effect.indentation, 'smaller', 'larger')}"
+
+
+def _change(change: float, less: str, more: str) -> str:
+    if abs(change) < _SMALLEST:
+        return f"{100.0 * _SMALLEST:g} % {less} at most" if change < 0.0 else f"{100.0 * _SMALLEST:g} % {more} at most"
+    return f"about {plain(100.0 * abs(change), 2)} % {less if change < 0.0 else more}"
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:.3g} mm"
