@@ -334,21 +334,23 @@ def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("material", "reference", "noise"), [(None, 303.15, 0.01), ("polymer", 298.15, 0.03)])
-def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent(material, reference, noise):
-    truth = vf.synthetic_fluoroelastomer() if material is None else synthetic_polymer()
+def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent():
+    rubbers = ((vf.synthetic_fluoroelastomer(), 303.15, 0.01), (synthetic_polymer(), 298.15, 0.03))
     shares = []
-    for seed in range(24):
-        fit = vf.superpose(planted_sweeps(seed, noise, material=truth).sweeps, reference)
-        samples = sample_materials(fit, samples=100, seed=seed)
-        omega = np.geomspace(*samples.frequency_range, 60)
-        band, modulus = samples.modulus_band(omega), truth.complex_modulus(omega, reference)
-        storage = (modulus.real >= band.lower.real) & (modulus.real <= band.upper.real)
-        loss = (modulus.imag >= band.lower.imag) & (modulus.imag <= band.upper.imag)
-        shares.append((storage.mean(), loss.mean()))
+    for truth, reference, noise in rubbers:
+        for seed in range(12):
+            fit = vf.superpose(planted_sweeps(seed, noise, material=truth).sweeps, reference)
+            samples = sample_materials(fit, samples=100, seed=seed)
+            omega = np.geomspace(*samples.frequency_range, 60)
+            band, modulus = samples.modulus_band(omega), truth.complex_modulus(omega, reference)
+            storage = (modulus.real >= band.lower.real) & (modulus.real <= band.upper.real)
+            loss = (modulus.imag >= band.lower.imag) & (modulus.imag <= band.upper.imag)
+            shares.append((storage.mean(), loss.mean()))
     storage, loss = np.mean(shares, axis=0)
     # Points of one curve err together: the share of one seed scatters by 13 % in E', 6 % in E'' and 7 % in both,
     # that of 24 by 2.7, 1.2 and 1.4 %; three of these about 95 %, and 0.5 % for limits from 100 samples.
     assert storage > 0.865
     assert 0.91 < loss < 0.99
     assert 0.905 < 0.5 * (storage + loss) < 0.99
+    # Of the twelve of each rubber the scatter is 2.0 %.
+    assert np.all(np.mean(np.reshape(shares, (2, 24)), axis=1) > 0.885)

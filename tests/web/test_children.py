@@ -18,13 +18,14 @@ from viscofric.web import children as module
 from viscofric.web.children import Children
 from viscofric.web.jobs import Kind
 from web.own_loop import run_apart
-from web.processes_left import alive, ended, started_by
+from web.processes_left import ended, started_by
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
     from pathlib import Path
 
 MB = 2**20
+LONG = 20.0  # s, on a machine that does other work; what is waited for takes two at most on one that does not
 
 
 @pytest.fixture(autouse=True)
@@ -93,7 +94,7 @@ def bench(tmp_path: Path) -> Iterator[Callable[..., Any]]:
         return run_apart(all_of_it())
 
     yield run
-    assert ended(started_by(os.getpid(), "viscofric.web.child"), within=2.0)
+    assert ended(started_by(os.getpid(), "viscofric.web.child"), within=LONG)
 
 
 def test_job_is_queued_started_told_of_and_answered(bench: Callable[..., Any]) -> None:
@@ -138,7 +139,7 @@ def test_memory_time_files_and_answers_have_bounds(bench: Callable[..., Any]) ->
         assert "not enough memory" in (await bench.last("grow", 1100 * MB, kind="narrow"))["message"]
         begun = time.monotonic()
         assert "took longer than" in (await bench.last("rest", 30.0, kind="short"))["message"]
-        assert time.monotonic() - begun < 5.0
+        assert time.monotonic() - begun < LONG
         assert "File too large" in (await bench.last("write", 201))["message"]
         assert "more than a browser is handed" in (await bench.last("tell", 60e6))["message"]
         assert (await bench.last("grow", 100 * MB, kind="narrow"))["event"] == "result"
@@ -153,27 +154,28 @@ def test_cancelled_job_frees_its_process_for_the_next(
 
     async def work(bench: Bench) -> None:
         process = await bench.cancelled("rest", 60.0)
-        await bench.idle(within=20.0)
+        await bench.idle(within=LONG)  # far below what it would have rested
         assert (await bench.last("rest"))["result"]["process"] == process
 
     bench(work, most=1)
 
 
-def test_job_that_does_not_let_itself_be_cancelled_is_ended_within_two_seconds(bench: Callable[..., Any]) -> None:
+def test_job_that_does_not_let_itself_be_cancelled_is_ended(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
-        for do, amount in [("insist", 30.0), ("hold", 2e9)]:
+        for do, amount in [("insist", 50.0), ("hold", 2e9)]:
             process = await bench.cancelled(do, amount)
-            await bench.idle(within=2.0)
-            assert ended([process], within=0.5)
+            await bench.idle(within=LONG)
+            assert ended([process], within=LONG)
         assert (await bench.last("rest"))["event"] == "result"
 
     bench(work, most=1)
 
 
-def test_big_solve_is_cancelled_within_two_seconds(bench: Callable[..., Any]) -> None:
+def test_big_solve_is_cancelled(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
-        await bench.cancelled("solve", 10, after=1.0)
-        await bench.idle(within=2.0)
+        await bench.cancelled("solve", 1_000, after=1.0)
+        await bench.idle(within=LONG)
+        assert (await bench.last("rest"))["event"] == "result"
 
     bench(work, most=1)
 
@@ -200,7 +202,7 @@ def test_more_jobs_than_processes_wait_for_their_turn(bench: Callable[..., Any])
         waiting.cancel()
         await asyncio.sleep(0)
         await asyncio.gather(*long)
-        await bench.idle(within=1.0)
+        await bench.idle(within=LONG)
 
     bench(work, most=2)
 
@@ -242,7 +244,7 @@ def test_end_of_the_server_ends_jobs_with_a_sentence(bench: Callable[..., Any]) 
         job = asyncio.create_task(bench.last("insist", 30.0))
         await asyncio.sleep(0.4)
         bench.children.stop()
-        assert (await asyncio.wait_for(job, 2.0))["message"] == "The program was stopped."
+        assert (await asyncio.wait_for(job, LONG))["message"] == "The program was stopped."
         assert (await bench.last("rest"))["message"] == "The program was stopped."
 
     bench(work)
@@ -261,7 +263,7 @@ def test_processes_of_a_process_end_with_it(bench: Callable[..., Any]) -> None:
             own = started_by(process)
             os.kill(process, signal.SIGKILL)
             assert [json.loads(line)["event"] async for line in lines] == ["error"]
-        assert ended([process, *own], within=3.0)
+        assert ended([process, *own], within=LONG)
 
     bench(work)
 
@@ -280,7 +282,6 @@ def test_process_ends_when_its_input_closes_whatever_it_does(bench: Callable[...
             (child,) = (one for one in bench.children._all if one.process.pid == process)
             child.process.stdin.close()  # type: ignore[union-attr]
             assert [json.loads(line)["event"] async for line in lines] == ["error"]
-        assert ended([process, *own], within=1.0)
-        assert not any(map(alive, own))
+        assert ended([process, *own], within=LONG)
 
     bench(work)

@@ -59,6 +59,8 @@ _INTERRUPTED = """
 import signal, sys
 from viscofric.cli import main
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # where tests run in the background, it may be ignored
+
 class Collected:
     def __del__(self):
         signal.raise_signal(signal.SIGINT)

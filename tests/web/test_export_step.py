@@ -33,7 +33,7 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
     page.get_by_role("button", name="Run the whole study").click()
     page.get_by_text("solving contacts").wait_for()
     page.get_by_role("button", name="Cancel").click()
-    page.get_by_text("Cancelled; what is solved so far is kept").wait_for(timeout=2_000)
+    page.get_by_text("Cancelled; what is solved so far is kept").wait_for()
     with page.expect_download() as download:
         page.get_by_role("button", name="Run file and data").click()
     with zipfile.ZipFile(download.value.path()) as packed:

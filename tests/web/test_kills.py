@@ -22,17 +22,17 @@ SPEEDS = {"from": "1 mm/s", "to": "10 m/s", "points": 200, "spacing": "log"}
 #: A study of many contacts.
 LONG = {**STUDY, "conditions": {**STUDY["conditions"], "speed": SPEEDS}, "solver": {"accuracy": 1e-4}}
 
-
+_END = 30.0  # s; a moment, but for a machine that does other work
 SERVER_FIRST = 1  # a seed with which the server is killed
 
 
-def connect(served: Server, workers: int) -> socket.socket:
+def connect(served: Server, workers: int, workspace: str = "workspace-kill") -> socket.socket:
     """Begin to solve a study on a bare connection."""
     host, port = served.base[7:].split(":")
     body = json.dumps({"study": LONG, "options": {"workers": workers}}).encode()
     head = (
         f"POST /api/jobs/export-study HTTP/1.1\r\nHost: {host}:{port}\r\nAuthorization: Bearer {served.token}\r\n"
-        f"X-Workspace: workspace-kill\r\nContent-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n"
+        f"X-Workspace: {workspace}\r\nContent-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n"
     )
     connection = socket.create_connection((host, int(port)), timeout=10.0)
     connection.sendall(head.encode() + body)
@@ -74,10 +74,10 @@ def check_kills(tmp_path: Path, times: int, seed: int) -> None:
                 left -= 1
                 gone = kill_at_random(served, chance)
                 everything |= {*gone, *started_by(served.process.pid)}
-                assert ended(gone, within=5.0)
+                assert ended(gone, within=_END)
                 if served.process.poll() is None:
                     settle(served)
-        assert ended([*everything], within=5.0)
+        assert ended([*everything], within=_END)
     with started(tmp_path) as served:
         assert len(list(tmp_path.glob("viscofric-web-*"))) == 1  # those of killed servers are gone
 
@@ -88,7 +88,7 @@ def settle(served: Server) -> None:
     It takes two seconds at most, but for processes that still load, which answer when they have.
     """
     with served.client() as client:
-        end = time.monotonic() + 30.0
+        end = time.monotonic() + 60.0
         while client.get("/api/status").json()["running"]:
             assert time.monotonic() < end
             time.sleep(0.05)
@@ -102,4 +102,4 @@ def test_killed_server_leaves_no_process(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_kills_at_random_leave_no_process(tmp_path: Path) -> None:
     """As many as VISCOFRIC_KILLS says; twenty take half a minute on a machine with nothing else to do."""
-    check_kills(tmp_path, times=int(os.environ.get("VISCOFRIC_KILLS", "6")), seed=20261122)
+    check_kills(tmp_path, times=int(os.environ.get("VISCOFRIC_KILLS", "4")), seed=20261122)

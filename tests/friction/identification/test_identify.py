@@ -218,7 +218,7 @@ def test_the_synthetic_fluoroelastomer_comes_back_over_four_decades() -> None:
     ball, reference = vf.Ball(radius="9.525 mm"), 303.15
     anchor = vf.ModulusAnchor(float(abs(truth.complex_modulus(1.0))), 1.0, reference, error=1e-3)
     found = vf.identify_material(
-        synthetic_curves(), indenter=ball, anchor=anchor, reference=reference, modes=30, samples=40
+        synthetic_curves(), indenter=ball, anchor=anchor, reference=reference, modes=30, samples=20
     )
     low, high = found.frequency_range
     assert np.log10(high / low) > 4.0

@@ -125,6 +125,10 @@ def killed_and_resumed(
     ----------
     contacts : int
         Of the study, which are spread over the kills.
+
+    Notes
+    -----
+    A machine that does other work may let a run come to its end before it is killed; one run at least is killed.
     """
     chance, account = random.Random(seed), Account()
     # Half a dozen events come before the first contact, two for each; half of the contacts are left for the last run.
@@ -132,8 +136,11 @@ def killed_and_resumed(
     for _ in range(kills):
         after, wait = chance.randint(0, most), chance.uniform(0.0, 0.05)
         status, events = runs.run(study, folder, workers, after, wait)
-        assert status == -signal.SIGKILL, "there was nothing left to kill: give it more to solve"
         account.read(events)
+        if status != -signal.SIGKILL:
+            assert status == 0
+            assert len(account.begun) > 1, "there was nothing to kill: give it more to solve"
+            return account
     status, events = runs.run(study, folder, workers, None, 0.0)
     assert status == 0
     account.read(events)
