@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import json
 import tomllib
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from study.json_schema_check import wrong
 from viscofric.cli.new import SCHEMA_LINE, TEMPLATES, template_text
-from viscofric.study.axis_values import RANGE, SEED_RANGE
-from viscofric.study.contact_tables import SHAPES
 from viscofric.study.json_schema import json_schema
 from viscofric.study.run_file import TABLES, Study
 from viscofric.study.run_file_errors import keys
@@ -68,18 +65,6 @@ def test_mistakes_do_not_fit(good: str, bad: str) -> None:
 def test_several_materials_fit() -> None:
     assert faults(template_text("sweep").replace("[[material]]", "[material]", 1).replace("[[material]]", "[x]")) != []
     assert faults(template_text("sweep")) == []
-
-
-def test_the_readme_names_every_key() -> None:
-    text = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
-    absent = [
-        f"{home}.{key}"
-        for name, table in TABLES.items()
-        if (home := "indenter" if table in SHAPES.values() else name) not in ("", RANGE, SEED_RANGE)
-        for key in keys(table)
-        if f"`{home}.{key}`" not in text
-    ]
-    assert absent == []
 
 
 def described(node: Any, name: str = "") -> list[str]:

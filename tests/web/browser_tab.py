@@ -73,7 +73,7 @@ class Tab:
         end = time.monotonic() + seconds
         while not self.value(expression):
             assert time.monotonic() < end, f"it never came true: {expression}"
-            self.page.wait_for_timeout(30)
+            self.page.wait_for_timeout(150)  # asking costs time, too
 
     def value(self, expression: str, *arguments: Any) -> Any:
         """Return what JavaScript finds; ``page`` in it holds the page's modules state, units, figures and fields."""

@@ -18,7 +18,7 @@ from viscofric.web import children as module
 from viscofric.web.children import Children
 from viscofric.web.jobs import Kind
 from web.own_loop import run_apart
-from web.processes_left import ended, started_by
+from web.processes_left import alive, ended, started_by
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
