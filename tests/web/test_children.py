@@ -127,6 +127,17 @@ def test_what_goes_wrong_is_one_sentence_and_the_next_job_is_done(bench: Callabl
     bench(work)
 
 
+def test_no_job_is_begun_with_files_that_are_not_the_pages(bench: Callable[..., Any]) -> None:
+    async def work(bench: Bench) -> None:
+        for table, key, name in [("surface", "file", "../x"), ("measurement", "mtm", "/x"), ("material", "dma", "**")]:
+            lines = bench.children.run("odd", {table: {key: name}}, {"do": "rest"}, bench.folder / "a")
+            told = [json.loads(line) async for line in lines]
+            assert [one["event"] for one in told] == ["queued", "started", "error"]
+            assert told[-1]["field"] == f"{table}.{key}"
+
+    bench(work)
+
+
 def test_job_gets_neither_the_servers_input_nor_its_output(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
         assert (await bench.last("print"))["result"] == {"read": None}
@@ -138,8 +149,10 @@ def test_memory_time_files_and_answers_have_bounds(bench: Callable[..., Any]) ->
     async def work(bench: Bench) -> None:
         assert "not enough memory" in (await bench.last("grow", 1100 * MB, kind="narrow"))["message"]
         begun = time.monotonic()
-        assert "took longer than" in (await bench.last("rest", 30.0, kind="short"))["message"]
+        told = await bench.all("rest", 30.0, kind="short")
+        assert "took longer than" in told[-1]["message"]
         assert time.monotonic() - begun < LONG
+        assert ended([one["part"]["process"] for one in told if one["event"] == "part"], within=LONG)
         assert "File too large" in (await bench.last("write", 201))["message"]
         assert "more than a browser is handed" in (await bench.last("tell", 60e6))["message"]
         assert (await bench.last("grow", 100 * MB, kind="narrow"))["event"] == "result"
@@ -200,7 +213,8 @@ def test_more_jobs_than_processes_wait_for_their_turn(bench: Callable[..., Any])
         await asyncio.sleep(0.1)
         assert bench.children.running == 3
         waiting.cancel()
-        await asyncio.sleep(0)
+        await asyncio.wait([waiting])
+        assert bench.children.running == 2
         await asyncio.gather(*long)
         await bench.idle(within=LONG)
 
@@ -261,6 +275,7 @@ def test_processes_of_a_process_end_with_it(bench: Callable[..., Any]) -> None:
             while len(started_by(process)) < 2:
                 await asyncio.sleep(0.02)
             own = started_by(process)
+            assert os.getpgid(process) == process  # an interrupt of the terminal does not reach it
             os.kill(process, signal.SIGKILL)
             assert [json.loads(line)["event"] async for line in lines] == ["error"]
         assert ended([process, *own], within=LONG)

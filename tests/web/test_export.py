@@ -89,7 +89,8 @@ def test_run_file_that_was_taken_away_can_be_brought_back(desk: Desk) -> None:
         desk.run(open_run_file, {}, text="[material]\nthis is no TOML")
     with pytest.raises(StudyError, match="too deeply for a run file"):
         desk.run(open_run_file, {}, text=f"deep{'.x' * 20_000} = 1")
-    assert desk.run(open_run_file, {}, text='material.dma = "/"')["missing"] == [""]
+    for name, told in [("/", ""), ("..", ".."), ("x" * 300, "x" * 300), ("a\\u0000b", "a\0b"), ("[", "[")]:
+        assert desk.run(open_run_file, {}, text=f'material.dma = "{name}"')["missing"] == [told]
 
 
 @pytest.mark.parametrize("form", ["abaqus", "ansys", "comsol", "json", "csv"])

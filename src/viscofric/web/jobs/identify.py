@@ -120,6 +120,8 @@ def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:
     if rubber is not None:
         return float(rubber.poisson_ratio)
     material = study.get("material")
+    if isinstance(material, list) and material:
+        material = material[0]  # as everywhere where one rubber is meant
     given = material.get("poisson_ratio", 0.5) if isinstance(material, dict) else 0.5
     return float(given) if isinstance(given, int | float) else 0.5
 

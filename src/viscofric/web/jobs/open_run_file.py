@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from fnmatch import fnmatchcase
 from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,8 @@ from viscofric.web.study_files import named_files
 from viscofric.web.study_text import RUN_FILE
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.web.jobs.context import Context
 
 
@@ -63,8 +66,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         # folders, of whichever system, stay behind
         names = [PureWindowsPath(name).name for name in named.names]
         named.table[named.key] = names if isinstance(named.table[named.key], list) else names[0]
-        missing += [one for one in names if one not in missing and not (one and any(context.files.glob(one)))]
+        missing += [one for one in names if one not in missing and not _is_there(one, context.files)]
     try:
         return {"study": plain(document, digits=None), "missing": missing}
     except RecursionError:
         raise StudyError(f"{RUN_FILE}: lists or tables lie within each other too deeply for a run file.") from None
+
+
+def _is_there(name: str, folder: Path) -> bool:
+    """Whether a name, or a pattern, stands for any of the page's own files."""
+    return any(name == one.name or fnmatchcase(one.name, name) for one in folder.iterdir())
