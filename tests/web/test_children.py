@@ -129,7 +129,7 @@ def test_what_goes_wrong_is_one_sentence_and_the_next_job_is_done(bench: Callabl
 
 def test_no_job_is_begun_with_files_that_are_not_the_pages(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
-        for table, key, name in [("surface", "file", "../x"), ("measurement", "mtm", "/x"), ("material", "dma", "**")]:
+        for table, key, name in [("surface", "file", "..\\x"), ("measurement", "mtm", "/x"), ("material", "dma", "**")]:
             lines = bench.children.run("odd", {table: {key: name}}, {"do": "rest"}, bench.folder / "a")
             told = [json.loads(line) async for line in lines]
             assert [one["event"] for one in told] == ["queued", "started", "error"]
