@@ -9,11 +9,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+MOST_NAMES = 8  # of curves that are listed one by one
+
 
 def plain(text: str) -> str:
     """Return a label without the marks of formulas, in one line."""
     text = re.sub(r"\\(?:mathrm|mathsf|mathit|text)\{([^}]*)\}", r"\1", text)
-    text = re.sub(r"[${}^]|\\(?=[A-Za-z])|\\,", "", text).replace("_", " ")
+    text = re.sub(r"\\frac\{([^}]*)\}\{([^}]*)\}", r" of \1 over \2", text)
+    text = re.sub(r"\\([A-Za-z]+)", r" \1 ", text)
+    text = re.sub(r"[${}^]|\\,", "", text).replace("_", " ")
     return " ".join(text.split())
 
 
@@ -22,7 +26,8 @@ def words_of_axes(axes: Axes) -> str:
     x, y = plain(axes.get_xlabel()), plain(axes.get_ylabel())
     against = f"{y} against {x}" if x and y else y or x
     names = [plain(str(label)) for label in axes.get_legend_handles_labels()[1]]
-    parts = [plain(axes.get_title()), against, ", ".join(names)]
+    listed = ", ".join(names) if len(names) <= MOST_NAMES else f"{len(names)} curves, {names[0]} to {names[-1]}"
+    parts = [plain(axes.get_title()), against, listed]
     return ": ".join(part for part in parts if part)
 
 
