@@ -133,7 +133,7 @@ def test_what_is_wrong_stands_beside_its_field_and_identifying_can_be_cancelled(
     other = tmp_path / "nothing.csv"
     other.write_text("this is, no table\n", encoding="utf-8")
     drop(tab, other)
-    part(tab, "Measured friction").get_by_role("alert").get_by_text("nothing.csv").wait_for(timeout=1e3 * _SECONDS)
+    part(tab, "Measured friction").locator(".notes.error").get_by_text("nothing.csv").wait_for(timeout=1e3 * _SECONDS)
 
 
 def test_a_real_export_that_cannot_be_separated_says_what_to_do(tab: Tab, real_data: Path) -> None:

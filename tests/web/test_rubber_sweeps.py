@@ -76,7 +76,7 @@ def test_tension_or_shear_is_asked_where_no_file_says_it(workspace: Context) -> 
 
 def test_unit_that_is_missing_is_asked_at_its_field(workspace: Context) -> None:
     (workspace.files / "bare.csv").write_text(table("T (degC),f (Hz),E',E''"))
-    with pytest.raises(JobError, match=r"^bare\.csv.*say here which unit it is") as told:
+    with pytest.raises(JobError, match=r"^bare\.csv.*say under “Data” which unit it is") as told:
         done("sweeps", workspace, {"dma": "bare.csv"})
     assert told.value.field == "material.modulus_unit"
     found = done("sweeps", workspace, {"dma": "bare.csv", "modulus_unit": "MPa"})

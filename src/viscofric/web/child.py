@@ -25,6 +25,7 @@ from viscofric.errors import ViscofricError, brief
 from viscofric.web.cache_folder import look_after
 from viscofric.web.jobs import WARM
 from viscofric.web.jobs.context import Context, plain
+from viscofric.web.jobs.page_words import page_words
 from viscofric.web.study_files import check_confined
 
 if TYPE_CHECKING:
@@ -216,9 +217,9 @@ def _was_importing(trace: TracebackType | None) -> bool:
 def _told(error: BaseException, files: Path) -> dict[str, Any]:
     """Return what the page says of an error: a sentence, and the field of the study that it is about."""
     if isinstance(error, ViscofricError):
-        words = _without_folder(str(error), files)
+        words, asked = page_words(_without_folder(str(error), files))
         found = _FIELD.search(words)
-        field = getattr(error, "field", None) or (found[1] if found else None)
+        field = getattr(error, "field", None) or (found[1] if found else asked)
         problems = [{"field": one.field, "message": one.message} for one in getattr(error, "problems", ())]
         return {"message": words, "field": field, "problems": problems or [{"field": field, "message": words}]}
     if isinstance(error, MemoryError):

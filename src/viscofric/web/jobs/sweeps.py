@@ -12,6 +12,7 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.web.jobs.context import Context, JobError, plain
+from viscofric.web.jobs.page_words import page_words
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, without_folder
 
 if TYPE_CHECKING:
@@ -86,19 +87,8 @@ def _one_or_each(temperatures: tuple[float, ...]) -> float | list[float | None]:
 
 def _asking(error: InputError) -> JobError:
     """Return the error with the field whose value would mend it, where the reader's sentence says so."""
-    words = str(error)
-    if "modulus_unit=" in words:
-        words = words.replace(", or say it by modulus_unit='MPa'", "; or say here which unit it is")
-        return JobError(words, "material.modulus_unit")
-    if "temperature='25 degC'" in words:
-        before = words.split("; for a sweep at one temperature say it")[0]
-        return JobError(f"{before}; say here at which temperature it was measured.", "material.temperature")
-    if "looks like a master curve" in words:
-        before = words.split("; use read_master_curve")[0]
-        return JobError(f"{before}; choose “master curve” as the source, and drop it there.", "material.dma")
-    if "deformation" in words:
-        return JobError(words, "material.deformation")
-    return JobError(words, "material.dma")
+    words, field = page_words(str(error))
+    return JobError(words, field or "material.dma")
 
 
 def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> dict[str, Any]:

@@ -154,7 +154,8 @@ export function contactFigures({ figures, fields }) {
       marks,
       synthetic,
       x: { ...length(rough ? "x" : "along the motion"), range: ends },
-      y: { label: "pressure", kind: "pressure" },
+      // with room for the words at the top
+      y: { label: "pressure", kind: "pressure", range: [0, 1.15 * Math.max(...kept(pressure), 1e-9)] },
       title: rough ? "Pressure along x, through the highest peak" : "Pressure along the motion",
       caption: rough
         ? ""

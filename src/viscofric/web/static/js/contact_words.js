@@ -17,17 +17,20 @@ export function numbersOf(answer, units) {
   ];
   const balance = row("Energy balance, off by", plain(100 * Math.abs(of.energy_balance.value), "%", 2));
   if (answer.kind === "rough") {
+    const full = of.contact_area_fraction.value > 1 - 1e-9;
+    const gap = one("mean_gap", "Mean gap", "length", 3);
+    const aside = one("lateral_friction_coefficient", "Force to the side, over the load");
     const [points, asked] = [of.points.value, of.points_asked.value];
     return {
       key: [
         friction,
         row("Real contact", plain(100 * of.contact_area_fraction.value, "%"), "of the area"),
         one("mean_contact_pressure", "Mean pressure in contact", "pressure", 3),
-        one("mean_gap", "Mean gap", "length", 3),
+        full ? { ...gap, value: "none", remark: "full contact" } : gap,
       ],
       others: [
         { ...one("max_pressure", "Largest pressure", "pressure", 3), remark: "on this grid" },
-        one("lateral_friction_coefficient", "Force to the side, over the load"),
+        Math.abs(of.lateral_friction_coefficient.value) < 1e-12 ? { ...aside, value: "0" } : aside,
         row("Heat", plain(of.power.value, "W/m²")),
         one("slowest_frequency", "Frequency of the longest wave", "angular_frequency", 3),
         one("fastest_frequency", "Frequency of the shortest wave", "angular_frequency", 3),

@@ -1,7 +1,8 @@
 // Fields, notes, progress bars and other parts of a form; each returns an element to put into a step's section.
 //
 // Every field edits one path of the study's document (state.js) and shows, beside itself, the error whose `field` is that
-// path. showErrors([{field, message}]) shows what the check of the document found; showError(error) adds that of a job.
+// path. showErrors([{field, message}]) shows what the check of the document found; showError(error, job) adds that of a job,
+// which stays until clearError(job), or until what it is about is changed.
 
 import { h } from "./parts.js";
 import { state } from "./state.js";
@@ -11,6 +12,8 @@ export * from "./parts.js";
 
 let made = 0;
 const fields = new Map(); // path -> fields that show its errors
+let checked = new Map(); // path -> what the check of the document says of it
+const ofJobs = new Map(); // job -> {error, forget}: what a job said
 
 /** Label, control, help and error of one path. */
 function field({ path, label, help, classes = "", beside = null }, control, controls = [control]) {
@@ -39,6 +42,7 @@ function field({ path, label, help, classes = "", beside = null }, control, cont
   if (path) {
     if (!fields.has(path)) fields.set(path, new Set());
     fields.get(path).add(element);
+    showAll();
   }
   return element;
 }
@@ -53,7 +57,8 @@ function withUnit(text, kind) {
 const readable = (words) =>
   String(words ?? "")
     .replace("degC", "°C")
-    .replace("degF", "°F");
+    .replace("degF", "°F")
+    .replace(/(?<=\d\s*)u(?=[ms]\b)/, "µ");
 
 const listed = (value) => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
 
@@ -224,27 +229,46 @@ function inForm(form, value, { spacing, otherwise }) {
 const within = (place, path) =>
   path !== "" && (place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`));
 
+/** The field's path that is nearest to the place of an error; undefined where the page has none. */
+const homeOf = (place) =>
+  [...fields.keys()].filter((path) => within(place ?? "", path)).sort((one, other) => other.length - one.length)[0];
+
+function showAll() {
+  const told = new Map([...checked].map(([path, sentences]) => [path, new Set(sentences)]));
+  for (const { error } of ofJobs.values()) {
+    const home = homeOf(error.field);
+    if (home !== undefined) told.set(home, (told.get(home) ?? new Set()).add(error.message));
+  }
+  for (const [path, elements] of fields)
+    for (const element of elements) element.setError([...(told.get(path) ?? [])].join(" "));
+}
+
 /** Show each sentence beside its field and none beside the others; returns those that have no field on the page. */
 export function showErrors(problems) {
   const homeless = [];
-  const told = new Map();
+  checked = new Map();
   for (const problem of problems) {
-    const homes = [...fields.keys()].filter((path) => within(problem.field ?? "", path));
-    const home = homes.sort((one, other) => other.length - one.length)[0];
+    const home = homeOf(problem.field);
     if (home === undefined) homeless.push(problem);
-    else told.set(home, [told.get(home), problem.message].filter(Boolean).join(" "));
+    else checked.set(home, [...(checked.get(home) ?? []), problem.message]);
   }
-  for (const [path, elements] of fields) for (const element of elements) element.setError(told.get(path));
+  showAll();
   return homeless;
 }
 
 /** Show the error of a job beside its field; returns whether there is such a field. */
-export function showError(error) {
+export function showError(error, job = "job") {
+  clearError(job);
   if (!error?.field) return false;
-  const home = [...fields.keys()]
-    .filter((path) => within(error.field, path))
-    .sort((one, other) => other.length - one.length)[0];
-  if (home === undefined) return false;
-  for (const element of fields.get(home)) element.setError(error.message);
-  return true;
+  ofJobs.set(job, { error, forget: state.subscribe(error.field, () => clearError(job)) });
+  showAll();
+  return homeOf(error.field) !== undefined;
+}
+
+/** Forget the error of a job. */
+export function clearError(job) {
+  if (!ofJobs.has(job)) return;
+  ofJobs.get(job).forget();
+  ofJobs.delete(job);
+  showAll();
 }

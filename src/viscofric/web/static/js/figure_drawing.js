@@ -166,6 +166,7 @@ export function plotlyTraces(spec, dark) {
         hoverinfo: "skip",
         showlegend: false,
         legendgroup: group,
+        visible: trace.hidden ? "legendonly" : true,
       };
       drawn.push({ ...edge, y: units.number(trace.lower, spec.y?.kind) });
       drawn.push({

@@ -20,7 +20,7 @@ const MOST_FAILURES = 5;
 const hasPoints = (curve) => Boolean(curve?.points?.friction.some((value) => value !== null));
 
 /** Make the card.  onPick({speed, temperature}) is called for a point that was clicked, onPick({}) for another combination. */
-export function frictionCard({ state, units, figures, fields, api, announce }, { onPick }) {
+export function frictionCard({ state, units, figures, fields, api, announce, waits }, { onPick }) {
   const { h, button } = fields;
   let curve = null; // that is shown: {layout, points, result}
   let before = null; // that is shown in grey till there is something to show
@@ -55,8 +55,15 @@ export function frictionCard({ state, units, figures, fields, api, announce }, {
     draw();
     onPick({});
   });
+  which.hidden = true;
+  const log = h("input", { type: "checkbox", id: "curve-log", checked: state.view("curve.log", false) });
+  log.addEventListener("change", () => {
+    state.setView("curve.log", log.checked);
+    draw();
+  });
+  const scale = h("label", { class: "row tick", for: log.id }, log, "log scale");
   const pin = button({ label: "Keep for comparison", kind: "small", onClick: () => keep(pinned ? null : curve) });
-  const card = fields.card("Friction", h("div", { class: "row curve-tools" }, view, quantity, which, pin));
+  const card = fields.card("Friction");
   const handle = figures.figure(card, {
     id: "friction-curve",
     title: "Friction against speed",
@@ -65,7 +72,8 @@ export function frictionCard({ state, units, figures, fields, api, announce }, {
     empty: "The first points are on their way.",
     onClick: pick,
   });
-  card.append(bar, failed, told, checked);
+  const tools = h("div", { class: "row curve-tools" }, view, quantity, which, scale, pin);
+  card.append(bar, tools, failed, told, checked);
 
   function keep(some) {
     pinned = some;
@@ -95,7 +103,7 @@ export function frictionCard({ state, units, figures, fields, api, announce }, {
       title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "shifted speed" : "speed"}`,
       caption: caption(shifted),
       x: { label: speed, kind: "speed", log: true, range: speedsOf(curve, look) },
-      y: { label, kind, range: valuesOf(traces) },
+      y: log.checked ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
       temperatures: curve.layout.temperature,
       synthetic: !document.getElementById("synthetic").hidden,
       traces,
@@ -140,6 +148,7 @@ export function frictionCard({ state, units, figures, fields, api, announce }, {
       const points = { friction: cases.map(() => null), known: cases.map(() => false) };
       curve = { layout: part.layout, points, result: null };
       told.set([]);
+      handle.element.classList.remove("stale");
       checked.hidden = true;
       offer();
     } else {
@@ -159,6 +168,7 @@ export function frictionCard({ state, units, figures, fields, api, announce }, {
     const said =
       `At ${unresolved} of ${result.speed.length} points the grid does not resolve friction to the accuracy asked for; ` +
       "their error bars tell how well it does.";
+    handle.element.classList.remove("stale");
     told.set([...result.warnings, ...(unresolved ? [said] : [])]);
     failed.set(result.failures.slice(0, MOST_FAILURES));
     notes.set(result.notes);
@@ -176,6 +186,7 @@ export function frictionCard({ state, units, figures, fields, api, announce }, {
     const begun = performance.now();
     bar.start("Solving");
     failed.set([]);
+    fields.clearError("curve");
     const heard = {
       signal: mine.signal,
       onPart: (part) => running === mine && take(part),
@@ -196,9 +207,10 @@ export function frictionCard({ state, units, figures, fields, api, announce }, {
   }
 
   function fail(error) {
-    failed.set([
-      fields.showError(error) ? "The friction curve waits: something in the form is not right." : error.message,
-    ]);
+    failed.set([waits("The friction curve", error, "curve")]);
+    handle.element.classList.add("stale");
+    handle.update({ caption: curve ? "The curve before the last change." : "", empty: "No curve yet." });
+    state.setResult("curve", null);
   }
 
   state.subscribe(WATCHED, () => {

@@ -1,24 +1,25 @@
 // The page: its steps, header, check of the document, and what is told to screen readers.
 
+import * as api from "./api.js";
 import * as figures from "./figures.js";
 import * as fields from "./fields.js";
 import { headerTools } from "./header.js";
 import { state } from "./state.js";
+import contact from "./steps/contact.js";
+import * as lazy from "./steps/lazy.js";
 import * as units from "./units.js";
 
 const { h } = fields;
-const STEPS = ["sweeps", "shift", "spectrum", "contact", "measurement", "export"];
-const TITLES = {
-  sweeps: "Data",
-  shift: "Shift",
-  spectrum: "Spectrum",
-  contact: "Contact and friction",
-  measurement: "Measurement",
-  export: "Export",
+const STEPS = [lazy.sweeps, lazy.shift, lazy.spectrum, contact, lazy.measurement, lazy.exported];
+// Where the fields of a study's tables are, but for those of a rubber that other steps have.
+const PLACES = { material: "sweeps", measurement: "measurement", outputs: "export", title: "export", cluster: "export" };
+const OF_RUBBER = {
+  shift: ["shift", "vertical_shift", "shift_factors", "fixed_shift_factors"],
+  spectrum: ["spectrum", "modes", "tau_ratio"],
 };
 const FIRST = "contact";
 
-const app = { state, units, figures, fields, api: null, start: null, goTo, announce };
+const app = { state, units, figures, fields, api, start: null, goTo, announce, explain, waits };
 const steps = new Map();
 let current = null;
 
@@ -27,6 +28,28 @@ function announce(text) {
   const place = document.getElementById("announcements");
   place.textContent = "";
   setTimeout(() => (place.textContent = text), 50);
+}
+
+/** The step that has the field of a path of the study. */
+function stepOf(path) {
+  const [table, key] = (path ?? "").replace(/\[\d+\]/g, "").split(".");
+  if (table === "material")
+    return Object.keys(OF_RUBBER).find((step) => OF_RUBBER[step].includes(key)) ?? PLACES.material;
+  return PLACES[table] ?? "contact";
+}
+
+/** An error for a note of a step: its sentence, and a way to the step where it can be mended. */
+function explain(error, here) {
+  const step = error.field ? stepOf(error.field) : here;
+  if (step === here || !steps.has(step)) return [error.message];
+  const { title } = steps.get(step);
+  return [`${error.message} `, fields.button({ label: `Go to ${title}`, kind: "small", onClick: () => goTo(step) })];
+}
+
+/** The same for the contact's step, where a sentence that stands beside its field is not said twice. */
+function waits(what, error, job) {
+  const beside = fields.showError(error, job) && stepOf(error.field) === "contact";
+  return beside ? `${what} waits: something in the form is not right.` : explain(error, "contact");
 }
 
 /** Show a step, and put the focus on its heading. */
@@ -73,21 +96,8 @@ function summarise() {
   }
 }
 
-/** A step whose module is not there says so, and leaves the others alone. */
-async function load(id) {
-  try {
-    return (await import(`./steps/${id}.js`)).default;
-  } catch (error) {
-    return {
-      id,
-      title: TITLES[id],
-      mount: (section) => section.append(fields.note([`This step could not be loaded: ${error.message}`], "warning")),
-    };
-  }
-}
-
-function addStep(id, number, module) {
-  const title = module.title ?? TITLES[id];
+function addStep(module, number) {
+  const { id, title } = module;
   const summary = h("span", { class: "step-summary" });
   const link = h(
     "a",
@@ -118,10 +128,16 @@ function showSynthetic() {
   document.getElementById("synthetic").hidden = !(entry?.synthetic || state.get("data_origin") === "synthetic");
 }
 
+/** A problem without a field on the page, with what it is about before its sentence. */
+function named({ field, message }) {
+  const about = field ? `${steps.get(stepOf(field)).title}: ${message[0].toLowerCase()}${message.slice(1)}` : message;
+  return { field, message: about };
+}
+
 /** Have the document checked after each change, and each sentence shown beside its field. */
 function watch() {
   const elsewhere = fields.note([], "error");
-  elsewhere.setAttribute("role", "alert");
+  elsewhere.setAttribute("aria-live", "assertive");
   document.getElementById("main").prepend(elsewhere);
   let timer = null;
   let running = null;
@@ -129,12 +145,12 @@ function watch() {
     running?.abort();
     running = new AbortController();
     try {
-      const found = await app.api.runJob(
+      const found = await api.runJob(
         "export-run-file",
         { study: state.study, options: {} },
         { signal: running.signal },
       );
-      elsewhere.set(fields.showErrors(found.problems).map((problem) => problem.message));
+      elsewhere.set(fields.showErrors(found.problems).map((problem) => explain(named(problem), current)));
       state.setResult("run_file", found);
     } catch (error) {
       if (error.name !== "AbortError") elsewhere.set([error.message]);
@@ -150,12 +166,10 @@ function watch() {
 async function begin() {
   const main = document.getElementById("main");
   try {
-    app.api = await import("./api.js");
-    const [start, ...modules] = await Promise.all([app.api.getStart(), ...STEPS.map(load)]);
-    app.start = start;
-    state.begin(start.study);
+    app.start = await api.getStart();
+    state.begin(app.start.study);
     document.getElementById("tools").append(...headerTools(announce));
-    STEPS.forEach((id, at) => addStep(id, at + 1, modules[at]));
+    STEPS.forEach((module, at) => addStep(module, at + 1));
   } catch (error) {
     main.append(fields.note([`The page could not be started: ${error.message}`], "error"));
     return;

@@ -2,6 +2,7 @@
 //
 // state.study                       the document, frozen; never change it in place
 // state.get("conditions.load")      a value, or undefined; paths like "material.dma[1]" reach into lists
+//                                   and a key of a list of tables, such as several [[material]], is that of the first
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
 // state.change({path: value, …})    changes several keys as one step of undo
 // state.replace(document)           another document altogether
@@ -24,12 +25,18 @@ export function partsOf(path) {
     .map((part) => (/^\d+$/.test(part) ? Number(part) : part));
 }
 
+const isTables = (value) => Array.isArray(value) && typeof value[0] === "object";
+
 function valueAt(document, path) {
-  return partsOf(path).reduce((here, part) => (here === undefined || here === null ? undefined : here[part]), document);
+  return partsOf(path).reduce((value, part) => {
+    const here = isTables(value) && typeof part === "string" ? value[0] : value;
+    return here === undefined || here === null ? undefined : here[part];
+  }, document);
 }
 
 function withValue(here, parts, value) {
   if (parts.length === 0) return value;
+  if (isTables(here) && typeof parts[0] === "string") return [withValue(here[0], parts, value), ...here.slice(1)];
   const [first, ...rest] = parts;
   const copy = Array.isArray(here) ? [...here] : { ...(here ?? (typeof first === "number" ? [] : {})) };
   const below = withValue(copy[first], rest, value);

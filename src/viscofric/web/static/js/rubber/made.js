@@ -18,7 +18,8 @@ export const SOURCES = [
 export const FIRST_REFERENCE = "30 degC";
 
 /** Where the rubber of [material] comes from. */
-export const sourceOf = (material) => SOURCES.map(([key]) => key).find((key) => material?.[key] !== undefined) ?? null;
+export const sourceOf = (material) =>
+  SOURCES.map(([key]) => key).find((key) => [material].flat()[0]?.[key] !== undefined) ?? null;
 
 let now = { running: false, words: "", error: null, answer: null, complete: false };
 const followers = new Set();
@@ -52,6 +53,8 @@ async function make(app) {
   const { material, uncertainty } = app.state.study;
   if (!sourceOf(material)) return become({ running: false, error: null, answer: null, complete: false, words: "" });
   become({ running: true, words: "Making the rubber", complete: false });
+  if (app.state.result("rubber")) app.state.setResult("rubber", null); // it was another rubber's
+  app.fields.clearError("rubber");
   const take = (answer, complete) => {
     if (running === mine)
       become({ answer: { ...answer, made_of: material }, complete, error: null, running: !complete });
@@ -71,7 +74,8 @@ async function make(app) {
     if (running === mine) app.state.setResult("rubber", now.answer);
   } catch (error) {
     if (running !== mine || error.name === "AbortError") return;
-    app.fields.showError(error);
+    app.fields.showError(error, "rubber");
+    app.state.setResult("rubber", null);
     become({ running: false, error, answer: null, complete: false });
   }
 }

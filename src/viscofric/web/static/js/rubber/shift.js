@@ -72,13 +72,13 @@ export function mount(section, app) {
     h("div", { class: "columns" }, h("div", {}, shifted.controls), h("div", {}, shifted)),
     h("div", { class: "grid" }, factors, left),
     laws,
-    h("div", { class: "grid" }, ...quality.cards, vertical),
+    h("div", { class: "grid thirds" }, ...quality.cards, vertical),
   );
 
   const show = (now) => {
     if (now.running) wait.start(now.words || "Making the rubber");
     else wait.finish();
-    problem.set(now.error ? [now.error.message] : []);
+    problem.set(now.error ? [app.explain(now.error, "shift")] : []);
     const { answer } = now;
     const shift = answer?.shift;
     nothing.set(

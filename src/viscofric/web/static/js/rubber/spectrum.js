@@ -71,7 +71,7 @@ export function mount(section, app) {
     numbers,
     doubts,
     h("div", { class: "columns" }, h("div", {}, settings(app)), h("div", {}, first)),
-    h("div", { class: "grid" }, second, third, fourth),
+    h("div", { class: "grid thirds" }, second, third, fourth),
   );
 
   let now = null;
@@ -158,7 +158,7 @@ export function mount(section, app) {
     now = next;
     if (now.running) wait.start(now.words || "Making the rubber");
     else wait.finish(now.answer?.no_band ? `No 95 % band: ${now.answer.no_band}.` : "");
-    problem.set(now.error ? [now.error.message] : []);
+    problem.set(now.error ? [app.explain(now.error, "spectrum")] : []);
     const { answer } = now;
     for (const one of [first, second, third, fourth]) one.hidden = !answer;
     numbers.set(answer ? keyNumbers(answer, app) : []);

@@ -14,7 +14,7 @@ export function mount(section, app) {
   const { state, fields, units } = app;
   const { h, card, note, button } = fields;
   const problem = note([], "error");
-  problem.setAttribute("role", "alert");
+  problem.setAttribute("aria-live", "assertive");
   const form = sourceForm(app, (error) => problem.set(error ? [error.message] : []));
   const told = card("What was recognised");
   const numbers = fields.keyNumbers();
@@ -23,7 +23,7 @@ export function mount(section, app) {
   const flagged = h("div", {});
   const wait = fields.progressBar({ label: "Reading" });
   told.append(h("div", { class: "waiting" }, wait), numbers, problem, notes, files, flagged);
-  const pictures = h("div", { class: "grid" });
+  const pictures = h("div", { class: "grid thirds" });
   const onward = h(
     "div",
     { class: "row" },
@@ -64,12 +64,12 @@ export function mount(section, app) {
       state.setResult("sweeps", answer);
       show(answer);
       app.announce(answer.source === "dma" ? `${answer.isotherms.length} isotherms read.` : "Rubber read.");
-      followReference(app, answer);
+      followRange(app, answer);
     } catch (error) {
       if (running !== mine || error.name === "AbortError") return;
       show(null);
       form.ask(error.field?.replace("material.", ""));
-      problem.set([error.message]); // beside a field it would stand until the next check of the study only
+      problem.set([app.explain(error, "sweeps")]);
     } finally {
       if (running === mine) wait.finish();
     }
@@ -130,12 +130,21 @@ export function mount(section, app) {
   read();
 }
 
-/** A reference outside the isotherms, which the user never chose, gives way to one that they have. */
-function followReference({ state }, answer) {
+/** A reference and temperatures outside the isotherms, which the user never chose, give way to those that they have. */
+function followRange({ state, start, units }, answer) {
   if (answer.source !== "dma" || answer.isotherms.length === 0) return;
+  const all = answer.isotherms.map((one) => one.temperature);
+  const inside = (kelvin) => kelvin !== null && Math.min(...all) <= kelvin && kelvin <= Math.max(...all);
+  const nearest = `${Number((answer.reference - 273.15).toFixed(2))} degC`;
   const given = state.get("material.reference_temperature");
-  if (given !== undefined && given !== FIRST_REFERENCE) return;
-  const kelvin = answer.isotherms.map((one) => one.temperature);
-  const inside = given !== undefined && Math.min(...kelvin) <= 303.15 && 303.15 <= Math.max(...kelvin);
-  if (!inside) state.set("material.reference_temperature", `${Number((answer.reference - 273.15).toFixed(2))} degC`);
+  const first = start.study.conditions?.temperature;
+  const asked = state.get("conditions.temperature");
+  const changes = {};
+  if (given === undefined || (given === FIRST_REFERENCE && !inside(303.15)))
+    changes["material.reference_temperature"] = nearest;
+  if (Array.isArray(first) && JSON.stringify(asked) === JSON.stringify(first)) {
+    const kept = first.filter((one) => inside(units.parse(one, "temperature")));
+    if (kept.length < first.length) changes["conditions.temperature"] = kept.length ? kept : [nearest];
+  }
+  if (Object.keys(changes).length) state.change(changes);
 }

@@ -28,8 +28,9 @@ export function keyNumbers(answer, app) {
   return [
     {
       label: "measured in",
-      value: answer.deformation,
-      remark: answer.asks.includes("deformation") ? "the file does not say it" : "as the file says",
+      ...(answer.asks.includes("deformation") && !app.state.get("material.deformation")
+        ? { value: "?", remark: "please say whether in tension or in shear" }
+        : { value: answer.deformation, remark: answer.asks.includes("deformation") ? "as you say" : "as the file says" }),
     },
     { label: "isotherms", value: String(answer.isotherms.length), remark: span(kelvin, "temperature") },
     { label: "points", value: String(points), remark: span(omega, "angular_frequency") },
@@ -70,7 +71,7 @@ export function fileTable(answer, app) {
       "details",
       { open: answer.files.length <= 3 },
       app.fields.h("summary", {}, answer.files.length === 1 ? "The file" : `${answer.files.length} files`),
-      table,
+      app.fields.h("div", { class: "words" }, table),
     ),
   ];
 }

@@ -21,9 +21,17 @@ function materialOf(source, value, before = {}) {
   return { reference_temperature: FIRST_REFERENCE, ...rest, [source]: value };
 }
 
+const inOrder = new Intl.Collator("en", { numeric: true }).compare;
+
+/** What a study calls the rubber of some files: the first one's name without its ending. */
+const named = (value) => {
+  const names = [value].flat();
+  return names.length > 1 ? `${names.length} files of sweeps` : names[0].replace(/\.[A-Za-z0-9]{1,9}$/, "");
+};
+
 /** The form of the source: its kind, its files, and what these leave to the user. */
 export function sourceForm(app, onError) {
-  const { state, fields, api } = app;
+  const { state, fields, api, start } = app;
   const { h, card, button } = fields;
   let shown = sourceOf(state.get("material")) ?? "dma";
   const group = h(
@@ -42,14 +50,18 @@ export function sourceForm(app, onError) {
     try {
       onError(null);
       const names = await api.uploadFiles(files);
-      choose(source, many ? names : names[0]);
+      choose(source, many ? names.sort(inOrder) : names[0]);
     } catch (error) {
       onError(error);
     }
   };
   const choose = (source, value, origin) => {
     const single = Array.isArray(value) && value.length === 1 ? value[0] : value;
-    state.change({ material: materialOf(source, single, state.get("material")), data_origin: origin });
+    const [before, ...others] = [state.get("material")].flat();
+    const material = materialOf(source, single, before);
+    // The title that the page began with is not that of another rubber.
+    const title = state.get("title") === start?.study.title ? `Friction of ${named(single)}` : state.get("title");
+    state.change({ material: others.length ? [material, ...others] : material, data_origin: origin, title });
   };
   const present = h("ul", { class: "files" });
   const listFiles = () => {
@@ -66,7 +78,13 @@ export function sourceForm(app, onError) {
           { class: "row" },
           h("span", {}, name),
           names.length > 1
-            ? button({ label: `Remove ${name}`, kind: "quiet small", symbol: "close", onClick: drop(name) })
+            ? button({
+                label: h("span", { class: "unseen" }, `Remove ${name}`),
+                kind: "quiet small",
+                symbol: "close",
+                title: `Remove ${name}`,
+                onClick: drop(name),
+              })
             : null,
         ),
       ),
@@ -76,7 +94,7 @@ export function sourceForm(app, onError) {
   const addMore = async (files) => {
     try {
       const names = await api.uploadFiles(files);
-      state.set("material.dma", [...new Set([...[state.get("material.dma") ?? []].flat(), ...names])]);
+      state.set("material.dma", [...new Set([...[state.get("material.dma") ?? []].flat(), ...names])].sort(inOrder));
     } catch (error) {
       onError(error);
     }
@@ -97,7 +115,7 @@ export function sourceForm(app, onError) {
         ["tension", "tension: E′, E″"],
         ["shear", "shear: G′, G″"],
       ],
-      help: "A factor of three in the modulus; the file does not say it.",
+      help: "The file does not say it, and it makes a factor of three.",
     }),
     modulus_unit: fields.textField({
       path: "material.modulus_unit",
@@ -193,11 +211,19 @@ export function sourceForm(app, onError) {
     making.hidden = questions.hidden = key === "catalogue" || key === "file" || sourceOf(state.get("material")) !== key;
   };
   const refresh = () => {
+    const rubbers = [state.get("material") ?? {}].flat();
+    const first = rubbers[0].name ? `, ${rubbers[0].name}` : "";
+    several.set(
+      rubbers.length > 1
+        ? [`This study has ${rubbers.length} rubbers. Steps 1 to 3 show the first${first}; friction is predicted for all.`]
+        : [],
+    );
     listFiles();
     showPanel(sourceOf(state.get("material")) ?? shown);
   };
-  const questions = h("div", { class: "panel" }, asks.deformation, asks.modulus_unit, asks.temperature);
-  const element = card("Rubber", group, ...Object.values(panels), questions, making);
+  const questions = h("div", { class: "panel questions" }, asks.deformation, asks.modulus_unit, asks.temperature);
+  const several = fields.note([]);
+  const element = card("Rubber", several, group, questions, ...Object.values(panels), making);
   element.ask = (key) => asks[key] && (asks[key].hidden = false);
   element.show = (answer) => {
     for (const [key, field] of Object.entries(asks))
@@ -206,6 +232,9 @@ export function sourceForm(app, onError) {
   element.show(null);
   state.subscribe(["material"], refresh);
   refresh();
+  const wanted = (source) => source && showPanel(source); // another step may send the user here for one
+  state.onResult("wanted-source", wanted);
+  wanted(state.result("wanted-source"));
   return element;
 }
 

@@ -43,7 +43,7 @@ function mount(section, app) {
   const more = h(
     "div",
     { class: "more-numbers" },
-    h("h4", {}, "Numbers, with their numerical errors"),
+    h("h3", {}, "Numbers, with their numerical errors"),
     h("table", {}, rows),
   );
   pictures.grid.append(more);
@@ -68,7 +68,9 @@ function mount(section, app) {
       ),
     show,
     fail: (error) => {
-      failed.set([fields.showError(error) ? "The contact waits: something in the form is not right." : error.message]);
+      // a position beyond the rubber is the sliders', no field's
+      const beyond = error.field === "conditions.temperature";
+      failed.set([beyond ? error.message : app.waits("The contact", error, "live")]);
       section.querySelector(".live-contact").classList.add("stale");
     },
     busy: (stage) =>
@@ -150,6 +152,7 @@ function mount(section, app) {
     answer = { ...found, combination: where.combination };
     const noun = nounOf(where.study);
     failed.set([]);
+    fields.clearError("live");
     section.querySelector(".live-contact").classList.remove("stale");
     number.set(found.warnings);
     pictures.show(found, { noun, synthetic: !document.getElementById("synthetic").hidden });
@@ -186,18 +189,14 @@ function mount(section, app) {
       "div",
       { class: "live-contact" },
       numbers,
-      h("div", { class: "why-box" }, h("h4", {}, "Why the pressure leans forward"), why),
+      h("div", { class: "why-box" }, h("h3", {}, "Why the pressure leans forward"), why),
       number,
       pictures.grid,
     ),
   );
 
   section.append(
-    h(
-      "p",
-      {},
-      "Something hard slides or rolls over rubber. The rubber's own losses are its friction: change anything, and it is solved again.",
-    ),
+    welcome(app),
     h("div", { class: "columns" }, h("div", {}, contactForm(app)), h("div", {}, curve.card, liveCard)),
   );
 
@@ -221,6 +220,45 @@ function mount(section, app) {
     words();
   });
   begin();
+}
+
+/** What the page is for, what it shows, and where one's own data go; short once they are there. */
+function welcome({ state, start, fields, goTo }) {
+  const { h, button } = fields;
+  const first = h(
+    "section",
+    { class: "welcome", "aria-label": "What this page does" },
+    h(
+      "p",
+      {},
+      h("strong", {}, "How much friction has a rubber of itself? "),
+      "Sliding or rolling over rubber deforms it, and the energy that it loses is friction. It is computed here from ",
+      "DMA data alone, now for a made-up rubber: change shape, load, speed or temperature, and it is solved again.",
+    ),
+    h(
+      "div",
+      { class: "row" },
+      button({
+        label: "Use my DMA file",
+        kind: "main",
+        onClick: () => {
+          state.setResult("wanted-source", "dma");
+          goTo("sweeps");
+        },
+      }),
+      button({ label: "Compare with my friction test", onClick: () => goTo("measurement") }),
+      h("span", { class: "help" }, "Your files stay on this computer."),
+    ),
+  );
+  const later = h("p", {}, "Change shape, load, speed or temperature, and the friction of your rubber is solved again.");
+  const show = () => {
+    const name = state.get("material.catalogue");
+    first.hidden = name === undefined || name !== start.study.material?.catalogue;
+    later.hidden = !first.hidden;
+  };
+  state.subscribe("material", show);
+  show();
+  return h("div", { class: "intro" }, first, later);
 }
 
 function summary(state) {

@@ -137,6 +137,7 @@ function studyCard(app) {
 
   async function runStudy() {
     clear();
+    app.fields.clearError("study");
     const began = performance.now();
     running = new AbortController();
     go.disabled = true;
@@ -152,8 +153,8 @@ function studyCard(app) {
       if (error.name === "AbortError") bar.fail("Cancelled; what is solved so far is kept for the next run.");
       else {
         bar.fail("");
-        if (!app.fields.showError(error)) failures.set([error.message]);
-        else failures.set([`Something is wrong with the study: ${error.message}`]);
+        app.fields.showError(error, "study");
+        failures.set([app.explain(error, "export")]);
       }
       app.announce(error.name === "AbortError" ? "The study is cancelled." : `Error: ${error.message}`);
     } finally {

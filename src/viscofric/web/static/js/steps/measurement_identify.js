@@ -80,7 +80,7 @@ export function identification(app, step, { alone }) {
   const modulus = figures.figure(pair, {
     id: "identified-modulus",
     title: "Modulus that friction tells",
-    x: { label: "reduced angular frequency", kind: "angular_frequency", log: true },
+    x: { label: "reduced frequency", kind: "angular_frequency", log: true },
     y: { label: "modulus", kind: "modulus", log: true },
     height: 380,
   });

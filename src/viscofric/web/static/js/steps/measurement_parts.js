@@ -11,13 +11,14 @@ export function repeated(app, kind, { label, done, failed }) {
   let running = null;
   const bar = app.fields.progressBar({ label, onCancel: () => running?.abort() });
   const errors = app.fields.note([], "error");
-  errors.setAttribute("role", "alert");
+  errors.setAttribute("aria-live", "assertive");
 
   async function run(study, options = {}) {
     running?.abort();
     const own = new AbortController();
     running = own;
     errors.set([]);
+    app.fields.clearError(kind);
     bar.start();
     try {
       const onProgress = (told) => own === running && bar.set(told.done, told.total, told.label);
@@ -29,8 +30,9 @@ export function repeated(app, kind, { label, done, failed }) {
       if (own !== running) return;
       bar.finish(error.name === "AbortError" ? "Cancelled." : "");
       if (error.name === "AbortError") return;
-      app.fields.showError(error);
-      errors.set([error.message.charAt(0).toUpperCase() + error.message.slice(1)]);
+      app.fields.showError(error, kind);
+      const message = error.message.charAt(0).toUpperCase() + error.message.slice(1);
+      errors.set([app.explain({ ...error, message }, "measurement")]);
       failed?.(error.message);
     }
   }
