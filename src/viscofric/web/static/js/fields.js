@@ -4,16 +4,15 @@
 // path. showErrors([{field, message}]) shows what the check of the document found; showError(error, job) adds that of a job,
 // which stays until clearError(job), or until what it is about is changed.
 
+import { enrol } from "./field_errors.js";
 import { h } from "./parts.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
+export { clearError, showError, showErrors } from "./field_errors.js";
 export * from "./parts.js";
 
 let made = 0;
-const fields = new Map(); // path -> fields that show its errors
-let checked = new Map(); // path -> what the check of the document says of it
-const ofJobs = new Map(); // job -> {error, forget}: what a job said
 
 /** Label, control, help and error of one path. */
 function field({ path, label, help, classes = "", beside = null }, control, controls = [control]) {
@@ -40,9 +39,7 @@ function field({ path, label, help, classes = "", beside = null }, control, cont
     element.classList.toggle("wrong", Boolean(message));
   };
   if (path) {
-    if (!fields.has(path)) fields.set(path, new Set());
-    fields.get(path).add(element);
-    showAll();
+    enrol(path, element);
   }
   return element;
 }
@@ -224,51 +221,4 @@ function inForm(form, value, { spacing, otherwise }) {
     points: otherwise.points ?? 10,
     spacing: spacing[0],
   };
-}
-
-const within = (place, path) =>
-  path !== "" && (place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`));
-
-/** The field's path that is nearest to the place of an error; undefined where the page has none. */
-const homeOf = (place) =>
-  [...fields.keys()].filter((path) => within(place ?? "", path)).sort((one, other) => other.length - one.length)[0];
-
-function showAll() {
-  const told = new Map([...checked].map(([path, sentences]) => [path, new Set(sentences)]));
-  for (const { error } of ofJobs.values()) {
-    const home = homeOf(error.field);
-    if (home !== undefined) told.set(home, (told.get(home) ?? new Set()).add(error.message));
-  }
-  for (const [path, elements] of fields)
-    for (const element of elements) element.setError([...(told.get(path) ?? [])].join(" "));
-}
-
-/** Show each sentence beside its field and none beside the others; returns those that have no field on the page. */
-export function showErrors(problems) {
-  const homeless = [];
-  checked = new Map();
-  for (const problem of problems) {
-    const home = homeOf(problem.field);
-    if (home === undefined) homeless.push(problem);
-    else checked.set(home, [...(checked.get(home) ?? []), problem.message]);
-  }
-  showAll();
-  return homeless;
-}
-
-/** Show the error of a job beside its field; returns whether there is such a field. */
-export function showError(error, job = "job") {
-  clearError(job);
-  if (!error?.field) return false;
-  ofJobs.set(job, { error, forget: state.subscribe(error.field, () => clearError(job)) });
-  showAll();
-  return homeOf(error.field) !== undefined;
-}
-
-/** Forget the error of a job. */
-export function clearError(job) {
-  if (!ofJobs.has(job)) return;
-  ofJobs.get(job).forget();
-  ofJobs.delete(job);
-  showAll();
 }

@@ -222,7 +222,7 @@ export function sourceForm(app, onError) {
     showPanel(sourceOf(state.get("material")) ?? shown);
   };
   const questions = h("div", { class: "panel questions" }, asks.deformation, asks.modulus_unit, asks.temperature);
-  const several = fields.note([]);
+  const several = fields.note([], "several");
   const element = card("Rubber", several, group, questions, ...Object.values(panels), making);
   element.ask = (key) => asks[key] && (asks[key].hidden = false);
   element.show = (answer) => {
