@@ -92,6 +92,7 @@ def test_example_is_short_and_says_what_it_shows(script: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
 def test_example_meets_its_number(script: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Run as by hand, but in this process, in an empty folder, which stays empty."""
@@ -114,6 +115,7 @@ def test_example_meets_its_number(script: Path, tmp_path: Path, monkeypatch: pyt
 
 
 @pytest.mark.slow
+@pytest.mark.apart
 def test_example_runs_by_hand_without_a_screen(tmp_path: Path) -> None:
     """`python examples/plot_….py` ends, silent but for its own lines; nothing is shown or written."""
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}

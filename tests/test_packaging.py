@@ -120,6 +120,7 @@ def tracked() -> set[str]:
 
 
 @pytest.mark.slow
+@pytest.mark.apart
 def test_source_distribution_holds_the_whole_project(built: tuple[Path, Path]) -> None:
     found = members(built[0])
     assert tracked() <= found
@@ -129,6 +130,7 @@ def test_source_distribution_holds_the_whole_project(built: tuple[Path, Path]) -
 
 
 @pytest.mark.slow
+@pytest.mark.apart
 def test_wheel_carries_every_file_of_the_package_and_nothing_else(built: tuple[Path, Path]) -> None:
     with zipfile.ZipFile(built[1]) as archive:
         names = set(archive.namelist())
@@ -170,6 +172,7 @@ def _pips() -> list[Path]:
 
 
 @pytest.mark.slow
+@pytest.mark.apart
 def test_installed_elsewhere_it_works(built: tuple[Path, Path], tmp_path: Path) -> None:
     """Dependencies are those of this environment; viscofric itself comes from the wheel."""
     home = tmp_path / "environment"

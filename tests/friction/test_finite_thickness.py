@@ -106,7 +106,8 @@ def test_friction_changes_on_a_layer_as_estimated(case: Case) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", MANY[::3])  # every rubber, speed and layer, not all of their combinations
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("case", MANY)
 def test_friction_changes_as_estimated_for_many_spectra(case: Case) -> None:
     holds(case)
 

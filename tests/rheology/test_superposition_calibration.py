@@ -21,10 +21,10 @@ POLYMER = {
 @pytest.mark.parametrize(
     ("reference", "noise", "programme", "isotherms"),
     [
-        ("30 degC", 0.003, {}, 26),
+        pytest.param("30 degC", 0.003, {}, 26, marks=pytest.mark.exhaustive),
         ("30 degC", 0.03, {}, 26),
         ("30 degC", 0.01, {"celsius": EXAMPLE_PROGRAMME}, 23),  # those from -30 to -10 °C do not overlap
-        ("25 degC", 0.01, POLYMER, 26),
+        pytest.param("25 degC", 0.01, POLYMER, 26, marks=pytest.mark.exhaustive),
     ],
     ids=["0.3 %", "3 %", "1 %, programme of the example", "1 %, another polymer"],
 )

@@ -156,6 +156,7 @@ def _follow_all(tab: Tab) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.exhaustive
 def test_what_is_changed_is_solved_again(browser: Browser, server: Server) -> None:
     with opened_tab(browser, server, "#export", viewport={"width": 390, "height": 850}, color_scheme="dark") as tab:
         tab.value(f"page.state.state.replace({json.dumps(SMALL)})")

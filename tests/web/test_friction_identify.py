@@ -111,6 +111,7 @@ def test_what_is_missing_is_told(context: Context) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.exhaustive
 def test_friction_without_a_rubber_leaves_the_level_open(context: Context) -> None:
     alone = {name: CURVES[name] for name in ("measurement", "indenter")}
     found = done("identify", context, alone, beside=False, **QUICK)

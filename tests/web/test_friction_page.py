@@ -136,6 +136,7 @@ def test_what_is_wrong_stands_beside_its_field_and_identifying_can_be_cancelled(
     part(tab, "Measured friction").locator(".notes.error").get_by_text("nothing.csv").wait_for(timeout=1e3 * _SECONDS)
 
 
+@pytest.mark.exhaustive
 def test_a_real_export_that_cannot_be_separated_says_what_to_do(tab: Tab, real_data: Path) -> None:
     drop(tab, real_data / "mtm" / "demo-mtm-output.txt")
     card = part(tab, "Measured friction")

@@ -33,7 +33,9 @@ def test_page_is_light_and_asks_no_other_host(browser: Browser, server: Server) 
     assert any(path.endswith("plotly-cartesian.min.js") for path, _ in fetched)
 
 
-@pytest.mark.parametrize(("width", "scheme"), [(1400, "light"), (390, "dark")])
+@pytest.mark.parametrize(
+    ("width", "scheme"), [(1400, "light"), pytest.param(390, "dark", marks=[pytest.mark.slow, pytest.mark.exhaustive])]
+)
 def test_export_step_is_accessible(width: int, scheme: str, browser: Browser, server: Server) -> None:
     viewport = {"width": width, "height": 850}
     with opened_tab(browser, server, "#export", viewport=viewport, color_scheme=scheme) as tab:

@@ -95,6 +95,7 @@ def test_from_the_example_to_its_spectrum(tab: Tab) -> None:
 
 
 @pytest.mark.slow  # a browser, and axe on three steps
+@pytest.mark.exhaustive
 def test_steps_are_for_keyboards_and_screen_readers(tab: Tab) -> None:
     example(tab)
     assert tab.findings() == []
@@ -154,6 +155,7 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow  # a browser
+@pytest.mark.exhaustive
 def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     rows = [f"{10.0**k},{2e6 * 10.0 ** (0.1 * k)},{2e5}" for k in range(-5, 6)]
     curve = tmp_path / "master.csv"
@@ -172,6 +174,7 @@ def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow  # a browser
+@pytest.mark.exhaustive
 def test_rubbers_of_the_catalogue_and_laws(tab: Tab) -> None:
     tab.step("sweeps")
     tab.page.check("input[name=material-source][value=catalogue]")
@@ -191,6 +194,7 @@ def test_rubbers_of_the_catalogue_and_laws(tab: Tab) -> None:
 
 
 @pytest.mark.slow  # a browser
+@pytest.mark.exhaustive
 def test_workbook_of_an_instrument_on_a_phone(browser: Browser, server: Server, real_data: Path) -> None:
     with tab(
         browser, server, "#sweeps", viewport={"width": 390, "height": 844}, has_touch=True, color_scheme="dark"

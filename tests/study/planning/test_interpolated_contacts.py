@@ -73,7 +73,7 @@ def test_claimed_errors_cover_those_of_random_rubbers(seed: int) -> None:
     ("material", "slowest", "fastest"),
     [
         (FLUOROELASTOMER, 1e-7, 1e5),
-        (vf.Material.standard_linear_solid(1e6, 1e9, 1e-3), 1e-6, 1e6),
+        pytest.param(vf.Material.standard_linear_solid(1e6, 1e9, 1e-3), 1e-6, 1e6, marks=pytest.mark.exhaustive),
     ],
     ids=["fluoroelastomer", "standard linear solid"],
 )
