@@ -56,7 +56,7 @@ def test_cancelled_jobs_free_their_processes(tab: Page, server: Server) -> None:
         window.stopped = [];
         const part = new Promise((resolve) => {
             for (let number = 0; number < 6; number += 1)
-                api.runJob("export-study", {study: given[0]}, {signal: stop.signal, onProgress: resolve})
+                api.runJob("curve", {study: given[0]}, {signal: stop.signal, onProgress: resolve, onPart: resolve})
                     .catch((error) => window.stopped.push(error.name));
         });
         await part;

@@ -65,6 +65,7 @@ CONTACT = "page.state.state.result('contact')"
 
 
 @pytest.mark.slow
+@pytest.mark.apart
 def test_page_opens_with_a_friction_curve_and_a_contact_that_follows_sliders(browser: Browser, server: Server) -> None:
     with opened_tab(browser, server) as tab:
         _look_and_move(tab)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
     from web.served_page import Server
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.apart]
 _SECONDS = 60.0  # at most, on a machine that does other work too
 _STEP = "#step-measurement"
 
@@ -136,7 +136,6 @@ def test_what_is_wrong_stands_beside_its_field_and_identifying_can_be_cancelled(
     part(tab, "Measured friction").locator(".notes.error").get_by_text("nothing.csv").wait_for(timeout=1e3 * _SECONDS)
 
 
-@pytest.mark.exhaustive
 def test_a_real_export_that_cannot_be_separated_says_what_to_do(tab: Tab, real_data: Path) -> None:
     drop(tab, real_data / "mtm" / "demo-mtm-output.txt")
     card = part(tab, "Measured friction")

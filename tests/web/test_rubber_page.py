@@ -58,6 +58,7 @@ def held(opened: Tab) -> dict[str, float]:
 
 
 @pytest.mark.slow  # a browser
+@pytest.mark.apart
 def test_from_the_example_to_its_spectrum(tab: Tab) -> None:
     example(tab)
     assert "26" in tab.text("#step-sweeps .key-numbers")

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 
 @pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.timeout(600)
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="runs are forked, which Windows cannot do")
 def test_killed_studies_come_to_the_same_results(tmp_path: Path) -> None:
