@@ -9,7 +9,7 @@ export function welcome({ state, start, fields, goTo }) {
     h(
       "p",
       {},
-      h("strong", {}, "How much friction has a rubber of itself? "),
+      h("strong", {}, "How much friction comes from the rubber itself? "),
       "Sliding or rolling over rubber deforms it, and the energy that it loses is friction. It is computed here from ",
       "DMA data alone, now for a made-up rubber: change shape, load, speed or temperature, and it is solved again.",
     ),
