@@ -9,11 +9,11 @@ from pydantic import ValidationError
 from viscofric.errors import StudyError
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.study.contact_tables import IndenterTable  # noqa: TC001 - pydantic looks at it
-from viscofric.study.material_table import files_of
 from viscofric.study.measurement_table import MeasurementTable  # noqa: TC001 - pydantic looks at it
 from viscofric.study.run_file import TABLES
 from viscofric.study.run_file_errors import sentences
 from viscofric.study.table import Table
+from viscofric.web.jobs.rubbers import insist_on_uploads
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -54,7 +54,7 @@ def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[s
         If a file is none of the uploaded ones, or the kinds are mixed.
     """
     for name in names:
-        _insist_on_upload("mtm", folders.files / name, folders.files)
+        _insist_on_upload(folders.files / name, folders.files)
     tables = [name for name in names if holds_friction_curves(folders.files / name)]
     if not tables:
         before = {key: value for key, value in study.get("measurement", {}).items() if key != "curves"}
@@ -95,12 +95,8 @@ def measurement_table(study: Mapping[str, Any], folders: Folders) -> Measurement
         table = _MeasurementTables.model_validate(values).measurement
     except ValidationError as error:
         raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _MeasurementTables}))) from None
-    for key, given in (("mtm", table.mtm), ("curves", () if table.curves is None else (table.curves,))):
-        for path in given:
-            if path.is_absolute() or len(path.parts) != 1:
-                raise StudyError(f"measurement.{key}: '{path}' is not one of the page's files; drop it on the page.")
-            for one in files_of(folders.files, path):
-                _insist_on_upload(key, one, folders.files)
+    insist_on_uploads("measurement.mtm", table.mtm, folders.files)
+    insist_on_uploads("measurement.curves", table.curves, folders.files)
     return table.beside(folders.files)
 
 
@@ -125,7 +121,7 @@ def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
     return table.indenter(*(sizes[0] for sizes in table.axes.values()))
 
 
-def _insist_on_upload(key: str, path: Path, folder: Path) -> None:
-    """Refuse files outside the folder of uploads: a page reads nothing else of the machine that it runs on."""
+def _insist_on_upload(path: Path, folder: Path) -> None:
+    """Refuse a name, which may hold what would be a pattern in a run file, that is none of the uploaded files'."""
     if path.parent != folder or not path.is_file():
-        raise StudyError(f"measurement.{key}: '{path.name}' is not one of the page's files; drop it on the page.")
+        raise StudyError(f"measurement.mtm: '{path.name}' is not one of the page's files; drop it on the page first.")

@@ -83,7 +83,7 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
     except ValidationError as error:
         raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _RubberTables}))) from None
     for key in ("dma", "master_curve", "file", "shift_factors"):
-        _insist_on_uploads(key, getattr(tables.material, key), folders.files)
+        insist_on_uploads(f"material.{key}", getattr(tables.material, key), folders.files)
     return tables.material.beside(folders.files), tables.uncertainty
 
 
@@ -208,17 +208,28 @@ def _made(table: MaterialTable, folders: Folders) -> Rubber:
     return rubber
 
 
-def _insist_on_uploads(key: str, given: object, folder: Path) -> None:
-    """Refuse files outside the folder of uploads: a page reads nothing else of the machine that it runs on."""
+def insist_on_uploads(place: str, given: Path | tuple[Path, ...] | None, folder: Path) -> None:
+    """Refuse files outside the folder of uploads: a page reads nothing else of the machine that it runs on.
+
+    Parameters
+    ----------
+    place : str
+        Key of the run file that names them.
+    given : Path, tuple of Path, or None
+        As the run file names them; patterns stand for the files that they match.
+    folder : Path
+
+    Raises
+    ------
+    StudyError
+        If one of them is none of the uploaded ones.
+    """
     paths = given if isinstance(given, tuple) else () if given is None else (given,)
     for path in paths:
-        if path.is_absolute() or len(path.parts) != 1:
-            raise StudyError(f"material.{key}: '{path}' is not one of the page's files; drop it on the page first.")
-        missing = [one.name for one in files_of(folder, path) if not one.is_file()]
+        outside = path.is_absolute() or len(path.parts) != 1
+        missing = [str(path)] if outside else [one.name for one in files_of(folder, path) if not one.is_file()]
         if missing:
-            raise StudyError(
-                f"material.{key}: '{missing[0]}' is not one of the page's files; drop it on the page first."
-            )
+            raise StudyError(f"{place}: '{missing[0]}' is not one of the page's files; drop it on the page first.")
 
 
 def _key(name: str, settings: Sequence[object], inputs: Sequence[Path]) -> str:
