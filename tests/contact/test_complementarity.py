@@ -12,9 +12,10 @@ from contact.dense_reference import (
     solve_dense_contact,
 )
 from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference, standard_linear_solid
-from viscofric.contact.complementarity import solve_complementarity
+from viscofric.contact.complementarity import solve_complementarity, solve_on_contact
 from viscofric.contact.free.grids import Window
 from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.periodic.operator import PeriodicOperator
 
 MATERIALS = {
     "elastic": SteadyMaterial(1.0, np.empty(0), np.empty(0)),
@@ -138,6 +139,33 @@ def test_patience_ends_with_the_best_that_was_met() -> None:
     # Nothing is below round-off: the solver stops there by itself, with nothing worse than it has seen.
     assert solution.complementarity < 1e-12
     assert solution.products < 5000
+
+
+def test_single_precision_takes_the_steps_of_double_where_long_waves_yield_a_million_times_more() -> None:
+    """Images of search directions are all long waves then, and rounding puts them back once they are taken out."""
+    points, random = 256, np.random.default_rng(0)
+    q = np.hypot(np.fft.fftfreq(points)[:, None], np.fft.rfftfreq(points))
+    q[0, 0] = np.inf
+    transfer = (1.0 / points / q) ** 3
+    x = np.arange(points) - points / 2
+    chosen = np.hypot(x[:, None], x) < points / 3
+    defects = np.zeros((points, points))
+    defects[tuple(np.argwhere(chosen)[random.integers(chosen.sum(), size=5)].T)] = 1.0
+    steps = []
+    for precision in (np.float64, np.float32):
+        operator = PeriodicOperator(transfer, (points, points), precision)
+        contact = operator.backend.cells(chosen)
+        gap = contact.gathered(defects)
+        correction, taken, residual = solve_on_contact(
+            operator, gap, contact, reduction=0.1, floor=0.0, directions=40, fixed_load=True
+        )
+        left = gap + contact.gathered(PeriodicOperator(transfer, (points, points))(contact.scattered(correction)))
+        true = np.std(left) / np.std(gap)
+        assert residual == pytest.approx(true, rel=0.05)
+        assert true < 0.105
+        steps.append(taken)
+    # Without freeing images of those before them twice, it did not come below 0.2 in a hundred steps.
+    assert steps[1] <= 1.5 * steps[0]
 
 
 def test_failure_is_told() -> None:
