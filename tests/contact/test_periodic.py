@@ -7,13 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from scipy import ndimage
 
 import viscofric as vf
 from contact.dense_reference import solve_dense_contact
 from contact.made_surfaces import self_affine
-from viscofric.contact.complementarity import solve_on_contact
-from viscofric.contact.extension import Extension
 from viscofric.contact.layers import Layer
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.solve import solve_periodic
@@ -478,52 +475,6 @@ def test_work_does_not_grow_with_the_grid(kind: str, speed: float) -> None:
     # splitting, conjugate gradients double their steps whenever the points along an edge double twice.
     assert max(ffts) < (85 if speed == 0.0 else 110)
     assert max(steps) < (15 if speed == 0.0 else 20)
-
-
-@pytest.mark.parametrize("fixed_load", [True, False])
-@pytest.mark.parametrize("speed", [0.0, 1.0])
-def test_extension_spares_steps(speed: float, fixed_load: bool) -> None:
-    """On many spots of contact, whose edges the inverse symbol alone takes for the ends of the displacement."""
-    points, random = 256, np.random.default_rng(0)
-    transfer = SlidingSolid(broad().at(), POISSON_RATIO, (speed, 0.0)).transfer((points, points), (1 / points,) * 2)
-    operator = PeriodicOperator(transfer / np.abs(transfer).max(), (points, points))
-    centres = np.zeros((points, points))
-    centres[random.integers(points, size=300), random.integers(points, size=300)] = 1.0
-    contact = operator.backend.cells(ndimage.grey_dilation(centres, size=(5, 5), mode="wrap") > 0.0)
-    gap = contact.gathered(operator(contact.scattered(random.random(len(contact))).copy()))
-    extension = Extension(operator.backend, (points, points), operator.dtype)
-    steps, found = [], []
-    for given in (None, extension):
-        correction, taken, residual = solve_on_contact(
-            operator, gap, contact, reduction=1e-9, floor=0.0, directions=40, fixed_load=fixed_load, extension=given
-        )
-        assert residual <= 1e-9
-        steps.append(taken)
-        found.append(correction)
-    # 14 or 15 of 21 steps were seen to be left at rest, 15 or 17 of 28 in motion.
-    assert steps[1] < 0.75 * steps[0]
-    # Residuals of 1e-9 take pressures of that times the condition of the problem, some hundreds.
-    np.testing.assert_allclose(found[1], found[0], atol=1e-6 * np.abs(found[0]).max())
-
-
-@pytest.mark.parametrize("shape", [(64, 48), (30, 7), (33, 1)])
-def test_extension_goes_on_smoothly_and_fades(shape: tuple[int, int]) -> None:
-    """Whatever divides the grid: values are kept on the contact, and continued beyond it by means of them."""
-    backend = PeriodicOperator(np.ones((shape[0], shape[1] // 2 + 1)), shape).backend
-    chosen = np.zeros(shape, bool)
-    chosen[:9, : max(shape[1] // 3, 1)] = True
-    contact = backend.cells(chosen)
-    extended = Extension(backend, shape, np.float64).on(contact)
-    values = np.random.default_rng(0).random(len(contact))
-    field = extended(values)
-    np.testing.assert_array_equal(field[chosen], values)
-    assert field.max() <= values.max()
-    assert field[~chosen].min() >= 0.0
-    constant = extended(np.ones(len(contact)))
-    # A constant goes on as such next to the contact, and is less at the farthest point of the period.
-    beside, away = constant[9, 0], constant[(9 + shape[0]) // 2, 0]
-    assert beside > 0.7
-    assert away < 0.8 * beside
 
 
 def test_failure_is_an_error() -> None:

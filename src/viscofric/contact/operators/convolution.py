@@ -11,7 +11,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.extension import Extension
+from viscofric.contact.extension import Extension, lag
 from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
 
@@ -261,7 +261,8 @@ class ConvolutionOperator(ABC):
         """
         if min(self.window.shape) < _FEWEST_EXTENDED or self._is_damped:
             return None
-        return Extension(self.backend, self.window.shape, dtype)
+        late = -lag(self._inverse_symbol, self.window.shape[1], (1.0, 0.0))  # an inverse has the opposite loss angle
+        return Extension(self.backend, self.window.shape, dtype, (1.0, 0.0), late)
 
     def transposed(self) -> Self:
         """Return the operator with the transposed matrix: the same influence, mirrored along the motion."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.extension import Extension
+from viscofric.contact.extension import Extension, lag
 from viscofric.contact.periodic.continuation import continued
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
@@ -34,7 +34,7 @@ _FIRST_STEPS = (5, 7)  # of the splitting on each grid, likewise
 _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
 # ρ of the splitting over the smallest compliance of a wave, where coarser grids have settled the long waves.
-_SHORT_WAVES = (2.7, 4.5)
+_SHORT_WAVES = (2.7, 6.5)
 _ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the smallest and the largest
 _GROWTH = 2.0  # of the splitting's steps from round to round
 
@@ -50,11 +50,14 @@ class Stage:
     transfer : (nx, ny//2 + 1) array
     relaxed : callable
         Gives the real transfer function of an elastic solid of the same geometry, with the same largest value.
+    toward : (float, float)
+        Direction of the motion, in cells along x and y.
     """
 
     height: Array
     transfer: NDArray[Any]
     relaxed: Callable[[], Array]
+    toward: tuple[float, float]
 
 
 class OneGrid:
@@ -76,7 +79,8 @@ class OneGrid:
         self.cells = math.prod(self.shape)
         self.exact = PeriodicOperator(stage.transfer, self.shape, backend=backend)
         self.single = self.exact.for_corrections()
-        self.extension = Extension(backend, self.shape, self.single.dtype)
+        late = lag(stage.transfer, self.shape[1], stage.toward)
+        self.extension = Extension(backend, self.shape, self.single.dtype, stage.toward, late)
         self.relaxed = stage.relaxed
         self.elastic = not np.iscomplexobj(stage.transfer)
         self.load = None if mean_pressure is None else mean_pressure * self.cells

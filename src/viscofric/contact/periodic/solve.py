@@ -210,13 +210,15 @@ def _stages(
     surface: PeriodicSurface, coarser: list[Coarser], solid: SlidingSolid, units: _Units, finest: NDArray[Any]
 ) -> Iterator[Stage]:
     """Yield the contact on each grid, coarsest first, given the transfer function of the finest."""
+    # Spacings have the same ratio on all grids, but for the coarsest ones of long strips, where little depends on it.
+    toward = solid.toward[0] / surface.spacing[0], solid.toward[1] / surface.spacing[1]
     for z, spacing in reversed(coarser):
         relaxed = functools.partial(solid.relaxed_shape, z.shape, spacing)
         transfer = solid.transfer(z.shape, spacing)
         transfer /= units.compliance
-        yield Stage(_heights(z, units), transfer, relaxed)
+        yield Stage(_heights(z, units), transfer, relaxed, toward)
     relaxed = functools.partial(solid.relaxed_shape, surface.shape, surface.spacing)
-    yield Stage(_heights(surface.z, units), finest, relaxed)
+    yield Stage(_heights(surface.z, units), finest, relaxed, toward)
 
 
 def _heights(z: Array, units: _Units) -> Array:
