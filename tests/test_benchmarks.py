@@ -195,6 +195,17 @@ def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("contact_path")
+def test_random_rough_contacts_are_all_counted(tmp_path: Path) -> None:
+    import random_rough
+
+    random_rough.main(["--contacts", "6", "--json", str(tmp_path / "random.json")])
+    (row,) = read(tmp_path / "random.json")["rows"]
+    assert row["contacts"] == 6
+    assert row["failed"] == 0
+    assert 10 < row["median"] <= row["most"] <= row["largest"] <= row["total"]
+
+
+@pytest.mark.usefixtures("contact_path")
 def test_growth_is_the_exponent_of_a_power_law() -> None:
     import measuring
 

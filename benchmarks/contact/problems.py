@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
 import viscofric as vf
-from contact.made_surfaces import self_affine
+from contact.made_surfaces import refined, self_affine
 from gallery import (
     BALL_RADIUS,
     HERTZ_RADIUS,
@@ -37,6 +37,11 @@ VISCOELASTIC = vf.Material(
 def rough_surface(points: int) -> vf.PeriodicSurface:
     """H = 0.8, eight points per shortest wave, rms slope 1, period 1."""
     return vf.PeriodicSurface(self_affine(points), 1.0 / points)
+
+
+def refined_surface(points: int) -> vf.PeriodicSurface:
+    """Return that of 256 x 256 points on a finer grid."""
+    return vf.PeriodicSurface(refined(self_affine(256), points), 1.0 / points)
 
 
 def elastic_rough(surface: vf.PeriodicSurface, tolerance: float = TOLERANCE) -> vf.PeriodicSolution:

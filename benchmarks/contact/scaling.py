@@ -1,13 +1,16 @@
 """How time and memory of a contact grow with its grid: the ball, and rough surfaces, elastic and viscoelastic.
 
-Usage: python benchmarks/contact/scaling.py [--sizes 256 512 1024 2048 4096] [--problems ball elastic viscoelastic]
+Usage: python benchmarks/contact/scaling.py [--sizes 256 512 1024 2048 4096] [--problems ball elastic …]
        [--memory-up-to 1024] [--json FILE]
 
-CPU seconds of the whole solution, the least of several where it is quick, beside those of a pair of SciPy's FFTs of the
-same size, timed in between.  Exponents, by least squares over the sizes up to this one: of the time in the number of
-points; of the FFT alone; and of their ratio, which is what the method adds to the growth of the FFT.  Memory: the most
-that all arrays took at any time, in real arrays of the padded window (ball) or of the grid (periodic, which is not
-padded), from a second, untimed solution under tracemalloc.
+"refined" is one contact on finer and finer grids, as the ball is.  The other surfaces keep eight points in their
+shortest wave, so that each is rougher than the one before, and what slides over it meets waves of other frequencies.
+
+CPU seconds of the whole solution, the least of three, or of five where it is quick, beside those of a pair of SciPy's
+FFTs of the same size, timed in between.  Exponents, by least squares over the sizes up to this one: of the time in the
+number of points; of the FFT alone; and of their ratio, which is what the method adds to the growth of the FFT.  Memory:
+the most that all arrays took at any time, in real arrays of the padded window (ball) or of the grid (periodic, which is
+not padded), from another, untimed solution under tracemalloc.
 """
 
 from __future__ import annotations
@@ -30,7 +33,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 MEMORY_LENGTH = 1e4  # v τ_max/a0 of the ball
-MOST_REPEATS, REPEATED = 5, 4.0  # solutions of one size, and CPU s after which none is added
+LEAST_REPEATS, MOST_REPEATS, REPEATED = 3, 5, 4.0  # solutions of one size, and CPU s after which no more is added
+SURFACES = {"": problems.rough_surface, ", refined": problems.refined_surface}
+SOLIDS = {"elastic": problems.elastic_rough, "viscoelastic": problems.viscoelastic_rough}
 COLUMNS = (
     ("points", "points", "d"),
     ("CPU s", "seconds", ".3f"),
@@ -48,8 +53,8 @@ def work(name: str, points: int) -> Callable[[], tuple[int, ...]]:
     if name == "ball":
         ball = broad_spectrum_37(MEMORY_LENGTH)
         return lambda: measuring.padded_shape(ball.solve(grid=points).diagnostics.shape)
-    surface = problems.rough_surface(points)
-    solve = problems.elastic_rough if name == "elastic" else problems.viscoelastic_rough
+    solid = name.partition(",")[0]
+    surface, solve = SURFACES[name.removeprefix(solid)](points), SOLIDS[solid]
     return lambda: solve(surface).pressure.shape
 
 
@@ -80,7 +85,7 @@ def measure(name: str, sizes: list[int], memory_up_to: int) -> list[dict[str, An
 def timed(name: str, points: int) -> tuple[tuple[int, ...], float, float]:
     """Return the shape of the transforms, and the least CPU seconds of a solution and of a pair of FFTs."""
     seconds, pairs, spent = [], [], 0.0
-    while not seconds or (len(seconds) < MOST_REPEATS and spent < REPEATED):
+    while len(seconds) < (MOST_REPEATS if spent < REPEATED else LEAST_REPEATS):
         shape, once = measuring.cpu_seconds(work(name, points))
         seconds.append(once)
         pairs.append(measuring.seconds_per_pair(shape))
@@ -91,7 +96,7 @@ def timed(name: str, points: int) -> tuple[tuple[int, ...], float, float]:
 def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sizes", type=int, nargs="+", default=[256, 512, 1024, 2048, 4096], help="along an edge")
-    names = ["ball", "elastic", "viscoelastic"]
+    names = ["ball", *(solid + kind for kind in SURFACES for solid in SOLIDS)]
     parser.add_argument("--problems", nargs="+", choices=names, default=names)
     parser.add_argument("--memory-up-to", type=int, default=1024, help="points along an edge; 0: not at all")
     parser.add_argument("--json", type=Path)

@@ -27,3 +27,12 @@ def self_affine(
     slopes = [np.fft.irfft2(2j * np.pi * one * noise, (points, points)) for one in (kx, ky)]
     gradient = np.sqrt(np.mean(slopes[0] ** 2 + slopes[1] ** 2))
     return np.fft.irfft2(noise, (points, points)) * (slope / gradient)
+
+
+def refined(z: NDArray[np.float64], points: int) -> NDArray[np.float64]:
+    """Return the same square surface on more points, by its Fourier series."""
+    waves = np.fft.fft2(z)
+    k = np.fft.fftfreq(len(z), 1.0 / len(z)).astype(int)
+    found = np.zeros((points, points), complex)
+    found[np.ix_(k, k)] = waves
+    return np.fft.ifft2(found).real * (points / len(z)) ** 2

@@ -120,9 +120,10 @@ def test_lag_tells_how_late_short_waves_answer_and_which_way() -> None:
 
 
 @pytest.mark.parametrize(("angle", "left"), [(0.0, 0.5), (math.pi, 0.5), (0.6, 0.75)])
-def test_going_on_behind_spares_most_work_where_memories_are_some_cells_long(
+def test_going_on_behind_spares_work_where_memories_are_some_cells_long(
     angle: float, left: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """On a surface with kinks; smooth ones take fewer steps without."""
     points = 256
     z = interpolated(self_affine(32), (points, points))
     z = z if angle != math.pi else np.roll(z[::-1], 1, axis=0)  # the same contact, mirrored

@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from contact.dense_reference import solve_dense_contact
-from contact.made_surfaces import self_affine
+from contact.made_surfaces import refined, self_affine
 from viscofric.contact.layers import Layer
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.solve import solve_periodic
@@ -137,21 +137,12 @@ def test_energy_balance_improves_with_the_grid() -> None:
     coarse = self_affine(32, points_per_shortest_wave=8.0)
     errors = []
     for points in (64, 256):
-        surface = PeriodicSurface(_refined(coarse, points), 1.0 / points)
+        surface = PeriodicSurface(refined(coarse, points), 1.0 / points)
         solution = solve_periodic(broad(), surface, speed=1.0, pressure=0.1)
         assert solution.contact_area_fraction < 0.5
         errors.append(abs(solution.diagnostics.energy))
     assert errors[1] < 0.25 * errors[0]
     assert errors[1] < 3e-3
-
-
-def _refined(z: Array, points: int) -> Array:
-    """Return the same surface on more points, by its Fourier series."""
-    waves = np.fft.fft2(z)
-    k = np.fft.fftfreq(len(z), 1.0 / len(z)).astype(int)
-    found = np.zeros((points, points), complex)
-    found[np.ix_(k, k)] = waves
-    return np.fft.ifft2(found).real * (points / len(z)) ** 2
 
 
 def dense_matrix(points: int, material: vf.Material, velocity: tuple[float, float]) -> Array:
@@ -326,7 +317,7 @@ def test_oblique_ridges_push_along_their_wave_vector(angle: float, speed: float)
 
 def test_lateral_friction_is_that_of_the_turned_axes() -> None:
     """The force is a vector; in partial contact its parts from energy and from the slopes agree as the grid allows."""
-    surface = PeriodicSurface(_refined(self_affine(32, points_per_shortest_wave=8.0), 128), 1.0 / 128)
+    surface = PeriodicSurface(refined(self_affine(32, points_per_shortest_wave=8.0), 128), 1.0 / 128)
     solution = solve_periodic(broad(), surface, speed=0.5, pressure=0.05, direction=(1.0, 2.0))
     x, y = solution.direction
     by_slopes = -float(np.vdot(solution.pressure, surface.slope((-y, x)))) / solution.pressure.sum()
@@ -337,7 +328,7 @@ def test_lateral_friction_is_that_of_the_turned_axes() -> None:
 def test_estimated_friction_error_is_of_the_order_of_the_error() -> None:
     z = self_affine(64, points_per_shortest_wave=4.0)
     solutions = {
-        points: solve_periodic(broad(), PeriodicSurface(_refined(z, points), 1.0 / points), speed=1.0, pressure=0.2)
+        points: solve_periodic(broad(), PeriodicSurface(refined(z, points), 1.0 / points), speed=1.0, pressure=0.2)
         for points in (64, 128, 256, 512)
     }
     reference = solutions[512].friction_coefficient
@@ -467,7 +458,7 @@ def test_work_does_not_grow_with_the_grid(kind: str, speed: float) -> None:
     z = self_affine(64, points_per_shortest_wave=4.0)
     ffts, steps = [], []
     for points in (128, 256, 512):
-        surface = rough(points) if kind == "a rougher one" else PeriodicSurface(_refined(z, points), 1.0 / points)
+        surface = rough(points) if kind == "a rougher one" else PeriodicSurface(refined(z, points), 1.0 / points)
         diagnostics = solve_periodic(broad(), surface, speed=speed, pressure=0.05 * reduced()).diagnostics
         ffts.append(diagnostics.ffts)
         steps.append(diagnostics.linear_iterations)

@@ -35,6 +35,7 @@ _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
 # ρ of the splitting over the smallest compliance of a wave, where coarser grids have settled the long waves.
 _SHORT_WAVES = (2.7, 6.5)
+_SHARES_OF_LAG = (1.0, 0.5)  # in turn, with more directions: oblique motions in particular may not bear the whole of it
 _ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the smallest and the largest
 _GROWTH = 2.0  # of the splitting's steps from round to round
 
@@ -79,9 +80,8 @@ class OneGrid:
         self.cells = math.prod(self.shape)
         self.exact = PeriodicOperator(stage.transfer, self.shape, backend=backend)
         self.single = self.exact.for_corrections()
-        late = lag(stage.transfer, self.shape[1], stage.toward)
-        self.extension = Extension(backend, self.shape, self.single.dtype, stage.toward, late)
-        self.relaxed = stage.relaxed
+        self.stage = stage
+        self.extension = self._extension(1.0)
         self.elastic = not np.iscomplexobj(stage.transfer)
         self.load = None if mean_pressure is None else mean_pressure * self.cells
         self.indentation = None if gap is None else self.mean_height - gap
@@ -98,16 +98,20 @@ class OneGrid:
             pressure = self._first_guess()
         # These find most of the contact set, and cost half of a linear step each.
         kind = 0 if self.elastic else 1
-        few = _FEW_DIRECTIONS[kind]
         pressure = self._split(self.single, pressure, _FIRST_STEPS[kind], self.quick_rho)
-        result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
-        if not result.converged and self.products < self.most_products:
+        result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS[kind], _FEW_PRODUCTS)
+        start = pressure
+        for share in (1.0,) if self.elastic else _SHARES_OF_LAG:
+            if result.converged or self.products >= self.most_products:
+                break
             # A little more of the cheap kind brings most of those that remain near enough.
-            pressure = self._split(self.single, pressure, _MORE_STEPS, self.rho(_ALL_WAVES[0]))
-            result = self._active_set(pressure, 2 * _PATIENCE, few, _FEW_PRODUCTS)
+            pressure = self._split(self.single, start, _MORE_STEPS, self.rho(_ALL_WAVES[0]))
+            self.extension = self._extension(share)
+            result = self._active_set(pressure, 2 * _PATIENCE, _MANY_DIRECTIONS, _FEW_PRODUCTS)
+            start = result.pressure
         if not (result.converged or self.elastic) and self.products < self.most_products:
             allowed = (self.most_products - self.products) // 2
-            found, pressure = continued(self.exact, self.relaxed(), pressure, self._tight_active_set, allowed)
+            found, pressure = continued(self.exact, self.stage.relaxed(), pressure, self._tight_active_set, allowed)
             result = result if found is None else found
         steps, turn = 2 * _MORE_STEPS, 0
         while not result.converged and self.products < self.most_products:
@@ -119,6 +123,12 @@ class OneGrid:
             result = self._active_set(pressure, _PATIENCE, _MANY_DIRECTIONS, allowed)
             steps = int(_GROWTH * steps)
         return result
+
+    def _extension(self, share: float) -> Extension:
+        """Return the extension of residuals, with a share of the lag behind moving edges."""
+        stage = self.stage
+        late = share * lag(stage.transfer, self.shape[1], stage.toward)
+        return Extension(self.backend, self.shape, self.single.dtype, stage.toward, late)
 
     @property
     def quick_rho(self) -> float:
