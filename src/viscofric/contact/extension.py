@@ -122,18 +122,21 @@ class Extension:
             taken = taken | reached
             row, column = cells.indices // ny, cells.indices % ny
             places = [((row + x) % nx) * ny + (column + y) % ny for (x, y), _ in corners]
-            weights = [
-                weight * xp.astype(xp.take(inside, place), self.dtype)
-                for place, (_, weight) in zip(places, corners, strict=True)
-            ]
             fading = self._lag * (1.0 - distance / _TRAIL)
-            scale = fading / sum(weights)
-            # Outside the contact any place among its cells will do, since the weight is zero.
-            last = len(contact) - 1
-            sources = [
-                (xp.clip(xp.searchsorted(contact.indices, place), max=last), weight * scale)
-                for place, weight in zip(places, weights, strict=True)
-            ]
+            if len(places) == 1:
+                sources = [(xp.searchsorted(contact.indices, places[0]), fading)]
+            else:
+                weights = [
+                    weight * xp.astype(xp.take(inside, place), self.dtype)
+                    for place, (_, weight) in zip(places, corners, strict=True)
+                ]
+                scale = fading / sum(weights)
+                # Outside the contact any place among its cells will do, since the weight is zero.
+                last = len(contact) - 1
+                sources = [
+                    (xp.clip(xp.searchsorted(contact.indices, place), max=last), weight * scale)
+                    for place, weight in zip(places, weights, strict=True)
+                ]
             found.append((cells, 1.0 - fading, sources))
         return found
 
