@@ -103,6 +103,19 @@ def test_values_go_on_behind_the_moving_contact(toward: tuple[float, float], way
     assert not changed[~reached].any()
 
 
+@pytest.mark.parametrize("toward", [(1.0, 0.0), (0.6, 0.8), (-1.0, 0.2)])
+def test_contact_that_moves_any_way_is_the_same_by_the_array_standard(toward: tuple[float, float]) -> None:
+    pytest.importorskip("array_api_strict")
+    rubber, surface = vf.Material(SPECTRUM, poisson_ratio=0.4), vf.PeriodicSurface(self_affine(32), 1.0 / 32)
+    one, other = (
+        vf.solve_periodic(rubber, surface, speed=5.0, pressure=0.1, direction=toward, backend=backend)
+        for backend in ("scipy", "array_api_strict")
+    )
+    # Both to 1e-8 of the rms height.
+    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-6)
+    assert abs(other.diagnostics.ffts - one.diagnostics.ffts) <= 10
+
+
 def test_lag_tells_how_late_short_waves_answer_and_which_way() -> None:
     points = 128
     late = {way: lag(sliding(points, way).transfer, points, (1.0, 0.0)) for way in ((30.0, 0.0), (-30.0, 0.0))}

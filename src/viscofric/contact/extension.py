@@ -91,7 +91,6 @@ class Extension:
         xp = self.backend.xp
         share = self._smoothed(xp.astype(contact.chosen, self.dtype))
         scale = self.backend.reciprocal(xp.clip(share, min=_LEAST))
-
         trail = self._trail(contact)
 
         def extended(values: AnyArray) -> AnyArray:
@@ -120,6 +119,8 @@ class Extension:
             )
             cells = self.backend.cells(reached & ~taken)
             taken = taken | reached
+            if len(cells) == 0:
+                continue
             row, column = cells.indices // ny, cells.indices % ny
             places = [((row + x) % nx) * ny + (column + y) % ny for (x, y), _ in corners]
             fading = self._lag * (1.0 - distance / _TRAIL)
