@@ -4,7 +4,7 @@ Usage: python benchmarks/contact/random_rough.py [--contacts 200] [--seed 8] [--
 
 64² to 256² points; 1 to 24 modes at random over seven decades, E_inf/E0 from 2 to 1e4; Hurst exponents from 0.3 to 1, 3
 to 16 points in the shortest wave; speeds over six decades, loads over four, along x or any direction; one in five on a
-layer, half of them with oblong cells.  A contact that is not solved is counted, not left out.
+layer, every other one on oblong cells.  A contact that is not solved is counted, not left out.
 """
 
 from __future__ import annotations

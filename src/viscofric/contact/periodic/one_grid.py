@@ -33,9 +33,9 @@ _FEW_PRODUCTS = 300  # enough for most contacts, where what follows is not neede
 _FIRST_STEPS = (5, 7)  # of the splitting on each grid, likewise
 _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
+_SHARES_OF_LAG = (1.0, 0.5)  # in turn, with more directions: oblique motions in particular may not bear the whole of it
 # ρ of the splitting over the smallest compliance of a wave, where coarser grids have settled the long waves.
 _SHORT_WAVES = (2.7, 6.5)
-_SHARES_OF_LAG = (1.0, 0.5)  # in turn, with more directions: oblique motions in particular may not bear the whole of it
 _ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the smallest and the largest
 _GROWTH = 2.0  # of the splitting's steps from round to round
 
