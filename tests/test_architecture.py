@@ -28,6 +28,7 @@ ROOMS = {
     "base": (
         "units",
         "errors",
+        "notes",
         "files",
         "data",
         "traction",

@@ -1,0 +1,51 @@
+"""A note: a sentence about a result, with a code by which programs and tests recognise it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+class Note(str):
+    """One sentence for people, with a code for programs.
+
+    A note is text, so it prints, joins and is stored as its sentence; nothing needs to read the sentence to know what
+    it is about.
+
+    Parameters
+    ----------
+    code : str
+        What the note is about, in lower case with hyphens, such as ``"few-replicates"``. Codes stay the same when a
+        sentence is reworded.
+    text : str
+        The sentence.
+
+    Attributes
+    ----------
+    code : str
+        As given.
+    """
+
+    code: str
+
+    def __new__(cls, code: str, text: str) -> Note:
+        """Return the sentence with its code."""
+        note = super().__new__(cls, text)
+        note.code = code
+        return note
+
+    def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]  # pickled with its code
+        return self.code, str(self)
+
+
+def codes(notes: Iterable[str]) -> set[str]:
+    """Return the codes of those notes that have one.
+
+    Parameters
+    ----------
+    notes : iterable of str
+        Notes, and sentences without a code, which are passed over.
+    """
+    return {note.code for note in notes if isinstance(note, Note)}
