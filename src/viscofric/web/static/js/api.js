@@ -10,6 +10,9 @@
  * downloadUrl(name), workspace
  */
 
+import { computedFrom } from "./inputs.js";
+import { state } from "./state.js";
+
 const MOST_STREAMS = 4;
 const LARGEST_UPLOAD = 20e6; // bytes
 
@@ -66,6 +69,10 @@ async function ask(address, options = {}) {
 }
 
 export async function runJob(kind, { study = {}, options = {} } = {}, { onProgress, onPart, signal } = {}) {
+  const own = (found) => {
+    computedFrom(found, kind, study);
+    return found;
+  };
   return inTurn(signal, async () => {
     const answer = await ask(`/api/jobs/${encodeURIComponent(kind)}`, {
       method: "POST",
@@ -75,8 +82,8 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
     });
     for await (const message of messages(answer.body)) {
       if (message.event === "progress") onProgress?.(message);
-      else if (message.event === "part") onPart?.(message.part);
-      else if (message.event === "result") return message.result;
+      else if (message.event === "part") onPart?.(own(message.part));
+      else if (message.event === "result") return own(message.result);
       else if (message.event === "error") throw new JobError(message.message, message.field, message.problems);
     }
     throw new JobError("The program behind this page ended before the answer came; start it again with: viscofric web");
@@ -194,6 +201,7 @@ export async function uploadFiles(files) {
     const answer = await ask(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
     names.push((await answer.json()).name);
   }
+  state.renew(names);
   return names;
 }
 

@@ -64,6 +64,7 @@ export function contactFigures({ figures, fields }) {
     const { x, y, pressure } = answer.map;
     const rough = answer.kind === "rough";
     map.update({
+      of: answer,
       x,
       y,
       z: pressure,
@@ -150,6 +151,7 @@ export function contactFigures({ figures, fields }) {
     }
     const marks = rough ? [] : [{ x: 0 }, { x: answer.numbers.centre_of_pressure.value, label: "load acts here" }];
     profile.update({
+      of: answer,
       traces,
       marks,
       synthetic,
@@ -173,6 +175,7 @@ export function contactFigures({ figures, fields }) {
     const top = rough ? undefined : high + 0.6 * (high - low);
     const near = kept(indenter).map((height) => (top === undefined || height <= top ? height : null));
     surface.update({
+      of: answer,
       traces: [
         { name: noun, x: kept(x), y: near, colour: MARK, width: 2 },
         { name: "rubber", x, y: rubber, colour: "vermilion", width: 2.5 },

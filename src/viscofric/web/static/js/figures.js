@@ -5,6 +5,7 @@
 //   x: {label: "speed", kind: "speed", log: true}, y: {label: "friction coefficient"},
 //   traces: [{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size,
 //             lower, upper (a band around y), error (bars, SI), hidden, legend: false, text, width}],
+//   of: the answer of a job that is drawn: the figure is grey while the study's inputs are others (inputs.js),
 //   marks: [{x | y, label}] (lines across the figure), height, empty: "what is said without data", synthetic: true,
 //   layout: {…plotly}, onClick: (point) => … })
 // handle.update({traces: …})    changes parts of the spec and draws again
@@ -17,6 +18,7 @@
 import { layoutOf, mapTraces, plotlyTraces } from "./figure_drawing.js";
 import { isDark } from "./figure_look.js";
 import { csv, described, hasData, numbers } from "./figure_numbers.js";
+import { forget, shows } from "./inputs.js";
 import { button, h, table } from "./parts.js";
 import * as units from "./units.js";
 
@@ -68,6 +70,7 @@ export function figure(container, first) {
   let spec = { traces: [], ...first };
   let drawnOnce = false;
   let waiting = false;
+  let drawn = null; // the spec that was drawn; another one is owed
   const plot = h("div", { class: "plot", role: "img" });
   const empty = h("p", { class: "plot-empty" });
   const stage = h("div", { class: "stage" }, plot, empty);
@@ -102,8 +105,10 @@ export function figure(container, first) {
   container.append(element);
 
   function download(format) {
-    if (format === "csv") return save(`${spec.id}.csv`, csv(spec), "text/csv");
-    return savePicture(spec, format);
+    const stale = element.classList.contains("stale");
+    const kept = stale ? { ...spec, id: `${spec.id}_earlier_inputs`, title: `${spec.title} (earlier inputs)` } : spec;
+    if (format === "csv") return save(`${kept.id}.csv`, csv(kept), "text/csv");
+    return savePicture(kept, format);
   }
 
   function showTable(open) {
@@ -139,8 +144,12 @@ export function figure(container, first) {
     plot.setAttribute("aria-label", described(spec));
     if (spec.height) stage.style.height = `${spec.height}px`;
     fillTable();
-    if (!stage.isConnected || stage.clientWidth === 0) return; // drawn when it is seen
+    if (!stage.isConnected || stage.clientWidth === 0) {
+      drawn = null;
+      return; // drawn when it is seen
+    }
     const Plotly = await drawing();
+    drawn = spec;
     const dark = isDark();
     const data = spec.z ? mapTraces(spec, dark) : plotlyTraces(spec, dark);
     await Plotly.react(plot, there ? data : [], layoutOf(spec, dark, false), {
@@ -176,9 +185,11 @@ export function figure(container, first) {
     requestAnimationFrame(() => (busy = busy.then(draw).catch((error) => (empty.textContent = error.message))));
   }
 
-  const size = new ResizeObserver(() =>
-    drawnOnce && stage.clientWidth > 0 ? window.Plotly.Plots.resize(plot) : ask(),
-  );
+  const size = new ResizeObserver(() => {
+    if (stage.clientWidth === 0) return;
+    if (drawnOnce && drawn === spec) window.Plotly.Plots.resize(plot);
+    else ask();
+  });
   size.observe(stage);
   const handle = {
     element,
@@ -188,6 +199,7 @@ export function figure(container, first) {
     },
     update(changes) {
       spec = { ...spec, ...changes };
+      shows(element, spec.of);
       ask();
       return handle;
     },
@@ -195,6 +207,7 @@ export function figure(container, first) {
     remove() {
       size.disconnect();
       live.delete(handle);
+      forget(element);
       if (drawnOnce) window.Plotly.purge(plot);
       element.remove();
     },

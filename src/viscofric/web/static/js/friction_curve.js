@@ -10,19 +10,19 @@ import {
   speedsOf,
   valuesOf,
 } from "./curve_traces.js";
+import { DEPENDS_ON, isCurrent, outdated, shows, studyOf } from "./inputs.js";
 
-// Tables of the study that a curve depends on.
-const WATCHED = ["material", "indenter", "surface", "layer", "conditions", "solver", "sweep", "uncertainty"];
 const RESTS = 350; // ms, after the last change of the form
 const VIEWS = { speed: "against speed", shifted: "against shifted speed α(T)·v" };
 const MOST_FAILURES = 5;
 
+const missingOf = (result) => result.friction.filter((value) => value === null).length;
 const hasPoints = (curve) => Boolean(curve?.points?.friction.some((value) => value !== null));
 
 /** Make the card.  onPick({speed, temperature}) is called for a point that was clicked, onPick({}) for another combination. */
-export function frictionCard({ state, units, figures, fields, api, announce, waits }, { onPick }) {
+export function frictionCard({ state, units, figures, fields, api, announce, waits, isSynthetic }, { onPick }) {
   const { h, button } = fields;
-  let curve = null; // that is shown: {layout, points, result}
+  let curve = null; // that is shown: {answer, layout, points, result}; the answer is the job's part or result
   let before = null; // that is shown in grey till there is something to show
   let pinned = null; // that is kept for comparison
   let live = null;
@@ -96,18 +96,20 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
       ...ghostTraces(pinned, look, "kept", "6px,4px"),
       ...(hasPoints(curve) ? [] : ghostTraces(before, look, "before", "solid")),
       ...curveTraces(curve, look, { units, figures }),
-      ...liveTrace(live, look, units),
+      ...liveTrace(isCurrent(live) ? live : null, look, units),
     ];
     const speed = shifted ? `α(T)·v at ${units.show(curve.layout.reference, "temperature")}` : "speed";
     handle.update({
+      of: curve.answer,
       title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "shifted speed" : "speed"}`,
       caption: caption(shifted),
       x: { label: speed, kind: "speed", log: true, range: speedsOf(curve, look) },
       y: log.checked ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
       temperatures: curve.layout.temperature,
-      synthetic: !document.getElementById("synthetic").hidden,
+      synthetic: isSynthetic(studyOf(curve.answer)),
       traces,
     });
+    for (const one of [told, checked]) shows(one, curve.answer);
     pin.disabled = !pinned && !curve.result;
     pin.textContent = pinned ? "Remove the kept curve" : "Keep for comparison";
   }
@@ -146,9 +148,8 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
       if (hasPoints(curve)) before = curve;
       const cases = part.layout.speed;
       const points = { friction: cases.map(() => null), known: cases.map(() => false) };
-      curve = { layout: part.layout, points, result: null };
+      curve = { answer: part, layout: part.layout, points, result: null };
       told.set([]);
-      handle.element.classList.remove("stale");
       checked.hidden = true;
       offer();
     } else {
@@ -162,15 +163,23 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
 
   function finish(result) {
     const points = { friction: result.friction, known: result.friction.map((value) => value !== null) };
-    curve = { layout: result, points, result };
+    curve = { answer: result, layout: result, points, result };
     before = null;
     const unresolved = result.doubts.filter((words) => words.includes("unresolved")).length;
     const said =
       `At ${unresolved} of ${result.speed.length} points the grid does not resolve friction to the accuracy asked for; ` +
       "their error bars tell how well it does.";
-    handle.element.classList.remove("stale");
     told.set([...result.warnings, ...(unresolved ? [said] : [])]);
-    failed.set(result.failures.slice(0, MOST_FAILURES));
+    const missing = missingOf(result);
+    const more = missing > MOST_FAILURES ? ` The first ${MOST_FAILURES}:` : "";
+    failed.set(
+      missing
+        ? [
+            `${missing} of ${result.speed.length} conditions have no solution.${more}`,
+            ...result.failures.slice(0, MOST_FAILURES),
+          ]
+        : [],
+    );
     notes.set(result.notes);
     const marks = { true: "✓ ", false: "Look at this: ", null: "Not known: " };
     checks.set(result.checks.map((one) => `${marks[one.holds]}${one.sentence}`));
@@ -196,8 +205,10 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
       const result = await api.runJob("curve", { study: state.study, options: {} }, heard);
       if (running !== mine) return;
       finish(result);
-      bar.finish(`${result.speed.length} points in ${units.plainNumber((performance.now() - begun) / 1000, 2)} s`);
-      announce(`The friction curve is there, ${result.speed.length} points.`);
+      const missing = missingOf(result);
+      const points = `${missing ? `${result.speed.length - missing} of ` : ""}${result.speed.length} points`;
+      bar.finish(`${points} in ${units.plainNumber((performance.now() - begun) / 1000, 2)} s`);
+      announce(`The friction curve is there, ${points}.`);
     } catch (error) {
       if (running !== mine) return;
       bar.finish(error.name === "AbortError" ? "Cancelled." : "");
@@ -208,12 +219,12 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
 
   function fail(error) {
     failed.set([waits("The friction curve", error, "curve")]);
-    handle.element.classList.add("stale");
+    outdated(curve?.answer);
     handle.update({ caption: curve ? "The curve before the last change." : "", empty: "No curve yet." });
     state.setResult("curve", null);
   }
 
-  state.subscribe(WATCHED, () => {
+  state.subscribe(DEPENDS_ON.curve, () => {
     clearTimeout(timer);
     timer = setTimeout(solve, RESTS);
   });

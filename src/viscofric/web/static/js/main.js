@@ -12,14 +12,20 @@ import * as units from "./units.js";
 const { h } = fields;
 const STEPS = [lazy.sweeps, lazy.shift, lazy.spectrum, contact, lazy.measurement, lazy.exported];
 // Where the fields of a study's tables are, but for those of a rubber that other steps have.
-const PLACES = { material: "sweeps", measurement: "measurement", outputs: "export", title: "export", cluster: "export" };
+const PLACES = {
+  material: "sweeps",
+  measurement: "measurement",
+  outputs: "export",
+  title: "export",
+  cluster: "export",
+};
 const OF_RUBBER = {
   shift: ["shift", "vertical_shift", "shift_factors", "fixed_shift_factors"],
   spectrum: ["spectrum", "modes", "tau_ratio"],
 };
 const FIRST = "contact";
 
-const app = { state, units, figures, fields, api, start: null, goTo, announce, explain, waits };
+const app = { state, units, figures, fields, api, start: null, goTo, announce, explain, waits, isSynthetic };
 const steps = new Map();
 let current = null;
 
@@ -122,10 +128,16 @@ function addStep(module, number) {
   steps.set(id, { id, title, module, link, summary, section, heading, body, mounted: false });
 }
 
+/** Whether a study rests on synthetic data. */
+function isSynthetic(study) {
+  const names = [study.material ?? []].flat().map((material) => material.catalogue);
+  return (
+    study.data_origin === "synthetic" || app.start.catalogue.some((one) => one.synthetic && names.includes(one.name))
+  );
+}
+
 function showSynthetic() {
-  const name = state.get("material.catalogue");
-  const entry = app.start.catalogue?.find((one) => one.name === name);
-  document.getElementById("synthetic").hidden = !(entry?.synthetic || state.get("data_origin") === "synthetic");
+  document.getElementById("synthetic").hidden = !isSynthetic(state.study);
 }
 
 /** A problem without a field on the page, with what it is about before its sentence. */

@@ -6,6 +6,8 @@
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
 // state.change({path: value, …})    changes several keys as one step of undo
 // state.replace(document)           another document altogether
+// state.renew(names)                files of these names have other contents: what depends on them is told as of a change
+// state.renewals(name)              how often that happened
 // state.subscribe(paths, callback)  callback({changed: [paths]}) after a change of one of these paths or below ("" is all);
 //                                   returns what ends the subscription
 // state.undo(), state.redo(), state.canUndo, state.canRedo
@@ -27,7 +29,7 @@ export function partsOf(path) {
 
 const isTables = (value) => Array.isArray(value) && typeof value[0] === "object";
 
-function valueAt(document, path) {
+export function valueAt(document, path) {
   return partsOf(path).reduce((value, part) => {
     const here = isTables(value) && typeof part === "string" ? value[0] : value;
     return here === undefined || here === null ? undefined : here[part];
@@ -87,6 +89,7 @@ function createState() {
   const listeners = new Set();
   const results = new Map();
   const resultListeners = new Set();
+  const renewed = new Map();
 
   function tell(changed) {
     store(KEY, { study, past, future });
@@ -139,6 +142,14 @@ function createState() {
       become(next, Object.keys(values));
     },
     replace: (document) => become(structuredClone(document), [""]),
+    renew(names) {
+      const mentions = (value) =>
+        value && typeof value === "object" ? Object.values(value).some(mentions) : names.includes(value);
+      for (const name of names) renewed.set(name, (renewed.get(name) ?? 0) + 1);
+      const changed = Object.keys(study).filter((table) => mentions(study[table]));
+      if (changed.length) tell(changed);
+    },
+    renewals: (name) => renewed.get(name) ?? 0,
     undo: () => move(past, future),
     redo: () => move(future, past),
     subscribe(paths, callback) {

@@ -4,7 +4,8 @@
 //                         the job's (jobs/rubber.py), without its bands until `complete`
 // and what else the steps about the rubber share
 
-const PATHS = ["material", "uncertainty"];
+import { DEPENDS_ON } from "../inputs.js";
+
 const WAIT = 150; // ms after the last change
 
 export const SOURCES = [
@@ -31,7 +32,7 @@ export function follow(app, callback) {
   followers.add(callback);
   if (!started) {
     started = true;
-    app.state.subscribe(PATHS, () => {
+    app.state.subscribe(DEPENDS_ON.rubber, () => {
       clearTimeout(timer);
       timer = setTimeout(() => make(app), WAIT);
     });
@@ -57,7 +58,7 @@ async function make(app) {
   app.fields.clearError("rubber");
   const take = (answer, complete) => {
     if (running === mine)
-      become({ answer: { ...answer, made_of: material }, complete, error: null, running: !complete });
+      become({ answer: Object.assign(answer, { made_of: material }), complete, error: null, running: !complete });
   };
   try {
     const study = uncertainty === undefined ? { material } : { material, uncertainty };

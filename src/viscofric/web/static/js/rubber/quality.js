@@ -73,6 +73,7 @@ export function qualityCards(app) {
     const curves = check.diagrams[diagram];
     const temperatures = curves.map((one) => one.temperature);
     points.update({
+      of: answer,
       title,
       x,
       y,
@@ -93,6 +94,7 @@ export function qualityCards(app) {
       })),
     });
     distances.update({
+      of: answer,
       synthetic: synthetic(answer, app),
       traces: [
         {
@@ -126,6 +128,7 @@ export function qualityCards(app) {
       };
     };
     causal.update({
+      of: answer,
       synthetic: synthetic(answer, app),
       marks: [{ y: found.allowed, label: "allowed rms of E′" }, { y: -found.allowed }],
       traces: [true, false].flatMap((judged) => [

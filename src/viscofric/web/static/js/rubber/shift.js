@@ -1,5 +1,6 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
+import { shows } from "../inputs.js";
 import { decades, follow, sourceOf, synthetic } from "./made.js";
 import { qualityCards } from "./quality.js";
 import { shiftedCard } from "./shifted.js";
@@ -81,6 +82,7 @@ export function mount(section, app) {
     problem.set(now.error ? [app.explain(now.error, "shift")] : []);
     const { answer } = now;
     const shift = answer?.shift;
+    for (const one of [verdict, laws, notes, limits]) shows(one, answer);
     nothing.set(
       answer && !shift ? ["This rubber has no shift with temperature: it serves at one temperature only."] : [],
     );
@@ -92,12 +94,12 @@ export function mount(section, app) {
     quality.show(answer);
     notes.set(answer?.notes ?? []);
     if (!shift) return;
-    alpha.update(alphaFigure(answer, app));
+    alpha.update({ of: answer, ...alphaFigure(answer, app) });
     limits.textContent = limitsInWords(shift, app);
     explanation.textContent = shift.explanation;
     table.replaceChildren(lawTable(shift, app));
-    residual.update({ traces: residualTraces(shift), synthetic: synthetic(answer, app) });
-    if (shift.vertical) b.update(verticalFigure(shift.vertical, answer, app));
+    residual.update({ of: answer, traces: residualTraces(shift), synthetic: synthetic(answer, app) });
+    if (shift.vertical) b.update({ of: answer, ...verticalFigure(shift.vertical, answer, app) });
   };
   let last = null;
   follow(app, (now) => show((last = now)));

@@ -173,6 +173,7 @@ export function shiftedCard(app) {
     const temperatures = isotherms.map((one) => one.temperature);
     const [, label] = QUANTITIES.find(([key]) => key === quantity);
     handle.update({
+      of: answer,
       caption: [byTemperature(temperatures, app), isotherms.some((one) => one.held) ? "Squares are held by hand." : ""]
         .filter(Boolean)
         .join(" "),

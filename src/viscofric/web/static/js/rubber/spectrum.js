@@ -1,5 +1,6 @@
 // Step 3: the spectrum, E'(ω) and E''(ω) at any temperature with their bands, and what the fit leaves unexplained.
 
+import { shows } from "../inputs.js";
 import { follow, named, pick, synthetic, worded } from "./made.js";
 import { settings, temperatureChoice } from "./spectrum_form.js";
 import { caption, keyNumbers, modesFigure, modesTable, modulusTraces, tangentTraces } from "./spectrum_figures.js";
@@ -119,8 +120,10 @@ export function mount(section, app) {
     };
     const madeUp = synthetic(answer, app);
     const title = here.temperature === null ? "E′ and E″" : `E′ and E″ at ${named(here.temperature, app)}`;
-    modulus.update({ title, synthetic: madeUp, caption: caption(answer, here, app), traces: modulusTraces(here) });
+    const of = moved ?? answer;
+    modulus.update({ of, title, synthetic: madeUp, caption: caption(answer, here, app), traces: modulusTraces(here) });
     tangent.update({
+      of,
       title: here.temperature === null ? "tan δ" : `tan δ at ${named(here.temperature, app)}`,
       synthetic: madeUp,
       traces: tangentTraces(here),
@@ -129,6 +132,7 @@ export function mount(section, app) {
     if (spectrum.residual) {
       const x = spectrum.measured.angular_frequency;
       residual.update({
+        of: answer,
         synthetic: madeUp,
         marks: [{ y: 0 }],
         traces: [
@@ -148,7 +152,7 @@ export function mount(section, app) {
     }
     fourth.hidden = !spectrum.modes;
     if (spectrum.modes) {
-      modes.update(modesFigure(answer, kind, madeUp));
+      modes.update({ of: answer, ...modesFigure(answer, kind, madeUp) });
       table.replaceChildren(modesTable(spectrum, app));
     }
   };
@@ -162,6 +166,7 @@ export function mount(section, app) {
     const { answer } = now;
     for (const one of [first, second, third, fourth]) one.hidden = !answer;
     numbers.set(answer ? keyNumbers(answer, app) : []);
+    for (const one of [numbers, doubts, table]) shows(one, answer);
     doubts.set(
       answer ? [...(answer.spectrum.fit?.notes ?? []), ...answer.spectrum.notes, ...(answer.band?.notes ?? [])] : [],
     );

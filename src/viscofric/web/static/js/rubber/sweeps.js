@@ -1,5 +1,6 @@
 // Step 1: where the rubber comes from; what its files were taken for, what they hold, and what was flagged in them.
 
+import { shows } from "../inputs.js";
 import { FIRST_REFERENCE, follow, named, sourceOf } from "./made.js";
 import { fileTable, flaggedTable, isothermFigure, keyNumbers } from "./sweeps_figures.js";
 import { sourceForm } from "./sweeps_form.js";
@@ -77,6 +78,7 @@ export function mount(section, app) {
 
   const show = (answer) => {
     form.show(answer);
+    for (const one of [numbers, files, flagged, notes]) shows(one, answer);
     numbers.set(answer ? keyNumbers(answer, app) : []);
     notes.set(answer ? [...(answer.about ?? []), ...answer.notes] : []);
     files.replaceChildren(...fileTable(answer, app));
@@ -85,7 +87,7 @@ export function mount(section, app) {
     const sweeps = answer?.source === "dma";
     pictures.hidden = !answer;
     for (const { handle, key, label, primes, place } of figures) {
-      if (sweeps) handle.update(isothermFigure(answer, { key, label, primes }, app));
+      if (sweeps) handle.update({ of: answer, ...isothermFigure(answer, { key, label, primes }, app) });
       place.hidden = !sweeps && key === "loss_tangent";
     }
     if (answer && !sweeps) showReady();
@@ -101,6 +103,7 @@ export function mount(section, app) {
     for (const { handle, key, label } of figures) {
       if (key === "loss_tangent") continue;
       handle.update({
+        of: answer,
         title: `${label[0].toUpperCase()}${label.slice(1)}${at}`,
         caption: "",
         synthetic: answer.synthetic,

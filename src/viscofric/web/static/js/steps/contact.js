@@ -4,23 +4,13 @@ import { contactFigures } from "../contact_fields.js";
 import { contactForm, nounOf } from "../contact_form.js";
 import { numbersOf, whyItLeans } from "../contact_words.js";
 import { frictionCard } from "../friction_curve.js";
+import { DEPENDS_ON, outdated, shows, studyOf } from "../inputs.js";
 import { follow } from "../live.js";
 import { welcome } from "../welcome.js";
 
 const STEPS = 400; // of the speed's slider
 const DECADE = 1; // beyond the speeds of the study, on either side
 const BEYOND = 15; // K beyond its temperatures
-const WATCHED = [
-  "material",
-  "indenter",
-  "surface",
-  "layer",
-  "conditions.load",
-  "conditions.pressure",
-  "conditions.direction",
-  "solver",
-  "sweep",
-];
 
 /** The ends of the quantities that the document gives as one value, a list or a range; null where they cannot be read. */
 export function endsOf(given, kind, units) {
@@ -72,7 +62,7 @@ function mount(section, app) {
       // a position beyond the rubber is the sliders', no field's
       const beyond = error.field === "conditions.temperature";
       failed.set([beyond ? error.message : app.waits("The contact", error, "live")]);
-      section.querySelector(".live-contact").classList.add("stale");
+      outdated(answer);
     },
     busy: (stage) =>
       (status.textContent = {
@@ -150,13 +140,13 @@ function mount(section, app) {
   }
 
   function show(found, where) {
-    answer = { ...found, combination: where.combination };
+    answer = Object.assign(found, { combination: where.combination });
     const noun = nounOf(where.study);
     failed.set([]);
     fields.clearError("live");
-    section.querySelector(".live-contact").classList.remove("stale");
+    for (const one of [numbers, rows.parentElement, why.parentElement, number]) shows(one, answer);
     number.set(found.warnings);
-    pictures.show(found, { noun, synthetic: !document.getElementById("synthetic").hidden });
+    pictures.show(found, { noun, synthetic: app.isSynthetic(studyOf(found)) });
     curve.mark(answer);
     words();
     state.setResult("contact", answer);
@@ -211,7 +201,7 @@ function mount(section, app) {
   }
 
   let timer = null;
-  state.subscribe(WATCHED, () => {
+  state.subscribe(DEPENDS_ON.contact, () => {
     clearTimeout(timer);
     timer = setTimeout(() => moveTo({}), 200);
   });

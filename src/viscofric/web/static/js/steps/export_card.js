@@ -1,5 +1,7 @@
 // The rubber as a card for finite-element programs; and how texts are copied and files are fetched.
 
+import { isCurrent } from "../inputs.js";
+
 const PROGRAMS = [
   ["abaqus", "Abaqus"],
   ["ansys", "ANSYS"],
@@ -118,6 +120,7 @@ export function cardCard(app) {
       if (ratio && !Number.isFinite(options.poisson_ratio))
         throw new Error(`Poisson's ratio: ${ratio} is not a number, such as 0.499.`);
       const found = await app.api.runJob("export-card", { study: app.state.study, options });
+      if (!isCurrent(found)) throw new Error("The material has changed since; write the card again.");
       text.textContent = found.text;
       text.hidden = false;
       notes.set(found.notes);

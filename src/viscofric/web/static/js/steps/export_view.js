@@ -1,5 +1,6 @@
 // The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
+import { isCurrent } from "../inputs.js";
 import { cardCard, copyButton, fileLine } from "./export_card.js";
 
 /** Fill the step. */
@@ -163,7 +164,10 @@ function studyCard(app) {
     }
   }
 
+  const changed = () => bar.finish("The study has changed since; run it again.");
+
   function show(found, seconds) {
+    if (!isCurrent(found)) return changed();
     const said = `Done in ${seconds < 90 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`}.`;
     bar.finish(said);
     numbers.set([
@@ -188,7 +192,7 @@ function studyCard(app) {
   app.state.subscribe("", () => {
     if (files.children.length === 0) return;
     clear();
-    bar.finish("The study has changed since; run it again.");
+    changed();
     app.state.setResult("export", undefined);
   });
   return card(

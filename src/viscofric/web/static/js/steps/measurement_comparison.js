@@ -1,5 +1,6 @@
 // Measured friction beside the prediction for the page's rubber and ball, and what else the test tells.
 
+import { shows } from "../inputs.js";
 import { checkFigure, coulombFigure, frictionFigure, zeroFigure } from "./measurement_figures.js";
 import { checkList, folded, repeated } from "./measurement_parts.js";
 
@@ -63,17 +64,20 @@ export function comparison(app, step, { changed }) {
   });
 
   function showMeasured(result) {
-    figure.update(frictionFigure(result, null, step.data()));
+    figure.update({ of: result, ...frictionFigure(result, null, step.data()) });
     for (const { of, place, handle } of others) {
       const changes = of(result, step.data());
       place.hidden = changes.traces.length === 0;
-      handle.update(changes);
+      handle.update({ of: result, ...changes });
     }
   }
 
   function show(result) {
     state.setResult("agreement", result);
-    figure.update(frictionFigure(state.result("measured"), result, result ? step.synthetic() : step.data()));
+    const measured = state.result("measured");
+    const synthetic = result ? step.synthetic() : step.data();
+    figure.update({ of: result ?? measured, ...frictionFigure(measured, result, synthetic) });
+    for (const one of [key, verdict, warnings, byTemperature, checks]) shows(one, result);
     key.set((result?.key ?? []).map(({ name, value, remark }) => ({ label: name, value, remark })));
     key.hidden = !result?.key.length;
     verdict.set(result ? [...result.sentences.slice(0, 1), ...result.notes] : []);

@@ -1,5 +1,6 @@
 // The rubber behind measured friction: what fixes its level, the computation, and what it tells.
 
+import { shows } from "../inputs.js";
 import { fitFigure, modulusFigure } from "./measurement_inverse.js";
 import { optionChoice, optionField, repeated } from "./measurement_parts.js";
 
@@ -120,8 +121,9 @@ export function identification(app, step, { alone }) {
     state.setResult("identified", found);
     results.hidden = false;
     const made = alone() ? step.data() : step.synthetic();
-    modulus.update(modulusFigure(found, made));
-    fit.update(fitFigure(found, state.result("measured"), made));
+    modulus.update({ of: found, ...modulusFigure(found, made) });
+    fit.update({ of: found, ...fitFigure(found, state.result("measured"), made) });
+    for (const one of [told, family]) shows(one, found);
     const at =
       found.anchor &&
       `Anchored to |E| = ${app.units.show(found.anchor.modulus, "modulus")} at ${app.units.show(found.anchor.angular_frequency, "angular_frequency")} and ${app.units.show(found.anchor.temperature, "temperature")}.`;

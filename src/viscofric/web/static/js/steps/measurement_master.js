@@ -1,5 +1,6 @@
 // Friction of all temperatures on one curve, by the rubber's shift factors and by those that friction itself tells.
 
+import { shows } from "../inputs.js";
 import { factorsFigure, masterFigure } from "./measurement_inverse.js";
 import { definitions, optionChoice, repeated } from "./measurement_parts.js";
 
@@ -92,8 +93,9 @@ export function masterCurve(app, step, { changed }) {
     // The prediction is made with the rubber's shift factors.
     const along = shown && shown === result.by_rubber ? state.result("agreement")?.along : null;
     const synthetic = alone() ? step.data() : step.synthetic();
-    curve.update(masterFigure(shown, along, synthetic));
-    factors.update(factorsFigure(result, synthetic));
+    curve.update({ of: result, ...masterFigure(shown, along, synthetic) });
+    factors.update({ of: result, ...factorsFigure(result, synthetic) });
+    for (const one of [notes, words]) shows(one, result);
     words.set(result?.found?.words ?? result?.by_rubber?.words ?? []);
   }
 

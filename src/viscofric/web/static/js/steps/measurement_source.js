@@ -1,5 +1,6 @@
 // Where measured friction comes from: files, what was recognised in them, and how they are separated.
 
+import { computedFrom, keyOf, shows } from "../inputs.js";
 import { checkList, definitions, folded, repeated } from "./measurement_parts.js";
 
 /** Whole numbers that people typed, parted by commas. */
@@ -119,11 +120,14 @@ export function source(app, { done, gone }) {
   }
 
   function show(result) {
-    current = JSON.stringify(result.table);
+    const study = { ...state.study, measurement: result.table };
+    current = keyOf("measured", study);
+    computedFrom(result, "measured", study);
     state.setResult("measured", result);
     const origin = result.synthetic ? { data_origin: "synthetic" } : {};
     state.change({ measurement: result.table, ...origin });
     badge.hidden = !result.synthetic;
+    for (const one of [facts, checks, refusal, notes, steps]) shows(one, result);
     facts.set([...result.recognised, ...(result.lines ?? [])]);
     checks.set(result.checks ?? []);
     refusal.set(result.refusal ? [`The friction cannot be separated: ${result.refusal}`] : []);
@@ -160,7 +164,7 @@ export function source(app, { done, gone }) {
       job.stop();
       more.hidden = true;
       forget();
-    } else if (JSON.stringify(table) !== current) job.run(state.study);
+    } else if (keyOf("measured", state.study) !== current) job.run(state.study);
   }
 
   more.hidden = true;

@@ -1,12 +1,13 @@
 // The measurement step put together: a change of the measurement, or of what it is laid beside, computes what rests on it.
 
+import { DEPENDS_ON } from "../inputs.js";
 import { comparison } from "./measurement_comparison.js";
 import { identification } from "./measurement_identify.js";
 import { masterCurve } from "./measurement_master.js";
 import { source } from "./measurement_source.js";
 
 /** What the prediction and the master curve rest on, besides the measurement. */
-const RESTS_ON = ["material", "indenter", "layer", "surface", "solver", "uncertainty", "conditions.thickness"];
+const RESTS_ON = DEPENDS_ON.agreement.filter((path) => path !== "measurement");
 const WAIT = 400; // ms after the last change
 
 /** What parts of the step ask of each other: whether the measurement is made up, and whether it or the rubber is. */

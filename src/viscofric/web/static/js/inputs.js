@@ -1,0 +1,96 @@
+// Which inputs a result was computed from; what shows a result of other inputs than the study's is grey, with a word.
+//
+// computedFrom(answer, kind, study)    remembers from which study a job of this kind answered (api.js does it for each answer)
+// studyOf(answer)                      that study
+// isCurrent(answer)                    whether the study's inputs are still the same
+// outdated(answer)                     its inputs could not be computed again: it counts as a result of earlier ones
+// shows(element, answer)               the element shows this answer (null: none); it is grey while the study's inputs are others
+// forget(element)                      ends that
+// DEPENDS_ON[kind]                     the inputs of a job, as paths of the study
+// keyOf(kind, study)                   names the inputs of a job; equal inputs have equal keys
+//
+// An element has its key in data-inputs, and the class "stale", which the style sheet greys and words, while the study's
+// inputs have another.
+
+import { state, valueAt } from "./state.js";
+
+const MATERIAL = ["material", "uncertainty"];
+const CONTACT = ["material", "indenter", "surface", "layer", "solver"];
+const PREDICTED = [...CONTACT, "uncertainty", "conditions.thickness", "measurement"];
+
+/** Paths of the study on which the answers of a job depend. */
+export const DEPENDS_ON = {
+  sweeps: ["material"],
+  rubber: MATERIAL,
+  moduli: MATERIAL,
+  curve: [...CONTACT, "conditions", "sweep", "uncertainty"],
+  contact: [...CONTACT, "conditions.load", "conditions.pressure", "conditions.direction", "sweep"],
+  measured: ["measurement"],
+  agreement: PREDICTED,
+  master: PREDICTED,
+  identify: PREDICTED,
+  "export-study": [""],
+  "export-card": ["material"],
+};
+
+const origins = new WeakMap(); // answer -> {kind, study, key}
+const shown = new Map(); // element -> answer
+
+/** A short name of a text (FNV-1a, twice 32 bits). */
+function hash(text) {
+  let [a, b] = [0x811c9dc5, 0x1b873593];
+  for (let at = 0; at < text.length; at += 1) {
+    a = Math.imul(a ^ text.charCodeAt(at), 0x01000193);
+    b = Math.imul(b ^ text.charCodeAt(at), 0x85ebca6b);
+  }
+  return [a, b].map((one) => (one >>> 0).toString(16).padStart(8, "0")).join("");
+}
+
+export function keyOf(kind, study) {
+  const inputs = DEPENDS_ON[kind].map((path) => valueAt(study, path) ?? null);
+  // a file may have other contents under the same name; the order of keys means nothing
+  const told = (_, value) => {
+    if (typeof value === "string") return state.renewals(value) ? `${value}#${state.renewals(value)}` : value;
+    if (value === null || typeof value !== "object" || Array.isArray(value)) return value;
+    return Object.fromEntries(Object.entries(value).sort(([one], [other]) => (one < other ? -1 : 1)));
+  };
+  return hash(JSON.stringify(inputs, told));
+}
+
+export function computedFrom(answer, kind, study) {
+  if (kind in DEPENDS_ON) origins.set(answer, { kind, study, key: keyOf(kind, study) });
+}
+
+export const studyOf = (answer) => origins.get(answer)?.study;
+
+/** Whether an answer is of the study as it is now. */
+export function isCurrent(answer) {
+  const origin = answer && origins.get(answer);
+  return Boolean(origin) && origin.key === keyOf(origin.kind, state.study);
+}
+
+export function outdated(answer) {
+  if (answer) origins.set(answer, { ...origins.get(answer), key: "outdated" });
+  refresh();
+}
+
+export function shows(element, answer) {
+  shown.set(element, answer);
+  mark(element, answer);
+}
+
+export const forget = (element) => shown.delete(element);
+
+function mark(element, answer) {
+  const origin = answer && origins.get(answer);
+  const stale = Boolean(origin) && !isCurrent(answer);
+  if (origin) element.dataset.inputs = origin.key;
+  else delete element.dataset.inputs;
+  element.classList.toggle("stale", stale);
+}
+
+function refresh() {
+  for (const [element, answer] of shown) mark(element, answer);
+}
+
+state.subscribe("", refresh);
