@@ -60,7 +60,8 @@ def figures_of(tab: Tab, step: str) -> dict[str, Any]:
     for _ in range(60):
         tab.page.wait_for_timeout(400)
         now = tab.value(SEEN)
-        if now and now == before and tab.value(AT_REST) and not any(one["stale"] for one in now.values()):
+        current = bool(now) and all(one["inputs"] and not one["stale"] for one in now.values())
+        if current and now == before and tab.value(AT_REST):
             return now
         before = now
     raise AssertionError(f"{step} did not come to rest: {before}")
