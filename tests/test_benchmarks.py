@@ -254,6 +254,23 @@ def test_curve_benchmark_measures_its_true_error(tmp_path: Path, capsys: pytest.
     assert row["wall_seconds"] > 0.0 < row["seconds"]
 
 
+def test_benchmark_of_repeated_runs_measures_coverage_and_width(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS / "friction"))
+    import repeated_runs
+
+    few = ["--seeds", "4", "--case", "1 % from step to step", "--json", str(tmp_path / "runs.json")]
+    repeated_runs.main(few)
+    assert "1 % from step to step" in capsys.readouterr().out
+    (row,) = read(tmp_path / "runs.json").values()
+    for one in row.values():
+        assert 0.7 < one["held"] <= 1.0  # of 20 intervals: 15 or fewer once in 400 times
+        assert 0.7 < one["median width"] < 2.5
+    with pytest.raises(SystemExit, match="are held"):
+        repeated_runs.main([*few, "--check", "101"])
+
+
 @pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_benchmark_of_sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

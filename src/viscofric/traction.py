@@ -76,7 +76,7 @@ class TractionRuns:
     temperature : (n,) array
         K.
     replicate : (n,) array of int
-        Number of the repetition that a row belongs to.
+        Number of the repetition that a row belongs to.  Readings of one `step` are no repetitions, whatever it is.
     source : str
         Where they came from.
     notes : tuple of str

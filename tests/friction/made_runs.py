@@ -137,3 +137,38 @@ def exported_runs(
     return replace(
         runs_from(np.array(rows)), zero_force=np.array(recorded), time=np.array(times), step=np.array(numbers)
     )
+
+
+def timed_sweeps(
+    speeds: Array,
+    *,
+    variation: float = 0.0,
+    anew: bool = False,
+    runs: int = 3,
+    readings: int = 8,
+    noise: float = 0.01,
+    autocorrelation: float = 0.0,
+    configurations: Sequence[tuple[int, int]] = FOUR,
+    coulomb: float = 0.045,
+    viscoelastic: float = 0.012,
+    seed: int = 1,
+) -> TractionRuns:
+    """Make sweeps over all speeds, one after the other, each in one configuration, in steps of several readings.
+
+    Friction of a run differs from the planted one by `variation` (of itself, Coulomb and viscoelastic by themselves),
+    or that of each step where `anew`; readings scatter by `noise` of the Coulomb force, in series of first order.
+    """
+    random = np.random.default_rng(seed)
+    rows = []
+    for replicate, (disc_sign, slip_sign) in product(range(1, runs + 1), configurations):
+        factors = np.ones((speeds.size, 2)) + variation * random.standard_normal((speeds.size if anew else 1, 2))
+        for speed, factor in zip(speeds, factors, strict=True):
+            scatter = random.standard_normal(readings)
+            for place in range(1, readings):
+                fresh = np.sqrt(1.0 - autocorrelation**2) * scatter[place]
+                scatter[place] = autocorrelation * scatter[place - 1] + fresh
+            force = 0.12 + 25.0 * (factor @ [coulomb * slip_sign, viscoelastic * disc_sign] + noise * coulomb * scatter)
+            disc = disc_sign * speed
+            rows += [(disc, disc - 0.05 * slip_sign * speed, one, 25.0, 303.15, replicate) for one in force]
+    made = runs_from(np.array(rows))
+    return replace(made, step=1 + np.arange(len(made)) // readings, time=np.arange(float(len(made))))

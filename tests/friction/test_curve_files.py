@@ -16,6 +16,7 @@ from friction.made_runs import FOUR, traction_runs
 from friction.synthetic_curves import planted_law, synthetic_curves
 from viscofric.errors import DataFileError, InputError
 from viscofric.friction.curves import FrictionCurves
+from viscofric.notes import codes
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -203,3 +204,13 @@ def test_errors_that_are_not_known_go_through_master_curves(tmp_path: Path) -> N
     assert master.overlap_error == np.inf
     assert "their errors alone are unknown" in master.overlap_sentence
     assert vf.compare(master, master).share_within_error is None
+
+
+def test_columns_that_are_not_read_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "curves.csv"
+    path.write_text(
+        FOREIGN.replace("\n20", ";viscoelastic friction std dev\n20").replace("1\n", "1;1\n").replace("5\n", "5;1\n")
+    )
+    notes = vf.read_friction_curves(path).notes
+    (note,) = [note for note in notes if "unused-columns" in codes([note])]
+    assert "'viscoelastic friction std dev'" in note

@@ -11,9 +11,11 @@ from scipy.special import stdtrit
 from scipy.stats import binom, kstest
 from scipy.stats import t as student
 
-from friction.made_runs import FOUR, friction_curves, traction_runs
+from friction.made_runs import FOUR, friction_curves, timed_sweeps, traction_runs
 from viscofric.errors import InputError
+from viscofric.friction.measurement.between_runs import Pool, Scatter
 from viscofric.friction.measurement.tribometry import separate
+from viscofric.notes import codes
 
 if TYPE_CHECKING:
     from viscofric.traction import TractionRuns
@@ -134,3 +136,93 @@ def test_an_interval_is_students_with_the_freedom_that_there_is() -> None:
         plain.interval(95.0)
     with pytest.raises(InputError, match="no such coefficient"):
         plain.interval(of="coulomb")
+
+
+FIVE = np.array([0.02, 0.04, 0.08, 0.13, 0.2])
+
+
+@pytest.mark.parametrize(
+    ("variation", "anew"), [(0.0, False), (0.01, False), (0.04, False), (0.04, True)], ids=["white", "1", "4", "anew"]
+)
+def test_intervals_hold_the_truth_where_runs_differ_and_steps_have_many_readings(variation: float, anew: bool) -> None:
+    """Three runs of each configuration, eight readings a step; by readings 4 % holds 35 to 55 % only."""
+    held: dict[str, list[float]] = {"viscoelastic": [], "coulomb": []}
+    width = []
+    for seed in range(12):
+        curves = separate(timed_sweeps(FIVE, variation=variation, anew=anew, seed=seed))
+        assert np.all(curves.replicates == 3)
+        for name, truth in (("viscoelastic", 0.012), ("coulomb", 0.045)):
+            low, high = curves.interval(of=name)  # type: ignore[arg-type]
+            held[name].append(float(np.mean((low <= truth) & (truth <= high))))
+            width.append(high - low)
+    # Of 12 independent tests, all speeds of each held or none, 8 are not held once in 500 times.
+    assert min(np.mean(some) for some in held.values()) > 8.5 / 12.0
+    # Variances of all configurations, means of three runs; white noise of .01 · 1.125 N over eight readings.
+    one = np.sqrt((0.045**2 + 0.012**2) * variation**2 + (0.01 * 0.045) ** 2 / 8.0) / np.sqrt(12.0)
+    # Student's t of two degrees of freedom takes 4.3/1.96 times the normal width, with a mean deviation of .89 σ, and
+    # 12 deviations of two degrees of freedom have a mean that scatters by .15 of itself.
+    assert np.mean(width) < 2.0 * 1.96 * one * 4.3 / 1.96 * 1.3
+
+
+def test_what_configurations_leave_over_is_in_the_errors_where_runs_are_not_repeated() -> None:
+    """One run of each configuration, which differ by 4 %: the readings alone say a tenth of it."""
+    errors, left = [], []
+    for seed in range(20):
+        curves = separate(timed_sweeps(FIVE, variation=0.04, runs=1, seed=seed))
+        assert "errors-from-left-over" in codes(curves.notes)
+        assert curves.coulomb_error is not None
+        assert curves.viscoelastic_freedom is not None
+        assert np.all((curves.viscoelastic_freedom >= 1.0) & (curves.viscoelastic_freedom <= 5.0))
+        errors.append(np.mean(curves.coulomb_error**2))
+        left.append((curves.coulomb - 0.045) ** 2)
+    # Mean squares of 20 runs, of one degree of freedom each, scatter by √(2/20) = .3, their ratio by .45.
+    assert 0.4 < np.mean(errors) / np.mean(left) < 2.5
+
+
+def test_readings_that_follow_each_other_count_as_fewer() -> None:
+    """One run of three configurations leaves nothing over: errors follow from readings, correlated by .7 here."""
+    held: list[float] = []
+    for seed in range(20):
+        curves = separate(
+            timed_sweeps(FIVE, runs=1, readings=40, noise=0.03, autocorrelation=0.7, configurations=FOUR[:3], seed=seed)
+        )
+        assert "steps-not-repeated" in codes(curves.notes)
+        low, high = curves.interval()
+        held += ((low <= 0.012) & (high >= 0.012)).tolist()
+    # 100 independent entries; as independent readings they hold 60.
+    assert np.mean(held) >= 0.87
+
+
+def test_steps_that_are_numbered_anew_from_run_to_run_are_those_of_their_runs() -> None:
+    """A step number may be the place in the profile: with a replicate column the runs are still told apart."""
+    runs = timed_sweeps(FIVE, variation=0.04, seed=3)
+    anew = replace(runs, step=1 + (runs.step - 1) % FIVE.size)  # type: ignore[operator]
+    np.testing.assert_array_equal(separate(anew).viscoelastic_error, separate(runs).viscoelastic_error)
+
+
+def test_deviations_that_speeds_share_count_once() -> None:
+    """Satterthwaite: equal ones at five speeds have the degrees of freedom of one, independent ones those of all."""
+    random = np.random.default_rng(2)
+    run = np.arange(3)
+    alike = random.standard_normal(3)
+    alike -= alike.mean()
+    same = Pool.of([Scatter(alike, run, 2.0, 1 / 3)] * 5, np.ones(5), np.full(5, 300.0))
+    assert same.freedom == pytest.approx(2.0)
+    assert same.variance == pytest.approx(np.sum(alike**2) / 2.0)
+    apart = random.standard_normal((200, 3))
+    apart -= apart.mean(axis=1, keepdims=True)
+    free = Pool.of([Scatter(one, run, 2.0, 1 / 3) for one in apart], np.ones(200), np.full(200, 300.0))
+    # 400 in all; the part of the runs' means, of 2, scatters by its own size.
+    assert 350.0 < free.freedom <= 400.0
+    assert free.common == 0.0
+    # Each temperature is a run of its own.
+    pair = Pool.of([Scatter(alike, run, 2.0, 1 / 3)] * 2, np.ones(2), np.array([300.0, 320.0]))
+    assert pair.freedom == pytest.approx(4.0)
+
+
+def test_errors_that_speeds_share_are_noted_with_their_size() -> None:
+    """Each of 12 runs differs by 4 % of its friction, at all speeds alike: level_error can take it."""
+    notes = separate(timed_sweeps(FIVE, variation=0.04, runs=20, readings=2, seed=1)).notes
+    assert "errors-shared-by-speeds" in codes(notes)
+    notes = separate(timed_sweeps(FIVE, variation=0.04, runs=20, readings=2, anew=True, seed=1)).notes
+    assert "errors-shared-by-speeds" not in codes(notes)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
 from viscofric.friction.measurement.tribometry import separate
+from viscofric.notes import codes
 
 if TYPE_CHECKING:
     from viscofric.traction import TractionRuns
@@ -107,3 +108,34 @@ def test_one_speed_tells_nothing_of_constant_coulomb_friction() -> None:
 def test_senseless_assumptions_are_refused(coulomb: object) -> None:
     with pytest.raises(InputError, match=r"coulomb = .*: must be a friction coefficient such as 0.05"):
         separate(one_way(), zero=0.3, coulomb=coulomb)  # type: ignore[arg-type]
+
+
+def test_reversed_runs_with_unsigned_speeds_are_refused() -> None:
+    """Forces of both directions in one configuration: their mean is nothing, whatever its standard error."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.02, offset=0.1, replicates=3, noise=0.02)
+    unsigned = replace(runs, disc_speed=np.abs(runs.disc_speed), ball_speed=np.abs(runs.ball_speed))
+    for zero in (None, 0.1):
+        with pytest.raises(InputError, match="unsigned speeds; give the speeds of disc and ball with their signs"):
+            separate(unsigned, zero=zero)
+
+
+def test_conditions_with_unsigned_speeds_are_left_out_by_name() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.02, offset=0.1, replicates=3, noise=0.02)
+    fast = np.abs(runs.disc_speed) > 0.15
+    mixed = replace(
+        runs,
+        disc_speed=np.where(fast, np.abs(runs.disc_speed), runs.disc_speed),
+        ball_speed=np.where(fast, np.abs(runs.ball_speed), runs.ball_speed),
+    )
+    curves = separate(mixed)
+    assert "unsigned-speeds" in codes(curves.notes)
+    assert np.all(curves.speed < 0.15)
+    np.testing.assert_allclose(curves.viscoelastic, 0.02, atol=3e-3)  # noise of .02 N of 25 N: five errors
+
+
+def test_forces_in_two_groups_of_one_sign_are_noted() -> None:
+    """Half of the replicates at three times the Coulomb friction, as on another sample; scatter alone is none."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.02, offset=0.0, replicates=6, noise=0.02, load_jitter=0.0)
+    assert "two-groups-of-force" not in codes(separate(runs).notes)
+    other = 25.0 * 0.1 * np.sign(runs.disc_speed - runs.ball_speed) * (runs.replicate > 3)
+    assert "two-groups-of-force" in codes(separate(replace(runs, traction_force=runs.traction_force + other)).notes)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import codes
 from viscofric.readers import read_dma, read_mtm
 from viscofric.readers.dma.isotherms import deformation_is_told
 
@@ -430,3 +431,18 @@ def test_real_tables_are_read_and_few_of_their_points_are_doubted(real_data, nam
     doubted = [note for note in sweeps.notes if "far off" in note]
     assert len(doubted) == len(outliers)
     assert all(note.startswith(start) for note, start in zip(doubted, outliers, strict=True))
+
+
+@pytest.mark.parametrize("other", ["E' 2 (MPa)", "frequency_2 (Hz)", "temperature 2 (degC)"])
+def test_numbered_columns_that_are_not_read_are_named(tmp_path, other):
+    """A second sweep beside the first, or a second thermometer."""
+    sweeps = read_dma(write(tmp_path, f"{HEADER},{other}", *(f"{row},21" for row in ROWS)))
+    assert_is_the_table(sweeps)
+    (note,) = [note for note in sweeps.notes if "unused-columns" in codes([note])]
+    assert repr(other) in note
+
+
+def test_two_columns_of_strain_amplitude_are_named(tmp_path):
+    sweeps = read_dma(write(tmp_path, f"{HEADER},strain (%),dynamic strain (%)", *(f"{row},1,2" for row in ROWS)))
+    assert "strain-amplitude-not-read" in codes(sweeps.notes)
+    assert all(isotherm.strain_amplitude is None for isotherm in sweeps.isotherms)

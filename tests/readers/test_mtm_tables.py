@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import codes
 from viscofric.readers import read_mtm
 
 HEADER = "temperature (degC),replicate,disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)"
@@ -71,14 +74,39 @@ def test_files_of_other_conditions_keep_their_replicates(tmp_path, other):
 def test_equal_conditions_are_numbered_though_readings_scatter(tmp_path):
     rows = [
         "30.4,100,90,25,0.4",
-        "30.6,99.4,90.3,25,0.5",
         "30.5,120,90,25,0.4",
+        "30.6,99.4,90.3,25,0.5",
         "60,100,90,25,0.4",
         "30.1,-100,-90,25,0",
     ]
     runs = read_mtm(write(tmp_path, WITHOUT, *rows))
-    assert list(runs.replicate) == [1, 2, 1, 1, 1]
-    assert "numbered in their order" in runs.notes[0]
+    assert list(runs.replicate) == [1, 1, 2, 1, 1]
+    assert codes(runs.notes) == {"replicates-counted"}
+
+
+@pytest.mark.parametrize(("steps", "numbers"), [(None, [1, 1, 1, 2, 2]), ([1, 2, 2, 4, 5], [1, 2, 1, 3, 4])])
+def test_rows_of_one_pass_are_one_replicate(tmp_path, steps, numbers):
+    """Readings in succession at equal values are no repetitions, unless they are of different steps."""
+    rows = ["30,100,90,25,0.4", "30,100.2,90,25,0.5", "30,50,45,25,0.5", "30,100,90,25,0.4", "30,99.8,90,25,0.5"]
+    header = WITHOUT
+    if steps:
+        header, rows = f"{WITHOUT},step", [f"{row},{step}" for row, step in zip(rows, steps, strict=True)]
+    assert list(read_mtm(write(tmp_path, header, *rows)).replicate) == numbers
+
+
+@pytest.mark.parametrize("numbered", ["Traction Force 1 (N)", "TF2 (N)", "disc_speed_2 (mm/s)", "Ball Speed #1 (m/s)"])
+def test_numbered_forces_and_speeds_are_not_passed_over(tmp_path, numbered):
+    """They are readings of their own: of the force with the slip one way and the other."""
+    with pytest.raises(DataFileError, match=re.escape(numbered)):
+        read_mtm(write(tmp_path, f"{HEADER},{numbered}", f"{ROW},1.2"))
+
+
+def test_columns_that_are_not_read_are_named(tmp_path):
+    runs = read_mtm(write(tmp_path, f"{HEADER},load 2 (N),remark,step", f"{ROW},25,run in,1"))
+    (note,) = runs.notes
+    assert codes([note]) == {"unused-columns"}
+    assert "'load 2 (N)', 'remark'" in note
+    assert "step" not in note
 
 
 @pytest.mark.parametrize(
@@ -175,3 +203,11 @@ def test_a_file_of_no_known_kind_and_an_empty_one_are_told(tmp_path):
     path.write_bytes(b"\r\n")
     with pytest.raises(DataFileError, match="the file is empty"):
         read_mtm(path)
+
+
+def test_notes_on_one_of_several_files_keep_their_codes(tmp_path):
+    first = write(tmp_path, HEADER, ROW, name="one.csv")
+    second = write(tmp_path, f"{HEADER},remark", ROW.replace("-0.4", "-0.5,windy"), name="two.csv")
+    notes = read_mtm(first, second).notes
+    assert "unused-columns" in codes(notes)
+    assert any(note.startswith("two.csv: ") for note in notes)

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
+from viscofric.notes import Note
 from viscofric.readers.table import Table, read_table
 from viscofric.units import CELSIUS_ZERO
 
@@ -172,6 +173,9 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
         columns[name] = _read_column(table, name, place, unit)
     remarks = _remarks(str(path))
     notes = list(remarks["note"])
+    unused = ", ".join(repr(column.heading) for column in table.unused(places.values()))
+    if unused:
+        notes.append(Note("unused-columns", f"Columns of the file of friction curves that are not read: {unused}."))
     replicates = columns.pop("replicates", np.ones(len(table.rows)))
     for kind in ("viscoelastic", "coulomb"):
         _complete(columns, kind, replicates, notes)

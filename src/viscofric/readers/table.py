@@ -16,7 +16,7 @@ from viscofric.readers.dma.names import quantity
 from viscofric.readers.printed import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
     from os import PathLike
 
     from numpy.typing import NDArray
@@ -35,6 +35,7 @@ _IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 # How instruments write the units of temperature that pint would take for coulomb, farad or nothing at all.
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
 
+_NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 #: A longer heading is no heading; its unit is not looked for.
 _LONGEST_HEADING = 200
 
@@ -56,6 +57,12 @@ class Column:
     heading: str
     name: str
     unit: str
+
+    @property
+    def unnumbered(self) -> str:
+        """The name without the number at its end: "traction force" of "traction force 2"; empty if it has none."""
+        match = _NUMBERED.fullmatch(self.name)
+        return match["name"] if match else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +183,10 @@ class Table:
                 self.path,
                 f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}.",
             ) from None
+
+    def unused(self, used: Collection[int]) -> list[Column]:
+        """Return the columns that are not among those whose places are given, but for nameless ones."""
+        return [column for place, column in enumerate(self.columns) if place not in used and column.name]
 
     def find(self, names: frozenset[str], what: str) -> int | None:
         """Return the place of the one column whose name is among `names`, or None.

@@ -92,9 +92,9 @@ class Drift:
             return cls(follows=follows)
         return cls(rate, error, freedom, follows)
 
-    def entry(self, fit: Fit, zeros: Zeros) -> Entry:
-        """Return what a condition's fit says, the error of the drift in its standard errors."""
-        entry = fit.entry(self.weights, zeros)
+    def entry(self, fit: Fit, zeros: Zeros, error: Array, freedom: Array) -> Entry:
+        """Return what a condition's fit says, the error of the drift in its standard errors (4,)."""
+        entry = fit.entry(self.weights, zeros, error, freedom)
         return entry.widened((self.error * fit.each[:, :, DRIFT].mean(axis=0)) ** 2, self.freedom)
 
     def notes(self, fits: list[Fit]) -> list[str]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.measurement import two_groups
 from viscofric.friction.measurement.conditions import Condition, conditions, where
 from viscofric.friction.measurement.course import Course, of_both, of_the_disc
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
@@ -71,14 +72,19 @@ class Grouping:
             raise problem
         if not groups:
             raise InputError("traction runs hold no reading with the disc in motion: nothing to separate.")
+        split = {place: two for place, group in enumerate(groups) if (two := two_groups.two_groups(runs, group, zeros))}
+        mixed = {id(groups[place]) for place, two in split.items() if two.opposite}
+        if mixed and mixed.union(map(id, poor)) == set(map(id, groups)):
+            raise InputError(two_groups.refusal(groups, split))
         if len(poor) == len(groups):
             raise InputError(_refused(poor, len(groups), zeros, assumed))
-        told = list(notes)
+        told = [*notes, *two_groups.notes(groups, split)]
+        if mixed:
+            told.append(two_groups.refusal(groups, split, left_out=True))
         if poor:
             told.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
-            out = set(map(id, poor))
-            groups = [group for group in groups if id(group) not in out]
-        return cls(groups, told)
+        out = mixed.union(map(id, poor))
+        return cls([group for group in groups if id(group) not in out], told)
 
 
 def _readings(groups: list[Condition]) -> int:

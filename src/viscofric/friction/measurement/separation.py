@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[np.float64]
 
 _OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
-# Degrees of freedom that steps leave, for their sums to tell errors.
+#: Degrees of freedom that steps of several configurations leave, for their sums to give errors.
 _FEWEST_STEPS = 3
+_MOST_PASSES = 1_000_000_000
 _FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
 #: The force as it is read, and what may be taken from it: drift (per N/s) and changes of the recorded zero.
 FORCE, DRIFT, ZERO_CHANGES = range(3)
@@ -67,10 +68,15 @@ class Fit:
         Makes the coefficients of the readings.
     first_rows : (r,) array of int
         First row of the readings behind each entry of `each`.
-    step : (n,) array of int
-        Number of the step of the test that each reading belongs to, among those of the condition.
-    freedom : (2,) tuple
-        Degrees of freedom of the residuals without and with the consistency.
+    step, passes : (n,) array of int
+        Number of the step, and of the pass in one configuration, that each reading belongs to, among those of the
+        condition.
+    runs_of_passes : (p,) array of int
+        Number of the run of each pass, the same at all speeds: its configuration and how often that came before.
+    unknowns : int
+        Number of coefficients that are fitted, without the consistency.
+    by_steps : bool
+        Whether steps of several configurations, enough of them, are the repetitions.
     log_speed : (n,) array
         ln of the disc's speed over the condition's.
     viscoelastic_force : (n,) array
@@ -93,7 +99,10 @@ class Fit:
     operator: Array = field(repr=False)
     first_rows: NDArray[np.int64] = field(repr=False)
     step: NDArray[np.intp] = field(repr=False)
-    freedom: tuple[int, int]
+    passes: NDArray[np.intp] = field(repr=False)
+    runs_of_passes: NDArray[np.int64] = field(repr=False)
+    unknowns: int
+    by_steps: bool
     log_speed: Array = field(repr=False)
     viscoelastic_force: Array = field(repr=False)
     zero_variance: Array
@@ -136,6 +145,7 @@ class Fit:
         if coulomb is not None:
             target[:, FORCE] -= coulomb[0] * pattern
         replicate, step = _replicates(runs, group)
+        passes, runs_of_passes = _passes(group, step)
         count = int(replicate.max()) + 1
         complete = _complete(group, replicate)
         parts = _parted(replicate) if complete and count > 1 else [np.arange(load.size)]
@@ -146,7 +156,10 @@ class Fit:
         residual, checked = residuals(design, fourth, operator * scale[:, None], target)
         unknowns = int(np.count_nonzero(np.any(design != 0.0, axis=0)))
         operator /= len(parts)
-        independent = replicate if len(parts) > 1 else step if step.max() > _FEWEST_STEPS else None
+        by_steps = len(parts) == 1 and step.max() < passes.max() and step.max() + 1 - unknowns >= _FEWEST_STEPS
+        independent: NDArray[np.intp] | None = replicate
+        if len(parts) == 1:
+            independent = step if by_steps else passes if passes.max() >= unknowns else None
         return cls(
             group=group,
             each=each,
@@ -162,7 +175,10 @@ class Fit:
             operator=operator,
             first_rows=np.array([group.rows[rows].min() for rows in parts]),
             step=step,
-            freedom=(load.size - unknowns, load.size - unknowns - 1 if checks else 0),
+            passes=passes,
+            runs_of_passes=runs_of_passes,
+            unknowns=unknowns,
+            by_steps=bool(by_steps),
             log_speed=log_speed,
             viscoelastic_force=group.load * design[:, _VISCOELASTIC],
             zero_variance=np.zeros(4) if offset else zeros.variance(group, operator, independent),
@@ -173,17 +189,29 @@ class Fit:
         """Zero of each replicate, N."""
         return np.asarray(self.each[:, _OFFSET] @ weights)
 
-    def entry(self, weights: Array, zeros: Zeros) -> Entry:
-        """Put the replicates together; `weights` (3,) are those of force, drift and changes of the zero."""
-        each = self.each @ weights
-        value = each.mean(axis=0)
+    @property
+    def paired(self) -> bool:
+        """Whether there are several replicates, each with all configurations and fitted by itself."""
+        return len(self.each) > 1
+
+    def mean(self, weights: Array) -> Array:
+        """Zero, viscoelastic and Coulomb coefficient and consistency, the means over the replicates."""
+        return np.asarray((self.each @ weights).mean(axis=0))
+
+    def entry(self, weights: Array, zeros: Zeros, error: Array, freedom: Array) -> Entry:
+        """Put the replicates together.
+
+        Parameters
+        ----------
+        weights : (3,) array
+            Of force, drift and changes of the zero.
+        zeros : Zeros
+        error, freedom : (4,) array
+            Standard errors of what is fitted, and the degrees of freedom behind them.
+        """
+        value, freedom = self.mean(weights), freedom.copy()
         count = self.replicates
-        if len(each) > 1:
-            scatter = each.std(axis=0, ddof=1)
-            error, freedom = scatter / np.sqrt(count), np.full(4, count - 1.0)
-        else:
-            error, freedom = self._errors_together(weights)
-            scatter = error * np.sqrt(count)
+        scatter = (self.each @ weights).std(axis=0, ddof=1) if self.paired else error * np.sqrt(count)
         unknown = np.array([False, False, not self.slides, not self.checks])
         error, scatter = (np.where(unknown, np.inf, spread) for spread in (error, scatter))
         if not self.fits_offset:
@@ -194,29 +222,6 @@ class Fit:
             freedom[_COULOMB], scatter[_COULOMB] = np.inf, 0.0
             found = found.widened(self.coulomb_variance * (np.arange(4) == _VISCOELASTIC), np.inf)
         return found.widened(np.where(np.arange(4) == _OFFSET, 0.0, self.zero_variance), zeros.freedom)
-
-    def _errors_together(self, weights: Array) -> tuple[Array, Array]:
-        """Return standard errors (4,) and their degrees of freedom from the residuals of all readings.
-
-        Readings of one step share what goes wrong with it: with enough steps the errors are those of sums over steps
-        (K.-Y. Liang, S. L. Zeger, Biometrika 73, 13–22, 1986), else readings count each by itself.
-        """
-        error, freedom = np.full(4, np.inf), np.zeros(4)
-        steps = int(self.step.max()) + 1
-        for residual, behind, numbers in (
-            (self.residual, self.freedom[0], slice(0, 3)),
-            (self.checked, self.freedom[1], slice(3, 4)),
-        ):
-            left, operator = residual @ weights, self.operator[numbers]
-            unknowns = left.size - behind
-            if behind > 0 and _FEWEST_STEPS <= steps - unknowns < behind:
-                sums = np.stack([np.bincount(self.step, row * left) for row in operator])
-                freedom[numbers] = steps - unknowns
-                error[numbers] = np.sqrt(np.sum(sums**2, axis=1) * steps / (steps - unknowns))
-            elif behind > 0:
-                freedom[numbers] = behind
-                error[numbers] = np.sqrt(np.sum(left**2) / behind * np.sum(operator**2, axis=1))
-        return error, freedom
 
 
 def _parts(runs: TractionRuns, group: Condition, zeros: Zeros, offset: bool) -> Array:
@@ -244,15 +249,38 @@ def _times(runs: TractionRuns, group: Condition) -> Array:
 def _replicates(runs: TractionRuns, group: Condition) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Give numbers to the replicates, and to the steps, of a condition's readings.
 
-    The steps are the replicates where there are several, fewer than replicates, each with all configurations: the
-    readings of one step are no repetitions of the test.
+    Readings of one step are no repetitions of the test.  Where their replicate numbers differ, the steps are the
+    replicates if each has all configurations; else the first step of each configuration is in the first replicate.
     """
     _, replicate = np.unique(runs.replicate[group.rows], return_inverse=True)
     if runs.step is None:
-        return replicate, np.zeros(replicate.size, dtype=np.intp)
-    _, step = np.unique(runs.step[group.rows], return_inverse=True)
-    steps_repeat = 0 < step.max() < replicate.max() and _complete(group, step)
-    return (step if steps_repeat else replicate), step
+        return replicate, replicate
+    step = _steps(runs.step, group, replicate)
+    if np.unique(np.column_stack([step, replicate]), axis=0).shape[0] == int(step.max()) + 1:
+        return replicate, step
+    if _complete(group, step):
+        return step, step
+    passes, run = _passes(group, step)
+    return (run % _MOST_PASSES)[passes].astype(np.intp), step
+
+
+def _steps(step: NDArray[np.int64], group: Condition, replicate: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Give numbers to the steps of a condition, those that a test numbers anew from run to run by their runs."""
+    block = np.concatenate([[0], np.cumsum(np.diff(step) != 0)])[group.rows]
+    _, block = np.unique(block, return_inverse=True)
+    _, number = np.unique(step[group.rows], return_inverse=True)
+    # A step whose rows stand apart, in whatever order they are, is still one where nothing else parts them.
+    parts = np.unique(np.column_stack([number, replicate, group.configurations, block]), axis=0)
+    apart = len(np.unique(parts[:, :3], axis=0)) < len(parts)
+    return np.asarray(number if apart else block, dtype=np.intp)
+
+
+def _passes(group: Condition, step: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
+    """Give numbers to the passes, a step in one configuration each, and return the number of the run of each."""
+    configuration = group.configurations - group.configurations.min()
+    pairs, passes = np.unique(np.column_stack([configuration, step]), axis=0, return_inverse=True)
+    first = np.searchsorted(pairs[:, 0], pairs[:, 0])
+    return passes.reshape(-1), _MOST_PASSES * pairs[:, 0] + np.arange(len(pairs)) - first
 
 
 def _complete(group: Condition, replicate: NDArray[np.intp]) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
+from viscofric.friction.measurement.between_runs import BetweenRuns
 from viscofric.friction.measurement.doubts import doubts
 from viscofric.friction.measurement.drift import Drift
 from viscofric.friction.measurement.given_zero import another_zero
@@ -91,11 +92,26 @@ def separate(
     with each reading's own measured load F_N.  Where every replicate of a condition has all configurations
     that the condition has, each replicate is fitted by itself: coefficients are means over the replicates,
     scatter their standard deviation s, standard errors s/√n with n − 1 degrees of freedom.  Otherwise all
-    readings are fitted together and standard errors come from the scatter of the residuals; the scatter
-    given is then the standard error times √n.  Both are infinite where nothing is left over to tell them
-    from.  Readings of one step are no repetitions of the test: where a condition was measured in several steps, each
-    with all configurations, these are its replicates, and where all readings are fitted together, the errors follow
-    from the sums of residuals over steps.
+    readings are fitted together and the scatter given is the standard error times √n.
+
+    Readings of one step and configuration are one pass over a condition, no repetitions of the test, whatever their
+    replicate numbers: they share what differs from run to run, and follow each other closely.  Where readings are
+    fitted together, standard errors follow from what the fit leaves over of the means of the passes, such as the
+    fourth combination of four configurations measured once; or from the sums of residuals over steps where there are
+    enough steps with several configurations (K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13).
+
+    Where this leaves a condition fewer than four degrees of freedom, the variance is the larger one of its own and
+    that of all conditions together, as a part of the friction squared.  Runs may differ alike at all their speeds or
+    at each speed anew; the variances of the runs' means over the speeds of a temperature and of the rest give the
+    degrees of freedom (F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110).  Errors that the speeds share are noted
+    with their size: they are not independent from point to point, for which `shift_friction` has ``level_error``.
+
+    Where no pass was repeated and nothing is left over, errors follow from the readings within the passes, as
+    autoregressive series of first order; what varies from run to run is then not in them, and a note says so.  They
+    are infinite where there is one reading in each pass.
+
+    Readings of a configuration that fall into two groups of opposite sign are those of runs whose speeds lost their
+    signs; their conditions are left out with a note, or refused where there are no others.
 
     With four configurations a fourth coefficient, of −sgn(u_disc) sgn(u_disc − u_ball) F_N, is fitted as
     well: the consistency, (F_I − F_II + F_III − F_IV)/4F_N, zero in the model.
@@ -175,20 +191,21 @@ class _Separation:
         groups = grouping.groups
         uneven = Uneven.of(runs, groups, speed_tolerance)
 
-        def separated() -> tuple[list[Fit], Drift, list[Entry], list[Entry]]:
+        def separated() -> tuple[list[Fit], Drift, BetweenRuns, list[Entry], list[Entry]]:
             fits = [
                 Fit.of(runs, group, zeros, assumed.at(group, zeros), growth)
                 for group, growth in zip(groups, uneven.growths, strict=True)
             ]
             drift = Drift.of(fits)
-            bare = [drift.entry(fit, zeros) for fit in fits]
+            errors = BetweenRuns.of(fits, drift.weights)
+            bare = [drift.entry(fit, zeros, *one) for fit, *one in zip(fits, errors.error, errors.freedom, strict=True)]
             wider = [uneven.widened(place, *one) for place, one in enumerate(zip(fits, bare, strict=True))]
-            return fits, drift, bare, wider
+            return fits, drift, errors, bare, wider
 
-        fits, drift, bare, entries = separated()
+        fits, drift, errors, bare, entries = separated()
         for _ in range(_ROUNDS if uneven else 0):
             uneven = uneven.with_growths(fits, bare, entries)
-            fits, drift, bare, entries = separated()
+            fits, drift, errors, bare, entries = separated()
         told_uneven = uneven.notes(groups, entries)
         slipping, told = unnoticed_slip(fits, entries)
         fits = [fit for place, fit in enumerate(fits) if place not in slipping]
@@ -204,6 +221,7 @@ class _Separation:
             *zeros.notes(groups, resting),
             *zeros.drift(load),
             *drift.notes(fits),
+            *errors.notes,
             *doubts(fits, entries, zeros),
             *another_zero(runs, groups, zeros),
         ]

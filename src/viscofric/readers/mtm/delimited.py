@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Note
 from viscofric.readers.mtm.readings import TractionReadings
-from viscofric.readers.table import Table, table_of_text
+from viscofric.readers.table import Column, Table, table_of_text
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -46,6 +47,7 @@ def read(source: Source) -> TractionReadings:
     values = {name: table.values(places[name], unit) for name, (_, unit) in COLUMNS.items()}
     for name, limit in (("load", "zero"), ("temperature", "absolute zero")):
         _insist_on_positive(table, places[name], values[name], limit)
+    notes = _unused(table, places)
     optional = {name: _optional(table, name) for name in OPTIONAL}
     time = optional["time"]
     if time is not None and not np.all(np.isnan(time)):
@@ -63,6 +65,7 @@ def read(source: Source) -> TractionReadings:
         time=time,
         track_radius=optional["track radius"],
         step=_whole_numbers(table, STEP, "step"),
+        notes=notes,
     )
 
 
@@ -83,6 +86,26 @@ def _columns(table: Table) -> dict[str, int]:
             f"this one has {table.headings()}.",
         )
     return {name: place for name, place in places.items() if place is not None}
+
+
+def _unused(table: Table, places: dict[str, int]) -> tuple[str, ...]:
+    """Name the columns that are not read; refuse numbered forces and speeds, which are readings of their own."""
+    known = [names for names, _ in OPTIONAL.values()] + [REPLICATE, STEP]
+    others = [place for names in known if (place := table.find(names, min(names))) is not None]
+    unused = table.unused([*places.values(), *others])
+    readings = frozenset().union(*(COLUMNS[name][0] for name in ("traction force", "disc speed", "ball speed")), {"tf"})
+    numbered = [column for column in unused if column.unnumbered.lower() in readings]
+    if numbered:
+        raise DataFileError(
+            table.path,
+            f"the numbered {_named(numbered)} would be left out, since a row of a table is one reading; write "
+            "each force in a row of its own with the signed speeds of disc and ball that go with it, or remove them.",
+        )
+    return (Note("unused-columns", f"Not read: the {_named(unused)}."),) if unused else ()
+
+
+def _named(columns: list[Column]) -> str:
+    return f"column{'s' if len(columns) > 1 else ''} {', '.join(repr(column.heading) for column in columns)}"
 
 
 def _optional(table: Table, name: str) -> Array | None:

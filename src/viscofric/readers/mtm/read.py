@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
+from viscofric.notes import Note
 from viscofric.readers.mtm import formats
 from viscofric.readers.source import Source
 from viscofric.traction import TractionRuns, TractionStep
@@ -43,10 +44,10 @@ def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lu
     Returns
     -------
     TractionRuns
-        All readings, file after file, in SI units.  Without a replicate column the rows of equal nominal
-        temperature, load, disc and ball speed are numbered 1, 2, … in their order, with a note.  A file that measures
-        conditions of an earlier one under the same replicate numbers holds other repetitions: its numbers are counted
-        on from there, with a note.
+        All readings, file after file, in SI units.  Without a replicate column the passes at equal nominal
+        temperature, load, disc and ball speed are numbered 1, 2, … in their order, with a note; rows of one step in
+        succession at equal values are one pass.  A file that measures conditions of an earlier one under the same
+        replicate numbers holds other repetitions: its numbers are counted on from there, with a note.
 
     Raises
     ------
@@ -101,11 +102,11 @@ def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lu
 
 def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
     columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in _MEASURED}
-    replicate, numbering = _replicates(parts, columns)
     time, timing = _times(parts)
     step, steps = _steps(parts)
+    replicate, numbering = _replicates(parts, columns, step)
     several = len(parts) > 1
-    told = [f"{Path(part.source).name}: {note}" if several else note for part in parts for note in part.notes]
+    told = [_of_file(part.source, note) if several else note for part in parts for note in part.notes]
     return TractionRuns(
         **columns,
         replicate=replicate,
@@ -117,6 +118,11 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
         track_radius=_optional(parts, "track_radius"),
         steps=steps,
     )
+
+
+def _of_file(source: str, note: str) -> str:
+    text = f"{Path(source).name}: {note}"
+    return Note(note.code, text) if isinstance(note, Note) else text
 
 
 def _optional(parts: Sequence[TractionReadings], name: str) -> Array | None:
@@ -162,27 +168,35 @@ def _steps(parts: Sequence[TractionReadings]) -> tuple[Whole | None, tuple[Tract
     return np.concatenate(numbers), tuple(steps)
 
 
-def _replicates(parts: Sequence[TractionReadings], columns: dict[str, Array]) -> tuple[Whole, tuple[str, ...]]:
-    """Take the files' replicate numbers, or number rows of equal conditions in their order."""
+def _replicates(
+    parts: Sequence[TractionReadings], columns: dict[str, Array], step: Whole | None
+) -> tuple[Whole, tuple[str, ...]]:
+    """Take the files' replicate numbers, or number the passes over equal conditions in their order."""
     known = [part.replicate for part in parts if part.replicate is not None]
     if len(known) == len(parts):
         return _counted_on(parts, columns)
     if known:
         without = next(part.source for part in parts if part.replicate is None)
         raise DataFileError(without, "has no replicate column, but another file of the same call has one.")
-    # Readings of one row were taken together and share its number.
+    # Readings of one row were taken together; rows in succession at equal speeds, load and temperature are one pass.
     lengths = np.cumsum([0, *(int(part.row.max()) + 1 for part in parts)])
     row = np.concatenate([part.row + first for part, first in zip(parts, lengths[:-1], strict=True)])
     _, first, place = np.unique(row, return_index=True, return_inverse=True)
     nominal = _nominal({name: column[first] for name, column in columns.items()})
+    part = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    place_in_test = np.column_stack([nominal, (part if step is None else step)[first]])
+    begins = np.concatenate([[True], np.any(np.diff(place_in_test, axis=0) != 0, axis=1)])
     seen: Counter[tuple[int, ...]] = Counter()
     numbers = []
-    for condition in nominal.tolist():
-        key = tuple(condition)
-        seen[key] += 1
-        numbers.append(seen[key])
-    note = "There is no replicate column; readings of equal speeds, load and temperature are numbered in their order."
-    return np.array(numbers, dtype=np.int64)[place], (note,)
+    for condition in map(tuple, nominal[begins].tolist()):
+        seen[condition] += 1
+        numbers.append(seen[condition])
+    note = Note(
+        "replicates-counted",
+        "There is no replicate column; passes at equal speeds, load and temperature are numbered in their order, and "
+        "rows in succession are one pass. Give a replicate column if they are repetitions.",
+    )
+    return np.array(numbers, dtype=np.int64)[np.cumsum(begins) - 1][place], (note,)
 
 
 def _nominal(columns: dict[str, Array]) -> Whole:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Note
 from viscofric.readers.dma.names import STEP, quantity, temperature_in_name
 from viscofric.readers.dma.plausibility import doubts
 from viscofric.readers.dma.readings import Readings
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.readers.source import Source
-    from viscofric.readers.table import Table
+    from viscofric.readers.table import Column, Table
 
     Array = NDArray[np.float64]
 
@@ -66,6 +67,7 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
     _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation(table, places)
     amplitude = _strain_amplitude(table, notes)
+    _note_numbered(table, notes)
     return Readings(
         source=source.path,
         format=format,
@@ -142,9 +144,26 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
     raise DataFileError(table.path, problem, int(table.lines[row]))
 
 
+def _note_numbered(table: Table, notes: list[str]) -> None:
+    """Name the columns that differ from those of a sweep by a number only and are not read."""
+    numbered = [repr(column.heading) for column in table.columns if _is_numbered(column)]
+    if numbered:
+        text = f"Numbered columns that are not read: {', '.join(numbered)}; give each sweep a table of its own."
+        notes.append(Note("unused-columns", text))
+
+
+def _is_numbered(column: Column) -> bool:
+    return not quantity(column.name) and bool(column.unnumbered and quantity(column.unnumbered))
+
+
 def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     """Return fractions, None where no one column tells them with a unit that is understood."""
     found = [p for p, column in enumerate(table.columns) if quantity(column.name) == "strain amplitude"]
+    if len(found) > 1:
+        several = " and ".join(repr(table.columns[place].heading) for place in found)
+        notes.append(
+            Note("strain-amplitude-not-read", f"The strain amplitudes were not read: {several} may hold them.")
+        )
     if len(found) != 1:
         return None
     column = table.columns[found[0]]

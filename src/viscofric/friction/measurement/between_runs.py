@@ -1,0 +1,241 @@
+"""Standard errors of separated friction: the pass over a condition is the repetition, not the reading.
+
+Readings of one pass share what goes wrong with it.  What passes differ by follows from the replicates of a condition,
+or from what its sign configurations leave over; where these leave few degrees of freedom, from all conditions together.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.friction.measurement.conditions import where
+from viscofric.friction.measurement.doubts import CHANCE
+from viscofric.friction.measurement.within_passes import of_readings
+from viscofric.notes import Note
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.friction.measurement.separation import Fit
+
+    Array: TypeAlias = NDArray[np.float64]
+    Labels: TypeAlias = NDArray[np.int64]
+
+#: Degrees of freedom from which the scatter of a condition counts alone: Student's t is then 2.8, not 12.7.
+_ENOUGH = 4.0
+_VISCOELASTIC, _COULOMB, _CONSISTENCY = 1, 2, 3
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """What the repetitions of one condition differ by.
+
+    Attributes
+    ----------
+    deviations : (m,) array
+        From their mean or from the fit.
+    run : (m,) array of int
+        Number of the run of the test that each belongs to, the same at all speeds.
+    freedom : float
+        Degrees of freedom of the sum of their squares.
+    factor : float
+        Variance of the coefficient over that of one repetition.
+    """
+
+    deviations: Array
+    run: Labels
+    freedom: float
+    factor: float
+
+    @property
+    def variance(self) -> float:
+        """Of the coefficient; infinite where nothing is left over."""
+        if self.freedom <= 0.0:
+            return np.inf
+        return self.factor * float(np.sum(self.deviations**2)) / self.freedom
+
+
+@dataclass(frozen=True, eq=False)
+class BetweenRuns:
+    """Standard errors of all conditions.
+
+    Attributes
+    ----------
+    error, freedom : (k, 4) array
+        Of zero (N), viscoelastic and Coulomb coefficient and consistency; infinite and zero where nothing tells them.
+    notes : list of str
+    """
+
+    error: Array
+    freedom: Array
+    notes: list[str]
+
+    @classmethod
+    def of(cls, fits: list[Fit], weights: Array) -> BetweenRuns:
+        """Estimate them; `weights` (3,) are those of force, drift and changes of the zero."""
+        scatters = [_scatters(fit, weights) for fit in fits]
+        variance = np.array([[one.variance for one in several] for several in scatters])
+        freedom = np.array([[one.freedom for one in several] for several in scatters])
+        sizes = np.array([_size(fit, weights) for fit in fits])
+        alike: dict[tuple[object, ...], list[int]] = defaultdict(list)
+        for place, fit in enumerate(fits):
+            if sizes[place] > 0.0:
+                alike[fit.paired, fit.by_steps, fit.fits_offset, fit.slides, fit.coulomb is None].append(place)
+        common: dict[int, float] = {}
+        for places in alike.values():
+            isotherms = np.array([fits[place].group.temperature for place in places])
+            for number in (_VISCOELASTIC, _COULOMB):
+                some = [scatters[place][number] for place in places]
+                pool = Pool.of(some, sizes[places], isotherms)
+                for place, one in zip(places, some, strict=True):
+                    if number == _VISCOELASTIC and pool.common:
+                        level = sizes[place] * np.sqrt(one.factor * pool.common)
+                        common[place] = float(level / abs(fits[place].mean(weights)[number]))
+                    if one.freedom < _ENOUGH and one.freedom < pool.freedom:
+                        own = variance[place, number] if one.freedom else 0.0
+                        variance[place, number] = max(own, one.factor * pool.variance * sizes[place] ** 2)
+                        freedom[place, number] = pool.freedom
+        found, autocorrelation = of_readings(fits, weights, freedom <= 0.0)
+        for at, (some_variance, some_freedom) in found.items():
+            variance[at], freedom[at] = some_variance, some_freedom
+        unrepeated = [place for place, number in found if number == _VISCOELASTIC]
+        once = [place for place, fit in enumerate(fits) if _measured_once(fit) and place not in unrepeated]
+        notes = [
+            *_of_unrepeated(fits, unrepeated, autocorrelation),
+            *_of_left_over(fits, once, freedom),
+            *_of_common(fits, common),
+        ]
+        return cls(np.sqrt(variance), freedom, notes)
+
+
+@dataclass(frozen=True)
+class Pool:
+    """What repetitions differ by at many conditions, as a part of their friction.
+
+    Attributes
+    ----------
+    variance, freedom : float
+        Of one repetition, and the degrees of freedom behind it.
+    common : float
+        The part of the variance that all speeds of a run share, zero where it is not significant.
+    """
+
+    variance: float
+    freedom: float
+    common: float
+
+    @classmethod
+    def of(cls, some: list[Scatter], sizes: Array, isotherms: Array) -> Pool:
+        """Analyse the variance, which at different speeds of one run may be one and the same.
+
+        Sums of squares of the means of runs over speeds, and of the rest, each have their own degrees of freedom;
+        those of their sum follow after F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110.  They are few where the
+        speeds of a run differ from other runs alike, and those of all conditions where they do so independently.
+        """
+        between, within = np.zeros((0, 2)), np.zeros((0, 2))
+        speeds = 1.0
+        for kelvin in np.unique(isotherms):
+            here = [(one, size) for one, size, other in zip(some, sizes, isotherms, strict=True) if other == kelvin]
+            freedoms = np.array([one.freedom for one, _ in here])
+            if not np.any(freedoms > 0.0):
+                continue
+            deviations = np.concatenate([one.deviations / size for one, size in here if one.freedom > 0.0])
+            _, run = np.unique(np.concatenate([one.run for one, _ in here if one.freedom > 0.0]), return_inverse=True)
+            count = np.bincount(run)
+            shared = float(np.sum(np.bincount(run, deviations) ** 2 / count))
+            rest = max(float(np.sum(deviations**2)) - shared, 0.0)
+            between = np.vstack([between, [shared, freedoms.max()]])
+            within = np.vstack([within, [rest, freedoms.sum() - freedoms.max()]])
+            speeds = max(speeds, float(np.mean(count)))
+        strata = np.vstack([between, within])
+        strata = strata[strata[:, 1] > 0.0]
+        squares, freedom = strata.sum(axis=0)
+        if squares <= 0.0:
+            return cls(0.0, float(freedom), 0.0)
+        behind = float(squares**2 / np.sum(strata[:, 0] ** 2 / strata[:, 1]))
+        return cls(float(squares / freedom), behind, _common(between.sum(axis=0), within.sum(axis=0), speeds))
+
+
+def _common(between: Array, within: Array, speeds: float) -> float:
+    """Return the variance that the speeds of a run share, by the means over them and the rest (squares, freedom)."""
+    from scipy.special import fdtrc
+
+    if min(between[1], within[1]) <= 0.0 or within[0] <= 0.0:
+        return 0.0
+    large, small = between[0] / between[1], within[0] / within[1]
+    if fdtrc(between[1], within[1], large / small) > CHANCE:
+        return 0.0
+    return float((large - small) / speeds)
+
+
+def _size(fit: Fit, weights: Array) -> float:
+    """Return the size of friction that deviations are compared with: a coefficient, or a force where they are one."""
+    value = fit.mean(weights)
+    size = float(np.hypot(value[_VISCOELASTIC], value[_COULOMB]))
+    return size if fit.paired or fit.by_steps else size * fit.group.load
+
+
+def _scatters(fit: Fit, weights: Array) -> list[Scatter]:
+    """Return what repetitions of a condition differ by in each of the four numbers."""
+    if fit.paired:
+        each = fit.each @ weights
+        run = np.arange(len(each))
+        return [Scatter(column - column.mean(), run, len(each) - 1.0, 1.0 / len(each)) for column in each.T]
+    found = []
+    for number, operator in enumerate(fit.operator):
+        left, unknowns = fit.residual @ weights, fit.unknowns
+        if number == _CONSISTENCY:
+            left, unknowns = fit.checked @ weights, fit.unknowns + 1
+        if fit.by_steps:
+            # K.-Y. Liang, S. L. Zeger, Biometrika 73, 13–22, 1986.
+            sums = np.bincount(fit.step, operator * left).astype(np.float64)
+            found.append(Scatter(sums, np.arange(sums.size), sums.size - unknowns, float(sums.size)))
+            continue
+        means = np.bincount(fit.passes, left) / np.bincount(fit.passes)
+        factor = float(np.sum(np.bincount(fit.passes, operator) ** 2))
+        found.append(Scatter(means, fit.runs_of_passes, max(means.size - unknowns, 0.0), factor))
+    return found
+
+
+def _measured_once(fit: Fit) -> bool:
+    """Whether a condition has one pass of several readings in each of its configurations, and no more."""
+    few = int(fit.passes.max()) + 1 == len(fit.group.signs)
+    return few and not fit.paired and fit.group.rows.size > len(fit.group.signs)
+
+
+def _of_unrepeated(fits: list[Fit], places: list[int], autocorrelation: float) -> list[str]:
+    if not places:
+        return []
+    text = (
+        f"{where([fits[place].group for place in places], len(fits))} no step was repeated: the standard errors follow "
+        f"from the scatter within steps, whose readings have an autocorrelation of {autocorrelation:.2g}, and do not "
+        "include what varies from run to run; repeat the runs."
+    )
+    return [Note("steps-not-repeated", text)]
+
+
+def _of_left_over(fits: list[Fit], places: list[int], freedom: Array) -> list[str]:
+    if not places:
+        return []
+    text = (
+        f"{where([fits[place].group for place in places], len(fits))} each configuration was measured once: the "
+        "standard errors follow from what the configurations leave over, with "
+        f"{freedom[places, _VISCOELASTIC].min():.2g} degrees of freedom; repeat the runs."
+    )
+    return [Note("errors-from-left-over", text)]
+
+
+def _of_common(fits: list[Fit], common: dict[int, float]) -> list[str]:
+    if not common:
+        return []
+    level = float(np.median(list(common.values())))
+    text = (
+        f"{where([fits[place].group for place in common], len(fits))} runs differ alike at all speeds, so that the "
+        "errors of the speeds of one temperature are not independent: they share "
+        f"{100.0 * level:.2g} % of viscoelastic friction (level_error = {level:.2g} in shift_friction)."
+    )
+    return [Note("errors-shared-by-speeds", text)]
