@@ -13,6 +13,7 @@ from scipy.stats import t as student
 
 from friction.made_runs import FOUR, friction_curves, timed_sweeps, traction_runs
 from viscofric.errors import InputError
+from viscofric.friction.identification.points import relative_errors
 from viscofric.friction.measurement.between_runs import Pool, Scatter
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
@@ -226,3 +227,11 @@ def test_errors_that_speeds_share_are_noted_with_their_size() -> None:
     assert "errors-shared-by-speeds" in codes(notes)
     notes = separate(timed_sweeps(FIVE, variation=0.04, runs=20, readings=2, anew=True, seed=1)).notes
     assert "errors-shared-by-speeds" not in codes(notes)
+
+
+def test_identification_weighs_pooled_errors_once() -> None:
+    """Three runs tell their own scatter badly; drawn towards a common one twice, a quiet point would weigh least."""
+    curves = separate(timed_sweeps(np.geomspace(0.02, 0.2, 12), variation=0.04, anew=True, seed=5))
+    own = curves.viscoelastic_error / curves.viscoelastic
+    # Drawn towards the common scatter, which is two thirds to 1.3 times the larger one of own and pooled.
+    assert np.max(np.abs(np.log(relative_errors(curves) / own))) < np.log(2.0)

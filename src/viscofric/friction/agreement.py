@@ -46,7 +46,8 @@ class Agreement:
         d in the order of the measured points.
     bias_error : float
         Standard error of `bias`; s and e are taken to be independent from point to point, m to be one error of all,
-        which makes most of it.  Infinite if any s is.
+        which makes most of it.  Infinite if any s is.  What all speeds of a run share, which `separate` notes with its
+        size, is to be added.
     bias_error_at : (k,) array
     share_within_scatter : float or None
         Share of the points where predicted and measured differ by at most the standard deviation over the measured

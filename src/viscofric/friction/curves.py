@@ -87,7 +87,7 @@ class FrictionCurves:
     viscoelastic_error : (n,) array
         Standard error of the mean where measured, numerical error estimate where predicted.
     viscoelastic_scatter : (n,) array
-        Standard deviation over the replicates (zero where predicted).
+        Standard deviation over the replicates, pooled where these are few (zero where predicted).
     replicates : (n,) array of int
         Repetitions behind each entry (1 where predicted).
     coulomb, coulomb_error, coulomb_scatter : (n,) array or None

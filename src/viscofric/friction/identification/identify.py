@@ -127,7 +127,8 @@ def identify_material(
     The uncertainty is that of fits to other errors, of the measurement and of what was assumed (randomised maximum
     likelihood).
 
-    Errors of the points are taken to be independent.  Those of replicates are drawn towards a common scatter.
+    Errors of the points are taken to be independent.  Those of replicates are drawn towards a common scatter.  What all
+    speeds of a run share, which `separate` notes with its size, is not modelled.
 
     Examples
     --------

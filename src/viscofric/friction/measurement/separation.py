@@ -211,7 +211,7 @@ class Fit:
         """
         value, freedom = self.mean(weights), freedom.copy()
         count = self.replicates
-        scatter = (self.each @ weights).std(axis=0, ddof=1) if self.paired else error * np.sqrt(count)
+        scatter = error * np.sqrt(count)
         unknown = np.array([False, False, not self.slides, not self.checks])
         error, scatter = (np.where(unknown, np.inf, spread) for spread in (error, scatter))
         if not self.fits_offset:

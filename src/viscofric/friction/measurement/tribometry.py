@@ -101,10 +101,11 @@ def separate(
     enough steps with several configurations (K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13).
 
     Where this leaves a condition fewer than four degrees of freedom, the variance is the larger one of its own and
-    that of all conditions together, as a part of the friction squared.  Runs may differ alike at all their speeds or
-    at each speed anew; the variances of the runs' means over the speeds of a temperature and of the rest give the
-    degrees of freedom (F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110).  Errors that the speeds share are noted
-    with their size: they are not independent from point to point, for which `shift_friction` has ``level_error``.
+    that of all conditions together, as a part of the friction squared; the scatter is that of one replicate.  Runs
+    may differ alike at all their speeds or at each speed anew; the variances of the runs' means over the speeds of a
+    temperature and of the rest give the degrees of freedom (F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110).
+    Errors that the speeds share are noted with their size: they are not independent from point to point, for which
+    `shift_friction` has ``level_error``.
 
     Where no pass was repeated and nothing is left over, errors follow from the readings within the passes, as
     autoregressive series of first order; what varies from run to run is then not in them, and a note says so.  They

@@ -64,7 +64,8 @@ def shift_friction(
         Of the master curve, with an indenter; the median of the curves' loads if left out.
     level_error : float
         Relative standard error of friction that all points of a temperature share, such as 0.01 for a force cell or
-        for samples that were changed between temperatures; counted in the covariance of found shift factors.
+        for samples that were changed between temperatures, or what runs differ by at all speeds, which `separate`
+        notes with its size; counted in the covariance of found shift factors.
 
     Returns
     -------
