@@ -100,8 +100,16 @@ def _umask() -> int:
     return mask
 
 
-def write_atomically(path: Path, content: bytes) -> None:
+def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> None:
     """Write a file by way of a temporary one beside it, moved into place when it is complete.
+
+    Parameters
+    ----------
+    path : Path
+        Replaced if it exists; a symbolic link itself, not what it points to.
+    content : bytes
+    make_folder : bool
+        Whether to make its folder where there is none.
 
     Raises
     ------
@@ -109,7 +117,8 @@ def write_atomically(path: Path, content: bytes) -> None:
         If the folder or the file cannot be written.
     """
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        if make_folder:
+            path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         temporary = Path(name)
         try:

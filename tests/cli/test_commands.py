@@ -11,6 +11,7 @@ import sys
 import tomllib
 from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from click.testing import CliRunner, Result
@@ -19,6 +20,9 @@ from viscofric.cli import main
 from viscofric.cli.run import tell
 from viscofric.study import open_results
 from viscofric.study.results import save_results
+
+if TYPE_CHECKING:
+    import xarray
 
 EXAMPLE = Path(str(files("viscofric"))) / "example"
 STUDY = """
@@ -179,6 +183,65 @@ def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: 
     ]
 
 
+def test_missed_accuracy_is_a_warning_and_a_number_and_no_failure(tmp_path: Path) -> None:
+    surface = """
+    [material]
+    catalogue = "synthetic fluoroelastomer"
+    [surface]
+    hurst = 0.8
+    rms_slope = 0.2
+    rolloff = "250 um"
+    shortest = "128 um"
+    spacing = "16 um"
+    points = 64
+    seed = 1
+    [conditions]
+    pressure = "50 kPa"
+    speed = ["1 mm/s", "1 m/s"]
+    temperature = "30 degC"
+    [solver]
+    accuracy = 1e-3
+    """
+    result = call("run", write(tmp_path, study=surface), "--json")
+    assert result.exit_code == 0, result.output
+    finished = json.loads(result.stdout.splitlines()[-1])
+    results = open_results(tmp_path / "study.results")
+    cases = results.dataset
+    beyond = int((cases["friction_error"] > 1e-3 * cases["friction_coefficient"]).sum())
+    assert beyond > 0
+    assert finished["beyond_accuracy"] == results.beyond_accuracy == beyond
+    (warning,) = [said for said in results.warnings if f"In {beyond} of 2 cases" in said]
+    assert warning in finished["warnings"]
+    assert result.stderr.count(f"In {beyond} of 2 cases") == 1
+
+
+def test_check_of_results_names_what_is_damaged(finished: Path) -> None:
+    assert call("check", "--results", finished).exit_code == 0
+    case = min((finished / "cases").glob("*.json"))
+    case.write_text(case.read_text().replace("1", "2", 1))
+    result = call("check", "--results", finished)
+    assert result.exit_code == 1
+    assert [line for line in result.stderr.splitlines() if str(case) in line] == result.stderr.splitlines()
+    found = json.loads(call("check", "--results", finished, "--json").stdout)
+    assert (found["cases"], list(found["damaged"])) == (1, [str(case)])
+    for wrong in (["check"], ["check", finished, "--results", finished]):
+        assert call(*wrong).exit_code == 2
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows keeps open files")
+def test_results_that_are_removed_before_the_end_are_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from viscofric.report import html
+
+    write_report = html.write_report
+
+    def removed(tree: xarray.DataTree, folder: Path, **images: Any) -> Path:
+        shutil.rmtree(folder)
+        return write_report(tree, folder, **images)
+
+    monkeypatch.setattr(html, "write_report", removed)
+    assert "was removed" in told(call("run", write(tmp_path)))
+
+
 def test_errors_are_told_without_an_empty_line_before_them(tmp_path: Path) -> None:
     assert call("run", tmp_path / "study.toml").stderr.startswith("Error: ")
 
@@ -267,7 +330,7 @@ def test_matplotlib_writes_nothing_to_the_home_folder(finished: Path, tmp_path: 
     home = tmp_path / "home"
     home.mkdir()
     few = open_results(finished)
-    for name in ("isotherms", "shift_factors", "master_curve", "prediction", "prediction_master"):
+    for name in ("isotherms", "shift_factors", "master_curve", "prediction"):
         del few.tree[name]  # one figure is enough to make matplotlib look for its folders
     save_results(few.tree, finished)
     unset = {"HOME": str(home), "MPLCONFIGDIR": "", "XDG_CACHE_HOME": "", "XDG_CONFIG_HOME": ""}

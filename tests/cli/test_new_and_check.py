@@ -11,6 +11,8 @@ from click.testing import CliRunner, Result
 from viscofric.cli import main
 from viscofric.cli.check import duration
 from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
+from viscofric.report.checks import all_checks
+from viscofric.study import open_results
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -35,6 +37,25 @@ def test_starter_files_and_their_data_are_right(tmp_path: Path, template: str) -
     # Only what the run file names is written beside it.
     data = {path.name for path in tmp_path.iterdir()} - {"study.toml"}
     assert data == {name for name in ("dma.csv", "mtm.csv") if f'"{name}"' in template_text(template)}
+
+
+@pytest.mark.slow
+@pytest.mark.apart
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("template", TEMPLATES)
+def test_starter_files_keep_what_they_promise(tmp_path: Path, template: str) -> None:
+    call("new", tmp_path, "--template", template)
+    result = call("run", tmp_path / "study.toml", "--json")
+    assert result.exit_code == 0, result.output
+    finished = json.loads(result.stdout.splitlines()[-1])
+    assert (finished["failures"], finished["beyond_accuracy"]) == ([], 0)
+    results = open_results(tmp_path / "study.results")
+    verdicts = {check.name: check.verdict for check in all_checks(results.tree)}
+    for name in ("Energy balance", "Contact conditions", "All cases solved", "Accuracy"):
+        assert verdicts[name] == "passed", name
+    assert verdicts.get("Half-space", "noted") != "look at this"
+    said = result.stderr.splitlines()
+    assert len(set(said)) == len(said)
 
 
 def test_check_says_how_much_is_asked_for(tmp_path: Path) -> None:

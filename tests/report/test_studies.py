@@ -101,16 +101,17 @@ def test_failed_and_interpolated_cases_are_marked(make_study: Callable[..., xr.D
     checks = {check.name: check for check in all_checks(tree)}
     assert checks["All cases solved"].verdict == "failed"
     # Every second case of the maker, the first of all failed; each with an error of 4e-4.
-    assert checks["Interpolated values"].verdict == "passed"
-    assert checks["Interpolated values"].words.startswith("42 of 83 ")
-    assert "0.040" in checks["Interpolated values"].words
+    assert checks["Accuracy"].verdict == "passed"
+    assert " 42 of 83 " in checks["Accuracy"].words
+    assert "0.040" in checks["Accuracy"].words
     assert counted(list(checks.values())).startswith(f"{len(checks)} checks: 1 failed, ")
 
 
-def test_interpolation_beyond_the_accuracy_is_told(make_study: Callable[..., xr.DataTree]) -> None:
+def test_errors_above_the_accuracy_are_pointed_out(make_study: Callable[..., xr.DataTree]) -> None:
     tree = make_study(STUDIES["loads"], accuracy=1e-4)
-    (check,) = [check for check in all_checks(tree) if check.name == "Interpolated values"]
+    (check,) = [check for check in all_checks(tree) if check.name == "Accuracy"]
     assert check.verdict == "look at this"
+    assert " 84 of 84 " in check.words
 
 
 def test_highest_friction_of_each_load_is_told_at_a_glance(make_study: Callable[..., xr.DataTree]) -> None:
@@ -190,7 +191,7 @@ def test_a_rough_surface_is_not_called_a_ball(
 ) -> None:
     found = rough(make_sweep, tree, error)
     checks = {check.name: check for check in friction_checks(found)}
-    assert checks["All cases solved"].verdict == verdict
+    assert checks["Accuracy"].verdict == verdict
     assert "Small strain" not in checks
     page = write_report(found, tmp_path, images={"friction_sweep": {"svg": b"<svg></svg>"}}).read_text("utf-8")
     assert "under a mean pressure of 50 kPa" in page.replace("\N{NO-BREAK SPACE}", " ")

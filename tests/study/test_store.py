@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -10,8 +11,9 @@ import pytest
 from study import sweeps
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
+from viscofric.study.record import Failure
 from viscofric.study.solving import _sources, case_key
-from viscofric.study.store import CaseStore
+from viscofric.study.store import CaseStore, Damaged
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,9 +35,48 @@ def test_a_half_written_case_counts_as_not_solved(tmp_path: Path, kept: int) -> 
     store.put("a", RECORD)
     path = tmp_path / "a.json"
     path.write_bytes(path.read_bytes()[:kept])
-    assert store.get("a") is None
+    assert isinstance(store.get("a"), Damaged)
     store.put("a", replace(RECORD, cells=512))
     assert store.get("a") == replace(RECORD, cells=512)
+
+
+def test_no_changed_digit_becomes_a_result(tmp_path: Path) -> None:
+    store = CaseStore(tmp_path)
+    store.put("a", RECORD)
+    path = tmp_path / "a.json"
+    whole = path.read_text(encoding="utf-8")
+    numbers = [place for place, letter in enumerate(whole) if letter.isdigit()]
+    assert len(numbers) > 45
+    for place in numbers:
+        path.write_text(whole[:place] + str((int(whole[place]) + 1) % 10) + whole[place + 1 :], encoding="utf-8")
+        assert isinstance(store.get("a"), Damaged), place
+    friction = f'"friction_coefficient": {RECORD.friction_coefficient!r}'
+    assert friction in whole
+    path.write_text(
+        whole.replace(friction, f'"friction_coefficient": {3.0 * RECORD.friction_coefficient!r}'), encoding="utf-8"
+    )
+    assert set(store.damaged()) == {"a"}
+    path.write_text(whole, encoding="utf-8")
+    assert store.damaged() == {}
+
+
+def test_a_case_under_the_key_of_another_is_not_taken(tmp_path: Path) -> None:
+    store = CaseStore(tmp_path)
+    store.put("a", RECORD)
+    store.put("b", Failure("it does not converge.", "30 °C"))
+    assert store.get("b") == Failure("it does not converge.", "30 °C")
+    (tmp_path / "a.json").rename(tmp_path / "c.json")
+    assert isinstance(store.get("c"), Damaged)
+    assert store.get("a") is None
+
+
+def test_cases_without_a_checksum_are_told_from_damaged_ones(tmp_path: Path) -> None:
+    store = CaseStore(tmp_path)
+    (tmp_path / "old.json").write_text(json.dumps(RECORD.values()))
+    store.put("cut", RECORD)
+    (tmp_path / "cut.json").write_bytes((tmp_path / "cut.json").read_bytes().partition(b', "sha256"')[0] + b"}")
+    found = store.damaged()
+    assert (found["old"].older, found["cut"].older) == (True, False)
 
 
 def test_key_changes_with_every_input() -> None:

@@ -189,3 +189,43 @@ def test_mistakes_of_tables_and_between_tables_are_told_together() -> None:
     assert lines[0] == "study.toml: 5 things are wrong:"
     for place in ("  solver.accuracy", "  layr", "  material[0].name", "  material[1].name", "  sweep.together[0]"):
         assert sum(line.startswith(place + ":") for line in lines) == 1, place
+
+
+FEW = """
+[conditions]
+load = "5 N"
+speed = {speed}
+temperature = "60 degC"
+[indenter]
+radius = "9.525 mm"
+[solver]
+accuracy = 5e-2
+cases = "{cases}"
+"""
+
+
+@pytest.mark.parametrize(
+    ("speed", "cases", "contacts"),
+    [
+        ('"0.1 m/s"', "curves", 1),
+        ('"0.1 m/s"', "each", 1),
+        ('["0.1 m/s", "0.2 m/s", "0.4 m/s"]', "each", 3),
+    ],
+)
+def test_no_more_contacts_are_solved_than_cases_asked_for(
+    tmp_path: Path, speed: str, cases: str, contacts: int
+) -> None:
+    path, solved = tmp_path / "study.toml", []
+    path.write_text(MATERIAL + FEW.format(speed=speed, cases=cases))
+    results = vf.run_study(path, progress=lambda event: solved.append(event.key) if event.event == "solved" else None)
+    assert len(solved) == contacts
+    assert not results.dataset["interpolated"].values.any()
+    assert "prediction_master" not in results.tree.children
+
+
+def test_a_master_curve_is_solved_where_it_is_asked_for(tmp_path: Path) -> None:
+    path, solved = tmp_path / "study.toml", []
+    path.write_text(MATERIAL + FEW.format(speed='["0.1 m/s", "0.2 m/s"]', cases="each") + "master_curve_points = 3\n")
+    results = vf.run_study(path, progress=lambda event: solved.append(event.key) if event.event == "solved" else None)
+    assert len(solved) == 2 + 3
+    assert results.tree["prediction_master"].sizes == {"case": 3}

@@ -1,4 +1,4 @@
-"""``viscofric check STUDY.toml``: whether anything is wrong, and how much it would be to solve."""
+"""``viscofric check``: whether anything is wrong with a run file, and how much it asks for; or with stored results."""
 
 from __future__ import annotations
 
@@ -24,14 +24,27 @@ _PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thi
 
 
 @click.command(name="check")
-@click.argument("study", metavar="STUDY|-", type=click.Path(path_type=Path, allow_dash=True))
+@click.argument("study", metavar="[STUDY|-]", required=False, type=click.Path(path_type=Path, allow_dash=True))
+@click.option(
+    "--results",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder of results, instead of STUDY: compare every stored contact, and results.nc, with its checksum.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON, in SI units.")
-def command(study: Path, as_json: bool) -> None:
+def command(study: Path | None, results: Path | None, as_json: bool) -> None:
     """Check a run file and its data files, and say how much it asks for; nothing is solved.
 
     All mistakes are told at once, each with its place in the file.  With - the run file is read from standard input,
-    and data files are looked for in this folder.
+    and data files are looked for in this folder.  With --results, check stored results for damage instead; exit status
+    1 if a file is damaged.
     """
+    if (study is None) == (results is None):
+        raise click.UsageError("give a run file, or --results with a folder of results.")
+    if results is not None:
+        _check_results(results, as_json)
+        return
+    assert study is not None
     with told():
         from viscofric.study.checking import check_study
         from viscofric.study.run_file import decoded, parse_study, read_study_text
@@ -52,6 +65,38 @@ def command(study: Path, as_json: bool) -> None:
         click.echo(f"Note: {note}", err=True)
 
 
+def _check_results(folder: Path, as_json: bool) -> None:
+    """Say which files of a folder of results are damaged; exit status 1 if any is."""
+    with told():
+        from viscofric.study.checking import check_results
+
+        found = check_results(folder)
+    if as_json:
+        record = {
+            "results": str(folder),
+            "cases": found.cases,
+            "finished": found.finished,
+            "damaged": {str(path): reason for path, reason in found.damaged.items()},
+            "unverified": [str(path) for path in found.unverified],
+        }
+        click.echo(json.dumps(record, indent=2, ensure_ascii=False))
+    else:
+        files = found.cases + found.finished
+        click.echo(f"contacts   {found.cases} stored")
+        click.echo(f"results    {'results.nc' if found.finished else 'not put together yet'}")
+        click.echo(f"checksums  {files - len(found.damaged) - len(found.unverified)} of {files} files match")
+        for path, reason in found.damaged.items():
+            click.echo(f"Damaged: {path}: {reason}", err=True)
+        if found.unverified:
+            click.echo(
+                f"Note: {len(found.unverified)} files have no checksum, as an older viscofric wrote them; they are "
+                "not verified.",
+                err=True,
+            )
+    if found.damaged:
+        sys.exit(1)
+
+
 def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
     """Return what was found, in plain types."""
     study, sweep = found.study, found.sweep
@@ -63,7 +108,7 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
         "indenter": study.body.shape,
         "axes": {axis.name: {name: list(values) for name, values in axis.columns.items()} for axis in sweep.axes},
         "cases": len(sweep.cases),
-        "master_curve_points": study.solver.master_curve_points if _is_one_curve(found) else 0,
+        "master_curve_points": found.master_curve_points,
         "measured_points": None if found.measured is None else len(found.measured.speed),
         "expected": {
             "solves": found.expected.solves,
@@ -78,13 +123,6 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
 
 def _pairs(found: CheckedStudy) -> list[tuple[Rubber, Any]]:
     return list(zip(found.rubbers, found.study.materials, strict=True))
-
-
-def _is_one_curve(found: CheckedStudy) -> bool:
-    """Whether all cases lie on one friction master curve: there is one of everything but temperature and speed."""
-    if found.study.indenter is None:
-        return False
-    return all(len(axis) == 1 or set(axis.columns) <= {"temperature", "speed", "sample"} for axis in found.sweep.axes)
 
 
 def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:

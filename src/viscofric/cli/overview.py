@@ -12,7 +12,7 @@ GROUPS = {
     "Studies": {
         "demo": "Run the built-in example (synthetic data), start to end.",
         "new": "Write a run file to start from, with data to replace.",
-        "check": "Check a run file and its data; tell how much it asks for.",
+        "check": "Check a run file and its data, or stored results.",
         "run": "Run a study: friction, figures and a report out of data.",
         "report": "Write figures and report of a finished study again.",
         "export": "Write results as CSV, Excel workbook, netCDF or zarr.",

@@ -18,7 +18,15 @@ SOME_CASES_FAILED = 3
 # As many notes and kinds of failure are printed; the report has them all.
 _MOST_LINES = 5
 # Checks that a study tells as warnings, notes or failures of its own.
-_TOLD_OTHERWISE = ("Small strain", "Linear rubber", "Measured frequency range", "Isotherms used", "All cases solved")
+_TOLD_OTHERWISE = (
+    "Small strain",
+    "Linear rubber",
+    "Half-space",
+    "Measured frequency range",
+    "Isotherms used",
+    "All cases solved",
+    "Accuracy",
+)
 
 
 @click.command(name="run")
@@ -101,6 +109,7 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
                 progress(Event("stage", stage="report", done=0, total=1))
                 figures, report = write_figures_and_report(results.tree, results.folder)
                 progress(Event("stage", stage="report", done=1, total=1))
+                _insist_on(Path(results.folder / "results.nc"), report, *figures)
         except ViscofricError as error:
             # A full disk, for one, ends a study as an interrupt does.
             said = f"{error}{_kept(output)}" if "cannot be written" in str(error) else str(error)
@@ -118,7 +127,13 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         "data": str(results.folder / "results.nc"),
         "report": str(report),
     }
-    hearer.tell("finished", failures=list(results.failures), **written)
+    hearer.tell(
+        "finished",
+        failures=list(results.failures),
+        warnings=list(results.warnings),
+        beyond_accuracy=results.beyond_accuracy,
+        **written,
+    )
     tell(results, quiet=quiet or as_json)
     if not (quiet or as_json):
         for figure in figures:
@@ -127,6 +142,15 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         click.echo(f"report   {report}")
     if results.failures:
         sys.exit(SOME_CASES_FAILED)
+
+
+def _insist_on(*written: Path) -> None:
+    """Raise `DataFileError` if a file that was written is there no more."""
+    from viscofric.errors import DataFileError
+
+    for path in written:
+        if not path.is_file():
+            raise DataFileError(path, "was removed while the study ran; run it again, and leave its folder alone.")
 
 
 def _kept(output: Path) -> str:

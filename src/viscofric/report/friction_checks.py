@@ -14,6 +14,7 @@ from viscofric.report.friction_summary import CONSISTENT_WITHIN, consistency_wor
 from viscofric.report.numbers import percent, several, significant
 from viscofric.report.results import group, is_from_friction, is_rough, number, numbers, sentences, values
 from viscofric.report.sweeps import solved_cases
+from viscofric.study.results import beyond_accuracy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 #: What a comparison with friction is worth where the rubber comes from friction.
 CIRCULAR = "The rubber was itself identified from friction; if that is this friction, this tests nothing."
 # What still counts as sound
-_COMPLEMENTARITY = 1e-6  # over the indentation
+_COMPLEMENTARITY = 1e-6  # over the indentation, or the rms height; contacts are solved to less
 _CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
 # Probability of differences as large, below which two sets of shift factors are not the same
 _LIKELY = 0.05
@@ -73,8 +74,9 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
         yield Check.of(
             "Contact conditions",
             violation <= _COMPLEMENTARITY,
-            f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of "
-            f"the indentation at most (up to {significant(_COMPLEMENTARITY, 1)} counts as sound).",
+            f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of the "
+            f"{'rms height' if is_rough(tree) else 'indentation'} at most (up to {significant(_COMPLEMENTARITY, 1)} "
+            "counts as sound).",
         )
 
 
@@ -188,38 +190,27 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
         yield Check("All cases solved", "failed", f"{many} could not be solved: see above.")
-    elif is_rough(tree):  # its grid is given, and with it the error
-        yield _rough_cases(tree)
     else:
-        yield Check("All cases solved", "passed", "Every case was solved to the accuracy asked for.")
-    cases = solved_cases(tree)
-    if cases is None or not (between := interpolated(cases)).any():
-        return
-    friction, error = (np.abs(values(cases, name))[between] for name in ("friction_coefficient", "friction_error"))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        largest, accuracy = float(np.nanmax(error / friction)), number(tree.attrs, "accuracy")
-    yield Check.of(
-        "Interpolated values",
-        not largest > accuracy * (1.0 + 1e-9),
-        f"{int(between.sum())} of {between.size} friction coefficients lie on a curve through solved contacts, "
-        "since cases of one rubber under one load share it; the tables mark them. Their error, with that of the "
-        f"interpolation, is estimated at {percent(largest)} at most; {percent(accuracy)} was asked for.",
-    )
-
-
-def _rough_cases(tree: xr.DataTree) -> Check:
-    """Say how many contacts of a rough surface reach the accuracy asked for, which their given grid limits."""
+        yield Check("All cases solved", "passed", "Every case was solved.")
     cases, accuracy = solved_cases(tree), number(tree.attrs, "accuracy")
-    if cases is None:
-        return Check("All cases solved", "noted", "Every case was solved.")
+    if cases is not None and math.isfinite(accuracy) and "friction_error" in cases:
+        yield _accuracy(cases, accuracy, is_rough(tree))
+
+
+def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
+    """Judge the numerical errors of friction by the accuracy asked for."""
+    beyond, between = int(beyond_accuracy(cases, accuracy).sum()), int(interpolated(cases).sum())
     friction, error = (np.abs(values(cases, name)) for name in ("friction_coefficient", "friction_error"))
-    beyond = int(np.sum(error > accuracy * friction * (1.0 + 1e-9)))
-    if not beyond:
-        return Check("All cases solved", "passed", "Every case was solved to the accuracy asked for.")
-    worst = percent(float(np.nanmax(error / friction)))
-    return Check(
-        "All cases solved",
-        "look at this",
-        f"Every case was solved, but in {beyond} of {friction.size} the estimated error of friction, {worst} at most, "
-        f"is above the {percent(accuracy)} asked for: the points of the surface are too far apart for it.",
-    )
+    known = friction > 0.0
+    worst = percent(float(np.max(error[known] / friction[known], initial=0.0)))
+    words = f"The numerical error of friction is estimated at {worst} at most; {percent(accuracy)} was asked for."
+    if beyond:
+        why = " The points of the surface are too far apart for it." if rough else ""
+        words += f" It is larger than that in {beyond} of {friction.size} cases.{why}"
+    if between:
+        words += (
+            f" {between} of {friction.size} friction coefficients lie on a curve through solved contacts, which cases "
+            "of one material under one load share; the tables mark them, and their error includes that of the "
+            "interpolation."
+        )
+    return Check.of("Accuracy", beyond == 0, words)

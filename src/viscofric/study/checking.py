@@ -1,4 +1,4 @@
-"""A study checked without solving it: its run file, its data files, the rubber they make, and how much it asks for."""
+"""A study checked without solving it: its run file, data and rubber, and the effort; or its stored results."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import InputError, StudyError
+from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.study.integrity import DIGEST
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
+from viscofric.study.results import RESULTS_FILE, open_results
 from viscofric.study.rubber import make_rubber
+from viscofric.study.running.folder import CASES_FOLDER
+from viscofric.study.store import CaseStore
 from viscofric.study.surface_source import surface_of
 from viscofric.study.surface_words import surface_notes, uncertainty_of
 from viscofric.study.sweep import Case
@@ -67,6 +71,15 @@ class CheckedStudy:
             fields=study.outputs.fields == "all",
             each=study.solver.cases == "each",
         )
+
+    @property
+    def master_curve_points(self) -> int:
+        """Points along the friction master curve; 0 where there is none."""
+        varied = {name for axis in self.sweep.axes if len(axis) > 1 for name in axis.columns} - {"sample"}
+        alone = self.measured is None and (not varied or not varied <= {"temperature", "speed"})
+        if self.study.indenter is None or alone:
+            return 0
+        return self.study.solver.points_along(measured=self.measured is not None)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -132,6 +145,56 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     if wrong:
         raise StudyError("\n  ".join([f"{path}: its data cannot be used:", *wrong]))
     return CheckedStudy(study, sweep, tuple(rubbers), measured)
+
+
+@dataclass(frozen=True)
+class CheckedResults:
+    """Whether a folder of results holds what was stored in it.
+
+    Attributes
+    ----------
+    cases : int
+        Stored contacts.
+    finished : bool
+        Whether the results were put together, too.
+    damaged : dict of Path to str
+        Files that do not hold what was stored, and what is wrong with each.
+    unverified : tuple of Path
+        Files without a checksum, which older versions of viscofric wrote: nothing is known of them.
+    """
+
+    cases: int
+    finished: bool
+    damaged: dict[Path, str]
+    unverified: tuple[Path, ...]
+
+
+def check_results(folder: Path) -> CheckedResults:
+    """Compare every file of a study's results with its checksum.
+
+    Raises
+    ------
+    DataFileError
+        If the folder holds no results.
+    """
+    store, target = CaseStore(folder / CASES_FOLDER), folder / RESULTS_FILE
+    cases, finished = sum(1 for _ in store.stored()), target.exists()
+    if not cases and not finished:
+        raise DataFileError(folder, f"holds no results of a study (no {RESULTS_FILE}, no {CASES_FOLDER}).")
+    damaged, unverified = {}, []
+    for key, found in store.damaged().items():
+        file = store.folder / f"{key}.json"
+        if found.older:
+            unverified.append(file)
+        else:
+            damaged[file] = found.reason
+    if finished:
+        try:
+            if DIGEST not in open_results(folder).tree.attrs:
+                unverified.append(target)
+        except DataFileError as error:
+            damaged[target] = error.problem
+    return CheckedResults(cases, finished, damaged, tuple(unverified))
 
 
 def _check_temperatures(rubber: Rubber, temperatures: NDArray[np.float64]) -> None:

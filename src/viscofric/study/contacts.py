@@ -144,18 +144,21 @@ class Contacts:
         return case.speed * float(self.rubbers[case.material].shift(case.temperature))
 
     def _along(self) -> tuple[Case, ...]:
-        """Return the master curve's contacts, all of them at the reference temperature.
+        """Return the master curve's contacts, all of them at the reference temperature; none where it is one point.
 
         What is measured is of one rubber and one ball, and laid beside the curve of the first load.
         """
+        points = self.study.solver.points_along(measured=self.measured is not None)
         one, alike = self.sweep.cases[0], {case.alike for case in self.sweep.cases if case.sample is None}
         if not isinstance(one, Case) or (len(alike) > 1 and self.measured is None):
             return ()
         reduced = np.array([self._reduced(case) for case in self.sweep.cases])
         if self.measured is not None:
             reduced = np.concatenate([reduced, self.measured.reduced_speed])
+        if self.measured is None and (points == 0 or reduced.max() <= reduced.min() * (1.0 + _ROUNDING)):
+            return ()
         ends = reduced.min() * (1.0 - _ROUNDING), reduced.max() * (1.0 + _ROUNDING)
-        speeds = np.geomspace(*ends, self.study.solver.master_curve_points)
+        speeds = np.geomspace(*ends, points)
         rubber = self.rubbers[one.material]
         return tuple(
             Case(

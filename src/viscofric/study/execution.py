@@ -5,15 +5,18 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from viscofric.errors import StudyError
 from viscofric.files import file_path
+from viscofric.notes import Note
 from viscofric.study import labels
 from viscofric.study.assumptions import assumption_checks, assumptions, thickness_warnings
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.export import export_results
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.record import Failure
-from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
+from viscofric.study.results import StudyResults, beyond_accuracy, input_hashes, provenance, save_results
 from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.run_file import parse_study, read_study_text
 from viscofric.study.running import Event, choose_executor, run_plan, silent, study_folder
@@ -32,6 +35,9 @@ if TYPE_CHECKING:
     from viscofric.study.running import Progress
 
     Groups = dict[str, xarray.Dataset]
+
+# As many contacts are named in a sentence.
+_MOST_LABELS = 5
 
 
 def run_study(
@@ -112,8 +118,8 @@ def run_study(
         hashes = input_hashes(study.inputs, path.parent)
         rubbers, measured = _inputs(study, _staged(progress))
         contacts = Contacts(study, rubbers, measured)
-        run_plan(contacts.plan, store, executor, progress)
-        tree = tree_of(contacts)
+        damaged = run_plan(contacts.plan, store, executor, progress)
+        tree = tree_of(contacts, _damage(damaged, finished_only))
         tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)
         results = StudyResults(tree, folder)
@@ -151,8 +157,28 @@ def _inputs(
     return rubbers, stage("shift", lambda: Measurement(curves, rubbers[0].material, first.indenter, load))
 
 
-def tree_of(contacts: Contacts) -> xarray.DataTree:
+def _damage(labels: Sequence[str], finished_only: bool) -> list[str]:
+    """Say which stored cases were not used, since they were damaged."""
+    if not labels:
+        return []
+    many = (
+        f"{len(labels)} stored contacts were damaged (they did"
+        if len(labels) > 1
+        else "1 stored contact was damaged (it did"
+    )
+    shown = "; ".join(labels[:_MOST_LABELS]) + ("; …" if len(labels) > _MOST_LABELS else "")
+    done = "counted as not solved" if finished_only else "solved again"
+    return [Note("damaged-cases", f"{many} not match the checksum) and {done}: {shown}.")]
+
+
+def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree:
     """Lay out everything that a study found, from its contacts, whose plan has been carried out.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    doubtful : iterable of str
+        What is to be said of them besides, as warnings.
 
     Raises
     ------
@@ -198,12 +224,37 @@ def tree_of(contacts: Contacts) -> xarray.DataTree:
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
         "notes": _listed([*notes, *surface_notes(study), *(measured.notes if measured else ())]),
-        "warnings": _listed([*said, *doubts((asked, at_points, along), rubbers), *thickness_warnings(checked)]),
+        "warnings": _listed(
+            [
+                *doubtful,
+                *said,
+                *doubts((asked, at_points, along), rubbers),
+                *thickness_warnings(checked),
+                *_missed_accuracy(groups["/prediction"], study),
+            ]
+        ),
         "failures": _listed(failures),
         **about,
         **setting(contacts),
     }
     return tree
+
+
+def _missed_accuracy(cases: xarray.Dataset, study: Study) -> list[str]:
+    """Say in how many cases the accuracy asked for is not reached."""
+    beyond = beyond_accuracy(cases, study.solver.accuracy)
+    if not beyond.any():
+        return []
+    error, friction = (np.abs(cases[name].values[beyond]) for name in ("friction_error", "friction_coefficient"))
+    worst = float(np.max(error[friction > 0.0] / friction[friction > 0.0], initial=0.0))
+    why = "" if study.indenter else ": the points of the surface are too far apart for it (spacing)"
+    return [
+        Note(
+            "accuracy-missed",
+            f"In {beyond.sum()} of {beyond.size} cases the estimated numerical error of friction, {worst:.2%} at most, "
+            f"is above the accuracy asked for, {study.solver.accuracy:.2%}{why}.",
+        )
+    ]
 
 
 def _named(one: StudyRubber, sentences: Iterable[str], rubbers: Sequence[StudyRubber]) -> list[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeAlias
@@ -102,7 +101,7 @@ class Record:
 
     @classmethod
     def from_values(cls, values: dict[str, Any]) -> Self:
-        """Make a record of what `to_json` wrote, as JSON's reader returns it; without fields.
+        """Make a record of its `values`, as JSON's reader returns them; without fields.
 
         Raises
         ------
@@ -119,12 +118,8 @@ class Record:
     #: Numbers that may be infinite.
     ENDLESS: ClassVar[tuple[str, ...]] = ()
 
-    def to_json(self) -> str:
-        """Write the record down, to the last digit; its fields go elsewhere."""
-        return json.dumps(self.values())
-
     def values(self) -> dict[str, Any]:
-        """Return everything but the fields."""
+        """Return everything but the fields, in types that JSON keeps to the last digit."""
         return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "fields"}
 
 
@@ -210,7 +205,7 @@ class CaseRecord(Record):
 
     @classmethod
     def from_values(cls, values: dict[str, Any]) -> Self:
-        """Make a record of what `to_json` wrote, as JSON's reader returns it; without fields.
+        """Make a record of its `values`, as JSON's reader returns them; without fields.
 
         Raises
         ------
@@ -227,11 +222,6 @@ class CaseRecord(Record):
         if not (is_number(record.half_width) or record.half_width == math.inf):
             raise ValueError("the half width is none.")
         return record
-
-    @classmethod
-    def from_json(cls, text: str) -> Self:
-        """Read what `to_json` wrote; see `from_values`."""
-        return cls.from_values(json.loads(text))
 
     def values(self) -> dict[str, Any]:
         """Return everything but the fields."""

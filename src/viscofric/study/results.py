@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 import platform
 import tempfile
@@ -13,6 +14,9 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path
 from viscofric.study.integrity import DIGEST, digest, what_helps, what_is_wrong
@@ -21,11 +25,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     import xarray
+    from numpy.typing import NDArray
 
     from viscofric.study.compare import ResultsComparison
 
 RESULTS_FILE = "results.nc"
 _PREDICTION = "prediction"
+_ROUNDING = 1e-9
 #: Attributes of the whole that a data set taken out of it keeps: what it is, and where it comes from.
 _ABOUT = (
     "title",
@@ -122,6 +128,12 @@ class StudyResults:
         return compare_results(self, other, tolerance=tolerance)
 
     @property
+    def beyond_accuracy(self) -> int:
+        """Number of cases in which the estimated numerical error of friction is above the accuracy asked for."""
+        cases = self.dataset
+        return int(beyond_accuracy(cases, float(cases.attrs.get("accuracy", math.inf))).sum())
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """What was doubtful about the data, changed or left out, one sentence each."""
         return tuple(json.loads(self.tree.attrs["notes"]))
@@ -133,8 +145,27 @@ class StudyResults:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Assumptions that do not hold well, one sentence each."""
+        """What to be careful about, one sentence each: assumptions that do not hold well, accuracy that is missed."""
         return tuple(json.loads(self.tree.attrs["warnings"]))
+
+
+def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> NDArray[np.bool_]:
+    """Return in which cases the estimated numerical error of friction is above the accuracy asked for.
+
+    Parameters
+    ----------
+    cases : xarray.Dataset
+        Predicted cases, in any shape, which the answer has; those that failed are not among them.
+    accuracy : float
+        Relative; of friction below the solver's floor, a fraction of the contact's slope, relative to that.
+    """
+    friction, error = (np.abs(cases[name].values) for name in ("friction_coefficient", "friction_error"))
+    floor = 0.0
+    if {"indentation", "front", "rear"} <= set(cases.variables):
+        slopes = np.ravel(2.0 * cases["indentation"].values / (cases["front"].values + cases["rear"].values))
+        floor = FRICTION_FLOOR * float(np.max(slopes[np.isfinite(slopes)], initial=0.0))
+    beyond: NDArray[np.bool_] = error > accuracy * np.maximum(friction, floor) * (1.0 + _ROUNDING)
+    return beyond
 
 
 def open_results(path: str | Path) -> StudyResults:

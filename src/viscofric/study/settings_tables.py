@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _MOST_SAMPLES = 10_000
 _MOST_MEMBERS = 1_000
+_POINTS = 41  # of the friction master curve
 #: Formats in which results are written besides netCDF.
 Format = Literal["csv", "excel", "zarr"]
 
@@ -51,9 +52,19 @@ class SolverTable(Table):
         "curves",
         description="Whether similar cases are solved as one curve and interpolated within the accuracy, or each.",
     )
-    master_curve_points: Count = Field(
-        41, ge=2, le=MOST_POINTS, description="Contacts along the friction master curve."
+    master_curve_points: Count | None = Field(
+        None,
+        ge=2,
+        le=MOST_POINTS,
+        description="Points of the friction master curve; 41 if not given, but none with cases = 'each' unless "
+        "friction was measured.",
     )
+
+    def points_along(self, *, measured: bool) -> int:
+        """Return the points of the friction master curve, given whether friction was measured; 0 for none."""
+        if self.master_curve_points is not None:
+            return self.master_curve_points
+        return 0 if self.cases == "each" and not measured else _POINTS
 
 
 def _enough(value: int) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 import io
 import json
 import zipfile
@@ -19,22 +21,45 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _DAMAGED = (OSError, ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile)
+# What stands before the checksum of a stored case, which is that of everything before it.
+_SEAL = b', "sha256": "'
+
+
+@dataclass(frozen=True)
+class Damaged:
+    """A stored case that cannot be used.
+
+    Attributes
+    ----------
+    reason : str
+        What is wrong with it, without its name.
+    older : bool
+        Whether it is whole for all that is known, but was stored without a checksum by an older viscofric.
+    """
+
+    reason: str
+    older: bool = False
 
 
 @dataclass(frozen=True)
 class CaseStore:
     """A folder of finished cases: ``KEY.json`` for each, and ``KEY.npz`` where its fields are kept.
 
+    Each file ends with a checksum (SHA-256) of its key, of all that it holds, and of its fields.
+
     Parameters
     ----------
     folder : Path
         Made when the first case is put into it.
+    made : bool
+        Whether it is there already, so that it has been removed if it is not, and is not made again.
     """
 
     folder: Path
+    made: bool = False
 
-    def get(self, key: str, with_fields: bool = False) -> Record | Failure | None:
-        """Return what became of a case; None if it is not known (or its file was damaged, by a crash or otherwise).
+    def get(self, key: str, with_fields: bool = False) -> Record | Failure | Damaged | None:
+        """Return what became of a case; None if it is not known.
 
         Parameters
         ----------
@@ -43,14 +68,23 @@ class CaseStore:
             Whether a record without its fields counts as none.
         """
         try:
-            text = self._path(key).read_text(encoding="utf-8")
-            failure = _failure(text)
-            if failure is not None:
-                return failure
-            record = read_record(text)
-            return replace(record, fields=self._fields(key)) if with_fields else record
-        except _DAMAGED:
+            stored = self._path(key).read_bytes()
+        except FileNotFoundError:
             return None
+        except OSError as error:
+            return Damaged(f"cannot be read ({error.strerror or error})")
+        if not _is_sealed(stored, key):
+            return _unsealed(stored)
+        try:
+            values = json.loads(stored)
+            if "failed" in values:
+                return Failure(values["failed"], values["label"])
+            record, fields = read_record(values["case"]), values["fields"]
+            if not with_fields:
+                return record
+            return None if fields is None else replace(record, fields=self._fields(key, fields))
+        except _DAMAGED:
+            return Damaged("does not hold a solved contact")
 
     def prepare(self) -> None:
         """Make the folder and see that it can be written, before time is spent on solving.
@@ -75,40 +109,65 @@ class CaseStore:
         Raises
         ------
         DataFileError
-            If it cannot be written: the disk is full, the folder read-only …
+            If it cannot be written: the disk is full, the folder read-only, or removed …
         """
+        values: dict[str, object]
         if isinstance(outcome, Failure):
-            text = json.dumps({"failed": outcome.reason, "label": outcome.label}, ensure_ascii=False)
+            values = {"failed": outcome.reason, "label": outcome.label}
         else:
-            text = outcome.to_json()
+            values = {"case": outcome.values(), "fields": None}
             if outcome.fields is not None:
                 # First, so that a case whose numbers are there has its fields as well.
                 packed = io.BytesIO()
                 np.savez_compressed(packed, **outcome.fields._asdict())
-                write_atomically(self._path(key, "npz"), packed.getvalue())
-        write_atomically(self._path(key), text.encode())
+                values["fields"] = hashlib.sha256(packed.getvalue()).hexdigest()
+                write_atomically(self._path(key, "npz"), packed.getvalue(), not self.made)
+        write_atomically(self._path(key), _sealed(json.dumps(values), key), not self.made)
 
     def stored(self) -> Iterator[str]:
         """Yield the keys of all cases in the folder, damaged ones too, in no order."""
         return (path.stem for path in self.folder.glob("*.json") if not path.name.startswith("."))
 
-    def _fields(self, key: str) -> ContactFields:
-        packed = io.BytesIO(self._path(key, "npz").read_bytes())  # a file would stay open where it is damaged
-        with np.load(packed, allow_pickle=False) as stored:
-            found = ContactFields(**{name: stored[name] for name in ContactFields._fields})
-        x, y, *fields = found
-        if not all(field.shape == (*x.shape, *y.shape) and np.all(np.isfinite(field)) for field in fields):
-            raise ValueError("fields do not fit their grid.")
+    def damaged(self) -> dict[str, Damaged]:
+        """Read every case with its fields, and return those that cannot be used, by their keys."""
+        found = {}
+        for key in sorted(self.stored()):
+            outcome = self.get(key, with_fields=True)
+            if isinstance(outcome, Damaged):
+                found[key] = outcome
         return found
+
+    def _fields(self, key: str, checksum: str) -> ContactFields:
+        stored = self._path(key, "npz").read_bytes()
+        if hashlib.sha256(stored).hexdigest() != checksum:
+            raise ValueError("fields are not those that were stored.")
+        with np.load(io.BytesIO(stored), allow_pickle=False) as fields:
+            return ContactFields(**{name: fields[name] for name in ContactFields._fields})
 
     def _path(self, key: str, kind: str = "json") -> Path:
         return self.folder / f"{key}.{kind}"
 
 
-def _failure(text: str) -> Failure | None:
-    """Return the failure that a file tells of, if it does."""
-    values = json.loads(text)
-    if not isinstance(values, dict):
-        raise TypeError("no case.")
-    reason, label = values.get("failed"), values.get("label")
-    return Failure(reason, label) if isinstance(reason, str) and isinstance(label, str) else None
+def _sealed(text: str, key: str) -> bytes:
+    """Return the text of a JSON object, and in it, last, the checksum of the case."""
+    body = text.encode().removesuffix(b"}")
+    return body + _SEAL + _checksum(body, key).encode() + b'"}'
+
+
+def _is_sealed(stored: bytes, key: str) -> bool:
+    """Whether a file holds what was stored under its key."""
+    body, seal, checksum = stored.rpartition(_SEAL)
+    return bool(seal) and checksum == _checksum(body, key).encode() + b'"}'
+
+
+def _checksum(body: bytes, key: str) -> str:
+    return hashlib.sha256(key.encode() + b"\0" + body).hexdigest()
+
+
+def _unsealed(stored: bytes) -> Damaged:
+    """Say what is wrong with a file whose checksum is not right, or not there."""
+    with contextlib.suppress(ValueError, RecursionError):
+        values = json.loads(stored)
+        if isinstance(values, dict) and not {"case", "sha256"} & values.keys():
+            return Damaged("has no checksum: an older viscofric stored it", older=True)
+    return Damaged("does not match its checksum")

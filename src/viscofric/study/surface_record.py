@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from viscofric.study.record import CaseRecord, ContactFields, Record
 
@@ -57,14 +56,13 @@ class SurfaceRecord(Record):
         )
 
 
-def read_record(text: str) -> Record:
-    """Read what a record's `to_json` wrote; without fields.
+def read_record(values: dict[str, Any]) -> Record:
+    """Make a record of its `values`, as JSON's reader returns them; without fields.
 
     Raises
     ------
     ValueError, TypeError, KeyError
         If it is something else.
     """
-    values = json.loads(text)
     kind = SurfaceRecord if "contact_area_fraction" in values else CaseRecord
     return kind.from_values(values)

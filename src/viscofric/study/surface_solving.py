@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from viscofric.contact.periodic.solve import LOOSEST, TIGHTEST, solve_periodic
+from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.rheology.material import Material
 from viscofric.study.solving import case_key, modes_written, written
 from viscofric.study.surface_record import SurfaceRecord
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.surface_source import SurfaceSource
 
-#: Complementarity asked for, over the accuracy: what the grid does to friction is far more.
-TOLERANCE = 1e-3
+# Complementarity asked for: far less than what the grid does to friction, whatever the accuracy asked for.
+_TOLERANCE = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,8 +37,6 @@ class SurfaceTask:
         m/s; mean pressure, Pa.
     temperature : float
         K; it is written down only, as the modes are those of this temperature.
-    accuracy : float
-        Of the friction coefficient, relative, but for what the grid does.
     direction : float
         Of the motion, from x towards y, rad.
     layer : Layer or None
@@ -59,7 +57,6 @@ class SurfaceTask:
     speed: float
     pressure: float
     temperature: float
-    accuracy: float
     direction: float = 0.0
     layer: Layer | None = None
     surface_modulus: float | None = None
@@ -87,7 +84,6 @@ class SurfaceTask:
                 "temperature": self.temperature,
                 "surface_modulus": self.surface_modulus,
                 "surface_poisson_ratio": self.surface_poisson_ratio,
-                "accuracy": self.accuracy,
                 "fields": self.fields,
             }
         )
@@ -113,5 +109,5 @@ class SurfaceTask:
             layer=self.layer,
             indenter_modulus=self.surface_modulus,
             indenter_poisson_ratio=self.surface_poisson_ratio,
-            tolerance=min(max(TOLERANCE * self.accuracy, TIGHTEST), LOOSEST),
+            tolerance=_TOLERANCE,
         )

@@ -75,6 +75,29 @@ def test_accuracy_is_kept_and_no_case_is_lost(modes: list[tuple[float, float]], 
     assert sorted(seen) == list(range(len(PLACES)))
 
 
+@pytest.mark.parametrize("accuracy", [1e-2, 1e-3])
+def test_errors_that_are_told_are_within_the_accuracy(accuracy: float) -> None:
+    """Those of the nodes are nearly as large as they may be, and interpolating adds to them."""
+    random = np.random.default_rng(0)
+    for _ in range(5):
+        modes, curve = random_modes(random), Curve(PLACES, accuracy)
+        while curve.wanted:
+            found = {}
+            for place in curve.wanted:
+                node = node_at(place, modes)
+                errors = node.errors.copy()
+                errors[FRICTION] = random.uniform(0.3, 0.95) * accuracy * node.values[FRICTION]
+                found[place] = Node(node.record, node.values, errors)
+            curve.advance(found)
+        seen = list(curve.alone)
+        for one in curve.closed:
+            _, told = curve.between(one)
+            errors = np.hypot(told.from_nodes[:, FRICTION], told.between[:, FRICTION])
+            assert np.all(errors <= accuracy * told.values[:, FRICTION])
+            seen += one.cases.tolist()
+        assert sorted(seen) == list(range(len(PLACES)))
+
+
 def test_nodes_grow_slowly_with_the_accuracy() -> None:
     counts = [solved_curve([(0.0, 1.0), (2.0, 0.5)], accuracy)[1] for accuracy in (1e-2, 1e-3, 1e-4)]
     assert counts[0] < counts[1] < counts[2]

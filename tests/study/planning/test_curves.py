@@ -85,7 +85,10 @@ def test_scatter_of_the_contacts_does_not_refine_without_end() -> None:
 
     smooth, rough = plan_cases(CASES, [SLS]), plan_cases(CASES, [SLS])
     few = sum(map(len, carry_out(smooth)))
-    assert sum(map(len, carry_out(rough, scattered))) <= 1.3 * few
+    # The contacts' own errors are all of the accuracy: where interpolating adds to them, cases are solved themselves.
+    assert sum(map(len, carry_out(rough, scattered))) <= 1.6 * few
+    between = [record for record in records(rough.found()) if record.interpolated]
+    assert all(record.friction_error <= 1e-3 * record.friction_coefficient for record in between)
     off = [
         (record.friction_coefficient - made_up(alone(case)).friction_coefficient) / record.friction_error
         for case, record in zip(CASES, records(rough.found()), strict=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from typing import TYPE_CHECKING
 
@@ -61,7 +62,10 @@ class TwoWaves:
 
     def bits(self) -> list[tuple[str, str]]:
         """Return all that is known, to the last digit, in the order in which it became known."""
-        return [(key, one.to_json() if isinstance(one, CaseRecord) else str(one)) for key, one in self.known.items()]
+        return [
+            (key, json.dumps(one.values()) if isinstance(one, CaseRecord) else str(one))
+            for key, one in self.known.items()
+        ]
 
 
 def solve_or_end(asked: Task) -> CaseRecord:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import platform
+import shutil
 import subprocess
 import sys
 from typing import TYPE_CHECKING
@@ -12,10 +13,12 @@ from typing import TYPE_CHECKING
 import pytest
 
 from viscofric.errors import DataFileError, StudyError
+from viscofric.study.record import Failure
 from viscofric.study.running import study_folder
 from viscofric.study.running.folder import _holder_is_alive
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 HOLD = """
@@ -103,3 +106,60 @@ def test_what_a_killed_run_had_begun_to_write_is_removed(tmp_path: Path) -> None
     with study_folder(tmp_path, resume=True) as store:
         assert [path.name for path in store.folder.iterdir()] == ["abc.json"]
         assert {path.name for path in tmp_path.iterdir()} == {".lock", "cases"}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need a privilege under Windows")
+@pytest.mark.parametrize("link", [os.symlink, os.link])
+def test_the_lock_is_never_a_link_to_another_file(tmp_path: Path, link: Callable[[Path, Path], None]) -> None:
+    precious = tmp_path / "precious.txt"
+    precious.write_text("years of work")
+    (tmp_path / "results").mkdir()
+    link(precious, tmp_path / "results" / ".lock")
+    with pytest.raises(DataFileError, match="link"), study_folder(tmp_path / "results", resume=True):
+        pass
+    assert precious.read_text() == "years of work"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need a privilege under Windows")
+@pytest.mark.parametrize("part", ["cases", "figures", "results.nc", "report.html"])
+def test_parts_that_lie_elsewhere_are_refused_and_left_alone(tmp_path: Path, part: str) -> None:
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / ".profile").write_text("mine")
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / part).symlink_to(elsewhere)
+    with pytest.raises(DataFileError, match="is a symbolic link"), study_folder(tmp_path / "results", resume=True):
+        pass
+    assert [path.name for path in elsewhere.iterdir()] == [".profile"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need a privilege under Windows")
+def test_sweeping_removes_links_and_not_what_they_point_to(tmp_path: Path) -> None:
+    elsewhere, folder = tmp_path / "elsewhere", tmp_path / "results"
+    (folder / "cases").mkdir(parents=True)
+    elsewhere.mkdir()
+    (elsewhere / "mine").touch()
+    (folder / ".results.3z4").symlink_to(elsewhere)
+    (folder / "cases" / ".abc.json.x1y2").symlink_to(elsewhere / "mine")
+    with study_folder(folder, resume=True):
+        assert list((folder / "cases").iterdir()) == []
+    assert (elsewhere / "mine").exists()
+    # A folder that is a link itself is where its owner wants the results.
+    (tmp_path / "here").symlink_to(folder)
+    with study_folder(tmp_path / "here", resume=True):
+        pass
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows keeps open files")
+@pytest.mark.parametrize("again", [False, True])
+def test_a_folder_that_is_removed_meanwhile_is_an_error(tmp_path: Path, again: bool) -> None:
+    def work() -> None:
+        with study_folder(tmp_path / "new", resume=False) as store:
+            shutil.rmtree(tmp_path / "new")
+            with pytest.raises(DataFileError, match="cannot be written"):
+                store.put("abc", Failure("no.", "30 °C"))
+            if again:
+                store.folder.mkdir(parents=True)
+
+    with pytest.raises(DataFileError, match="removed or replaced"):
+        work()

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,6 +17,7 @@ import xarray
 from study.running.kills import STUDY
 from viscofric.errors import DataFileError, InputError
 from viscofric.study import open_results, run_study
+from viscofric.study.checking import check_results
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -77,3 +80,46 @@ def test_finished_cases_of_an_interrupted_study_are_put_together(tmp_path: Path)
     )
     with pytest.raises(InputError, match="neither workers nor a scheduler"):
         run_study(study, finished_only=True, workers=2)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps open files")
+@pytest.mark.parametrize("what", ["folder", "cases", "one case"])
+def test_what_is_removed_in_mid_run_is_an_error(tmp_path: Path, what: str) -> None:
+    study, folder = tmp_path / "study.toml", tmp_path / "study.results"
+    study.write_text(STUDY.format(points=3, cases="each"))
+
+    def remove(event: Event) -> None:
+        if event.event == "solved" and event.solves == 2:
+            if what == "one case":
+                (folder / "cases" / f"{event.key}.json").unlink()
+            else:
+                shutil.rmtree(folder if what == "folder" else folder / "cases")
+
+    with pytest.raises(DataFileError):
+        run_study(study, progress=remove)
+    assert not (folder / "results.nc").exists()
+    assert run_study(study, resume=True).failures == ()
+
+
+def test_a_changed_case_is_solved_again_and_said(tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY.format(points=2, cases="each"))
+    whole = run_study(study)
+    checked = check_results(whole.folder)
+    assert (checked.cases, checked.finished, checked.damaged, checked.unverified) == (7, True, {}, ())
+    path = sorted((whole.folder / "cases").glob("*.json"))[3]
+    stored = path.read_text()
+    friction = json.loads(stored)["case"]["friction_coefficient"]
+    path.write_text(stored.replace(repr(friction), repr(3.0 * friction)))
+    assert list(check_results(whole.folder).damaged) == [path]
+    events: list[Event] = []
+    again = run_study(study, resume=True, progress=events.append)
+    assert [event.key for event in events if event.event == "damaged"] == [path.stem]
+    assert [event.key for event in events if event.event == "solved"] == [path.stem]
+    assert again.dataset.equals(whole.dataset)
+    assert len(again.warnings) == len(whole.warnings) + 1
+    assert path.read_text() == stored
+    # Results that are put together are looked at as well.
+    results = whole.folder / "results.nc"
+    results.write_bytes(results.read_bytes()[:-100])
+    assert list(check_results(whole.folder).damaged) == [results]

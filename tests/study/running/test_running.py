@@ -14,7 +14,7 @@ from viscofric.study.record import CaseRecord, Failure
 from viscofric.study.running import Event, Processes, Serial, run_plan
 from viscofric.study.running import task as doing
 from viscofric.study.solving import solve
-from viscofric.study.store import CaseStore
+from viscofric.study.store import CaseStore, Damaged
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -152,7 +152,12 @@ def test_fields_are_kept_beside_the_numbers(tmp_path: Path) -> None:
     whole = (tmp_path / f"{asked.key}.npz").read_bytes()
     for size in (0, 2, len(whole) // 2, len(whole) - 1):
         (tmp_path / f"{asked.key}.npz").write_bytes(whole[:size])
-        assert store.get(asked.key, with_fields=True) is None
+        assert isinstance(store.get(asked.key, with_fields=True), Damaged)
+    # Nor are fields of another contact those of this one.
+    other = solve(task(2.0, fields=True))
+    store.put("other", other)
+    (tmp_path / f"{asked.key}.npz").write_bytes((tmp_path / "other.npz").read_bytes())
+    assert set(store.damaged()) == {asked.key}
     assert store.get(asked.key) == record
 
 

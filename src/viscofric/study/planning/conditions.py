@@ -107,7 +107,6 @@ def task_of(case: AnyCase, rubbers: Rubbers, settings: Settings, fields: bool) -
             "poisson_ratio": rubbers.of(case).poisson_ratio,
             "speed": case.speed,
             "temperature": case.temperature,
-            "accuracy": settings.accuracy,
             "layer": case.layer,
             "fields": fields,
             "label": label,
@@ -124,6 +123,7 @@ def task_of(case: AnyCase, rubbers: Rubbers, settings: Settings, fields: bool) -
         return Task(
             indenter=case.indenter,
             load=case.load,
+            accuracy=settings.accuracy,
             indenter_modulus=case.indenter_modulus,
             indenter_poisson_ratio=case.indenter_poisson_ratio,
             sensitive=settings.sensitive and case.sample is None,

@@ -133,11 +133,38 @@ class Curve:
         for one, foretold in halves:
             if foretold and self._agrees(one, known):
                 self.closed.append(one)
-            elif len(one.cases) <= _FEW or one.high - one.low < 2:
-                self._leave_alone(one.cases)
             else:
-                self._open.append(one)
+                self._refine(one, one.cases)
+        if not self._open:
+            self._reopen()
         self.wanted = tuple(one.middle for one in self._open)
+
+    def _refine(self, one: Interval, missed: Rows) -> None:
+        """Have an interval halved for those of its cases that are not known well enough, or these solved alone."""
+        if len(missed) <= _FEW or one.high - one.low < 2:
+            self._leave_alone(missed)
+            left = np.setdiff1d(one.cases, missed)
+            if len(left):
+                self.closed.append(one._replace(cases=left))
+        else:
+            self._open.append(one)
+
+    def _reopen(self) -> None:
+        """Look at the cases as they will be told, and refine where the error of any is above the accuracy.
+
+        The tests of an interval look at its middle; elsewhere in it, and with the errors of the nodes, there may be
+        more.
+        """
+        closed, self.closed = self.closed, []
+        for one in closed:
+            _, found = self.between(one)
+            errors = np.hypot(found.from_nodes[:, FRICTION], found.between[:, FRICTION])
+            allowed = self._accuracy * np.maximum(np.abs(found.values[:, FRICTION]), FRICTION_FLOOR)
+            missed = one.cases[errors > allowed]
+            if len(missed):
+                self._refine(one, missed)
+            else:
+                self.closed.append(one)
 
     def drafted(self, found: Mapping[int, Node | None]) -> Curve:
         """Return what the curve would be if nothing more were solved.

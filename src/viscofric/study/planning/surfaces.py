@@ -158,7 +158,6 @@ class SurfaceRepresentative:
             speed=speed,
             pressure=self.family.pressure,
             temperature=_NONE if reference is None else reference,
-            accuracy=self.settings.accuracy,
             direction=self.family.direction,
             layer=self.family.layer,
             surface_modulus=self.family.surface_modulus,

@@ -17,8 +17,8 @@ class Event:
     ----------
     event : str
         ``"stage"``: a stage began or took a step; ``"solving"``: a contact is begun; ``"solved"``: it is solved and
-        stored; ``"stored"``: it had been before; ``"failed"``: it could not be solved; ``"waiting"``: a cluster has
-        no workers for the time being.
+        stored; ``"stored"``: it had been before; ``"damaged"``: what had been stored cannot be used; ``"failed"``: it
+        could not be solved; ``"waiting"``: a cluster has no workers for the time being.
     stage : str, optional
         Of the study: "measurement", "material", "contacts", "report" …
     done, total : int, optional
@@ -32,7 +32,7 @@ class Event:
     seconds : float, optional
         What it took.
     reason : str, optional
-        Why it failed, or what is waited for.
+        Why it failed, what is wrong with what was stored, or what is waited for.
     """
 
     event: str

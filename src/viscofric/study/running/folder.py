@@ -1,4 +1,4 @@
-"""The folder of a study's results: not two runs in it at a time, and nothing in it replaced unasked."""
+"""The folder of a study's results: one run in it at a time, nothing in it replaced unasked, nothing outside touched."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import json
 import os
 import platform
 import shutil
+import stat
 import sys
 from datetime import UTC, datetime
 from typing import IO, TYPE_CHECKING
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 CASES_FOLDER = "cases"
 RESULTS_FILE = "results.nc"
 _LOCK = ".lock"
+# What a study writes into its folder, with what begins like its results files.
+_PARTS = (_LOCK, CASES_FOLDER, "figures", "report.html")
+_OUTPUTS = ("results.", "prediction.")
 
 
 @contextlib.contextmanager
@@ -39,20 +43,32 @@ def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
     StudyError
         If another run is at work in it, or it holds what another left and is not to be resumed.
     DataFileError
-        If it cannot be written.
+        If it cannot be written, a part of it is a link to somewhere else, or it is removed before the end.
     """
     if folder.exists() and not folder.is_dir():
         raise DataFileError(folder, "is a file; results need a folder.")
+    _refuse_links(folder)
     if not resume:
         _insist_on_nothing_there(folder)
-    store = CaseStore(folder / CASES_FOLDER)
+    store = CaseStore(folder / CASES_FOLDER, made=True)
     store.prepare()
     with _locked(folder):
         with _writing(folder):
             store.sweep()
-        for left in folder.glob(".results.*"):  # a results file that was not finished
+        for left in folder.glob(".results.*"):  # a results file that was not finished; of a link nothing is removed
             shutil.rmtree(left, ignore_errors=True)
         yield store
+
+
+def _refuse_links(folder: Path) -> None:
+    """Raise `DataFileError` if a part of a results folder is a symbolic link, whose target would be written."""
+    for part in folder.iterdir() if folder.is_dir() else ():
+        if part.is_symlink() and (part.name in _PARTS or part.name.startswith(_OUTPUTS)):
+            raise DataFileError(
+                part,
+                "is a symbolic link; results are written into their folder only. Remove the link, or give the folder "
+                "that it points into as the results folder (--output).",
+            )
 
 
 def _insist_on_nothing_there(folder: Path) -> None:
@@ -83,6 +99,7 @@ def _locked(folder: Path) -> Iterator[None]:
             file.write(json.dumps(held).encode())
         try:
             yield
+            _insist_on_the_same(file, path)
         finally:
             with contextlib.suppress(OSError):  # what happened before counts more
                 file.truncate(0)
@@ -91,8 +108,31 @@ def _locked(folder: Path) -> Iterator[None]:
 
 
 def _opened(path: Path) -> IO[bytes]:
+    """Open the lock, never what a link of its name points to: it is emptied."""
+    flags = os.O_RDWR | os.O_CREAT | os.O_APPEND
+    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):  # those that the system has
+        flags |= getattr(os, name, 0)
     with _writing(path):
-        return path.open("a+b", buffering=0)
+        file = os.fdopen(os.open(path, flags, 0o666), "r+b", buffering=0)
+    status = os.fstat(file.fileno())
+    if not stat.S_ISREG(status.st_mode) or status.st_nlink > 1:
+        file.close()
+        raise DataFileError(path, "is a link or no plain file, and is not touched; remove it.")
+    return file
+
+
+def _insist_on_the_same(file: IO[bytes], path: Path) -> None:
+    """Raise `DataFileError` if the lock that is held lies in the folder no more: the folder was removed or replaced."""
+    try:
+        same = os.path.samestat(os.fstat(file.fileno()), path.lstat())
+    except OSError:
+        same = False
+    if not same:
+        raise DataFileError(
+            path.parent,
+            "was removed or replaced while the study ran, and what was solved with it; run the study again, and leave "
+            "the folder alone until it ends.",
+        )
 
 
 @contextlib.contextmanager

@@ -7,10 +7,12 @@ import math
 import time
 from typing import TYPE_CHECKING, Protocol
 
+from viscofric.errors import DataFileError
 from viscofric.study.running.events import Event, silent
 from viscofric.study.running.executors import Waiting
 from viscofric.study.running.task import Lost
 from viscofric.study.solving import solve
+from viscofric.study.store import Damaged
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,7 +46,7 @@ class Plan(Protocol):
 
 def run_plan(
     plan: Plan, store: CaseStore, executor: Executor, progress: Progress = silent, solve: Solve = solve
-) -> None:
+) -> list[str]:
     """Do all tasks of a plan, but those that the store has.
 
     Parameters
@@ -61,10 +63,15 @@ def run_plan(
     solve : callable, optional
         Gets a task, returns its record; importable by its name.
 
+    Returns
+    -------
+    list of str
+        Labels of the tasks whose stored cases were damaged, and were done again.
+
     Raises
     ------
     DataFileError
-        If the store cannot be written (disk full, folder read-only).
+        If the store cannot be written (disk full, folder read-only), or cases were removed from it meanwhile.
     ViscofricError
         If the executor cannot go on.
 
@@ -72,7 +79,9 @@ def run_plan(
     -----
     An interrupt loses the tasks that are worked on, and no others.
     """
-    _Run(plan, store, executor, progress, solve).all_waves()
+    run = _Run(plan, store, executor, progress, solve)
+    run.all_waves()
+    return run.damaged
 
 
 class _Run:
@@ -81,6 +90,8 @@ class _Run:
     def __init__(self, plan: Plan, store: CaseStore, executor: Executor, progress: Progress, solve: Solve) -> None:
         self.plan, self.store, self.executor, self.progress, self.solve = plan, store, executor, progress, solve
         self.solves = 0
+        self.damaged: list[str] = []
+        self._kept: set[str] = set()
         self._counted = -math.inf
         self._done = 0
 
@@ -88,6 +99,13 @@ class _Run:
         self._tell("stage")
         while tasks := list(self.plan.wanted()):
             self._wave(tasks)
+        removed = self._kept.difference(self.store.stored()) if self.store.made else ()
+        if removed:
+            raise DataFileError(
+                self.store.folder,
+                f"{len(removed)} of {len(self._kept)} solved contacts were removed while the study ran; run it again "
+                "with --resume, and leave the folder alone until it ends.",
+            )
         self._counted = -math.inf
         self._tell("stage")
 
@@ -107,9 +125,13 @@ class _Run:
         missing = []
         for task in by_key.values():
             found = self.store.get(task.key, task.fields)
-            if found is None:
+            if found is None or isinstance(found, Damaged):
+                if found is not None:
+                    self.damaged.append(task.label)
+                    self._tell("damaged", task, reason=found.reason)
                 missing.append(task)
                 continue
+            self._kept.add(task.key)
             outcomes[task.key] = found
             hand_on()
             self._tell("stored", task)
@@ -125,6 +147,7 @@ class _Run:
                     continue
                 if not isinstance(outcome, Lost):
                     self.store.put(key, outcome)
+                    self._kept.add(key)
                     self.solves += 1
                 outcomes[key] = outcome
                 hand_on()
