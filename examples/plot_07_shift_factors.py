@@ -37,8 +37,8 @@ factors = fit.shift_factors
 print(*fit.notes, sep="\n")
 
 # %%
-# Then a law is chosen: those of Williams, Landel and Ferry, of Arrhenius and others are compared by Akaike's corrected
-# criterion (AICc), which weighs what a fit leaves against the number of its constants.
+# Then a law is chosen: those of Williams, Landel and Ferry, of Arrhenius and others are compared by Akaike's
+# criterion (AIC), which weighs what a fit leaves against the number of its constants.
 
 laws = factors.compare_laws()
 print(laws.explanation)

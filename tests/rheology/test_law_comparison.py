@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import InputError
+from viscofric.notes import codes
 from viscofric.rheology import ShiftFactors
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 
@@ -42,7 +44,9 @@ def test_the_planted_law_is_chosen(kind, scatter):
     chosen = Counter(
         measured(law, temperatures, seed, scatter=scatter).compare_laws().chosen.kind for seed in range(10)
     )
-    assert chosen[kind] >= 9  # nine in ten; 99 in 100 were counted over a hundred seeds
+    # Of a hundred seeds 99 or all for WLF with and without a glass, 95 and 90 for Arrhenius, which WLF comprises:
+    # errors feign a curvature.  Of ten, three wrong ones come once in fifteen at worst.
+    assert chosen[kind] >= 8
 
 
 @pytest.mark.parametrize("kind", ["wlf", "arrhenius"])
@@ -69,24 +73,24 @@ def test_wlf_and_vft_are_one_curve_and_one_candidate():
     found = measured(*PLANTED["wlf"], seed=1).compare_laws()
     rows = {row.kind: row for row in found.rows}
     assert rows["vft"].same_as == "wlf"
-    assert rows["vft"].aicc == rows["wlf"].aicc
+    assert rows["vft"].aic == rows["wlf"].aic
     assert isinstance(found.best, WLF)
     assert isinstance(rows["vft"].law, VFT)
     assert rows["vft"].law.log10(WARM) == pytest.approx(found.best.log10(WARM), abs=1e-10)
-    assert "VFT is the same curve as WLF" in found.explanation
+    assert "vft-is-wlf" in codes(found.notes)
 
 
 def test_the_explanation_names_the_winner_and_its_lead():
     found = measured(*PLANTED["wlf"], seed=1).compare_laws()
-    second = min(row.aicc for row in found.rows if row.kind not in ("wlf", "vft"))
-    if second > found.chosen.aicc:
-        assert found.explanation.startswith("WLF describes these shift factors best: its AICc is lower by ")
-        assert f"{second - found.chosen.aicc:.2g}" in found.explanation
-    assert [row.aicc for row in found.rows] == sorted(row.aicc for row in found.rows)
+    second = min(row.aic for row in found.rows if row.kind in ("arrhenius", "wlf+arrhenius"))
+    assert found.notes[0].code == "law-chosen"
+    assert f"{second - found.chosen.aic:.2g}" in found.notes[0]
+    assert found.explanation == " ".join(found.notes)
+    assert [row.aic for row in found.rows] == sorted(row.aic for row in found.rows)
 
 
 def test_the_likelihood_is_that_of_a_normal_distribution():
-    """−2 ln L from the density of scipy, at the constants and the scatter that were found."""
+    """−2 ln L from the density of scipy: the best constants for each scatter, averaged over the scatter."""
     from scipy.stats import multivariate_normal
 
     law, temperatures = PLANTED["arrhenius"]
@@ -94,17 +98,18 @@ def test_the_likelihood_is_that_of_a_normal_distribution():
     row = next(row for row in table.compare_laws().rows if row.kind == "arrhenius")
     assert row.scatter == pytest.approx(0.05, rel=0.6)  # 12 values: ±20 % (one sigma)
     differences = np.diff(np.eye(len(temperatures)), axis=0)
-    covariance = differences @ (table.covariance + row.scatter**2 * np.eye(len(temperatures))) @ differences.T
+    energies = row.law.activation_energy * np.linspace(0.95, 1.05, 201)
+    away = [table.log10_values - Arrhenius(energy, table.reference).log10(temperatures) for energy in energies]
 
-    def deviance(energy):
-        away = differences @ (table.log10_values - Arrhenius(energy, table.reference).log10(temperatures))
-        return -2.0 * multivariate_normal(np.zeros(len(away)), covariance).logpdf(away)
+    def largest(scatter):
+        covariance = differences @ (table.covariance + scatter**2 * np.eye(len(temperatures))) @ differences.T
+        return multivariate_normal(np.zeros(len(differences)), covariance).pdf(away @ differences.T).max()
 
-    energies = row.law.activation_energy * np.linspace(0.95, 1.05, 2001)
-    count, constants = len(temperatures) - 1, 2
-    penalty = 2 * constants + 2 * constants * (constants + 1) / (count - constants - 1)
-    # The grid of energies and the end of the search for the scatter leave about 1e-3.
-    assert row.aicc == pytest.approx(min(deviance(energy) for energy in energies) + penalty, abs=5e-3)
+    scatter = np.geomspace(0.003, 10.0, 100)
+    density = scatter / (1.0 + (scatter / 0.01) ** 2)
+    mean = np.average([largest(one) for one in scatter], weights=density)
+    # Scatters are a factor of 1.4 apart in the house, 1.09 here; a peak of their width is known to a few per cent.
+    assert row.aic == pytest.approx(-2.0 * np.log(mean) + 2.0, abs=0.1)
 
 
 def test_a_polynomial_is_the_last_resort():
@@ -120,7 +125,7 @@ def test_a_polynomial_is_the_last_resort():
     found = table.compare_laws()
     assert not isinstance(found.best, InversePolynomial)
     assert found.rows[0].kind == "polynomial"
-    assert "describes without explaining" in found.explanation
+    assert found.rows[0].aic < found.chosen.aic  # and is passed over: it describes without explaining
 
 
 def test_the_degree_of_a_polynomial_is_chosen_by_the_same_criterion():
@@ -138,18 +143,78 @@ def test_the_degree_of_a_polynomial_is_chosen_by_the_same_criterion():
         table.law("polynomial", degree=7)
 
 
-def test_refused_laws_say_why_and_too_few_temperatures_are_told():
+def test_refused_laws_say_why():
     law, _ = PLANTED["arrhenius"]
-    few = measured(law, WARM[:4], 0).at_reference(WARM[1])
-    with pytest.raises(InputError, match="too few"):
-        ShiftFactors(few.temperatures[:3], few.log10_values[:3], few.reference).compare_laws()
-    found = measured(law, WARM[:6], 0).compare_laws()
+    found = measured(law, WARM[2:5], 0).compare_laws()
     refused = {row.kind: row.refusal for row in found.rows if row.law is None}
     assert "wlf+arrhenius" in refused
     assert all(refused.values())
     rising = ShiftFactors(WARM, 0.01 * (WARM - 300.0), 300.0)
     with pytest.raises(InputError, match="no shift law describes these factors"):
         rising.compare_laws()
+
+
+@pytest.mark.parametrize("errors", [0.0, 0.005, 0.02])
+@pytest.mark.parametrize("count", [3, 4, 5, 6, 8])
+def test_wlf_is_found_at_few_temperatures(count, errors):
+    """WLF (8.0, 120 K) from 10 to 50 °C, which an Arrhenius law misses by 0.14 decades at five of them."""
+    law, temperatures = WLF(8.0, 120.0, "30 degC"), np.linspace(10.0, 50.0, count) + 273.15
+    table = ShiftFactors(temperatures, law.log10(temperatures), 303.15, errors**2 * np.eye(count))
+    found = table.compare_laws()
+    assert found.chosen.kind == "wlf"
+    # Pchip at the reference of an even number of temperatures misses WLF by up to 1e-3 decades.
+    assert found.best.log10([273.15, 303.15, 333.15]) == pytest.approx(law.log10([273.15, 303.15, 333.15]), abs=3e-3)
+    rows = {row.kind: row for row in found.rows}
+    assert rows["arrhenius"].law is not None
+    assert found.chosen.exact == (count == 3)
+    assert ("law-exact" in codes(found.notes)) == (count == 3)
+    assert ("factors-without-errors" in codes(found.notes)) == (errors == 0.0)
+
+
+def test_two_temperatures_fix_an_arrhenius_law_that_nothing_tests():
+    found = measured(PLANTED["arrhenius"][0], WARM[2:4], 0).compare_laws()
+    assert found.chosen.kind == "arrhenius"
+    assert found.chosen.exact
+    assert found.chosen.weight == 1.0
+    assert "law-exact" in codes(found.notes)
+
+
+@pytest.mark.parametrize("count", [3, 4, 5, 6])
+def test_a_straight_line_stays_one_at_few_temperatures(count):
+    """WLF takes one constant more than Arrhenius: four in χ² have to pay for it, which noise does in 5 % of tables."""
+    found = [measured(PLANTED["arrhenius"][0], WARM[2 : 2 + count], seed).compare_laws() for seed in range(10)]
+    assert Counter(one.chosen.kind for one in found)["arrhenius"] >= 8  # fewer come in one test of ninety
+
+
+def test_what_the_factors_leave_open_is_said():
+    """WLF and Arrhenius part by 0.07 decades over 40 K and by more beyond, where errors are as large as that."""
+    law, temperatures = WLF(12.0, 200.0, "30 degC"), np.arange(10.0, 51.0, 10.0) + 273.15
+    sure = ShiftFactors(temperatures, law.log10(temperatures), 303.15, 1e-6 * np.eye(5)).compare_laws()
+    open_ = ShiftFactors(temperatures, law.log10(temperatures), 303.15, 0.06**2 * np.eye(5)).compare_laws()
+    assert sure.chosen.kind == "wlf"
+    assert sure.chosen.weight > 0.9
+    assert not {"laws-undecided", "laws-alike"} & codes(sure.notes)
+    rows = {row.kind: row for row in open_.rows}
+    assert abs(rows["wlf"].aic - rows["arrhenius"].aic) < 4.0  # the bound of Burnham and Anderson
+    assert "laws-undecided" in codes(open_.notes)
+    assert sum(row.weight for row in open_.rows if not row.same_as) == pytest.approx(1.0)
+
+
+def test_measured_polystyrene_follows_wlf(real_data):
+    """Creep of a melt at four temperatures, shifted by hand along the time; Arrhenius misses them by 0.1 decades."""
+    curves = [np.log10(np.loadtxt(real_data / "creep" / f"creep_ps{t}.csv", skiprows=1)) for t in (145, 160, 175, 190)]
+    steps = []
+    for (time, creep), (later, softer) in itertools.pairwise(curve.T for curve in curves):
+        level = np.linspace(softer[0], creep[-1], 50)
+        steps.append(np.mean(np.interp(level, softer, later) - np.interp(level, creep, time)))
+    kelvin = np.array([145.0, 160.0, 175.0, 190.0]) + 273.15
+    order = np.arange(4)
+    table = ShiftFactors(
+        kelvin, np.cumsum([0.0, *steps]), kelvin[0], 0.02**2 * np.minimum.outer(order, order)
+    )  # a step is known to the 0.02 decades by which it varies over the level
+    found = table.compare_laws()
+    assert found.chosen.kind == "wlf"
+    assert np.max(np.abs(found.best.log10(kelvin) - table.log10_values)) < 0.008
 
 
 @pytest.mark.parametrize(

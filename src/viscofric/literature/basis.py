@@ -105,7 +105,7 @@ def _of_laws(laws: LawComparison) -> Basis:
 
 def compared_laws() -> Basis:
     """Yield what the choice of a shift law rests on."""
-    yield from _for("choice of the law", "hurvich1989")
+    yield from _for("choice of the law", "akaike1974")
 
 
 @basis.register

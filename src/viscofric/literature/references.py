@@ -14,6 +14,16 @@ _TABLE = (
         note="the paper that viscofric implements",
     ),
     Reference(
+        "akaike1974",
+        ("H. Akaike",),
+        1974,
+        "A new look at the statistical model identification",
+        "IEEE Trans. Autom. Control",
+        "19",
+        "716--723",
+        doi="10.1109/TAC.1974.1100705",
+    ),
+    Reference(
         "anderson1965",
         ("D. G. Anderson",),
         1965,
@@ -149,16 +159,6 @@ _TABLE = (
         doi="10.1515/crll.1882.92.156",
     ),
     Reference("hunter1961", ("S. C. Hunter",), 1961, journal="J. Appl. Mech.", volume="28", pages="611"),
-    Reference(
-        "hurvich1989",
-        ("C. M. Hurvich", "C.-L. Tsai"),
-        1989,
-        "Regression and time series model selection in small samples",
-        "Biometrika",
-        "76",
-        "297--307",
-        doi="10.1093/biomet/76.2.297",
-    ),
     Reference(
         "jacobs2017",
         ("T. D. B. Jacobs", "T. Junge", "L. Pastewka"),

@@ -29,8 +29,6 @@ _UNITS = {"temperature": "K", "reference": "K", "log10_shift_factor": "1", "stan
 
 #: Errors are printed with three decimals, and not as zero.
 _SMALLEST = 1e-3
-#: Temperatures that tell laws of two constants from each other, beside the scatter about them.
-_COMPARABLE = 5
 
 
 class ChosenLaw(NamedTuple):
@@ -60,9 +58,6 @@ def law_of(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
     factors = master.shift_factors
     if kind != "best":
         return ChosenLaw(factors.law(kind))
-    if len(factors.temperatures) < _COMPARABLE:
-        few = f"{len(factors.temperatures)} temperatures are too few to compare laws, which takes {_COMPARABLE}"
-        return ChosenLaw(None, refused=f"No law is fitted: {few}; choose one (in the shell --law).")
     try:
         compared = factors.compare_laws()
     except InputError as error:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from viscofric.report.friction_tables import friction_shift_table, measurement_table, prediction_table
 from viscofric.report.house_style import degrees
-from viscofric.report.numbers import significant
 from viscofric.report.results import group, rubbers
 from viscofric.report.results import table as texts
 from viscofric.report.table import Column, Table, made_table, times
@@ -36,21 +35,16 @@ def _law_table(tree: xr.DataTree) -> Table | None:
     laws = group(tree, "laws")
     if laws is None:
         return None
-    rows = [
-        [str(law), str(constants), significant(float(criterion), 3), significant(float(scatter), 2)]
-        for law, constants, criterion, scatter in zip(
-            *(laws[name].values for name in ("law", "constants", "information_criterion", "law_scatter")), strict=True
-        )
+    columns = [
+        Column("law", "law", str),
+        Column("constants", "constants", str),
+        Column("AIC above the lowest", "information_criterion", times(1.0, 3)),
+        Column("weight", "akaike_weight", times(1.0, 2)),
+        Column("scatter beyond the errors (decades)", "law_scatter", times(1.0, 2)),
     ]
     refused = "".join(f" {title}: {reason}" for title, reason in texts(laws.attrs, "refused").items())
-    return Table(
-        "laws",
-        "Shift laws fitted to the shift factors, compared by the information criterion.",
-        ["law", "constants", "AICc above the lowest", "scatter beyond the errors (decades)"],
-        rows,
-        False,
-        f"{laws.attrs.get('explanation', '')}{refused}".strip(),
-    )
+    note = f"{laws.attrs.get('explanation', '')}{refused}".strip()
+    return made_table("laws", "Shift laws fitted to the shift factors, compared by AIC.", laws, columns, False, note)
 
 
 def _spectrum_table(tree: xr.DataTree) -> Table | None:

@@ -162,8 +162,9 @@ def _from_sweeps(wanted: MaterialTable) -> Rubber:
         name=wanted.name,
         vertical_shift=fit.vertical_shift,
     )
+    notes = (*fit.notes, *_undecided(laws, wanted.shift))
     origin = "given" if wanted.shift_factors else "held" if wanted.fixed_shift_factors else "found"
-    return Rubber(material, sweeps=sweeps, fit=fit, laws=laws, shift_used=used, shift_origin=origin, notes=fit.notes)
+    return Rubber(material, sweeps=sweeps, fit=fit, laws=laws, shift_used=used, shift_origin=origin, notes=notes)
 
 
 def _from_master_curve(wanted: MaterialTable) -> Rubber:
@@ -186,7 +187,15 @@ def _from_master_curve(wanted: MaterialTable) -> Rubber:
         laws, used = None, ""
     spectrum = _spectrum(wanted, curve, ())
     material = Material(spectrum, shift=shift, poisson_ratio=wanted.poisson_ratio, name=wanted.name)
-    return Rubber(material, master_curve=curve, laws=laws, shift_used=used)
+    notes = _undecided(laws, wanted.shift)
+    return Rubber(material, master_curve=curve, laws=laws, shift_used=used, notes=notes)
+
+
+def _undecided(laws: LawComparison | None, wanted: str) -> tuple[str, ...]:
+    """Return what a choice among laws leaves open, where the best law is used."""
+    if laws is None or wanted != "best":
+        return ()
+    return tuple(note for note in laws.notes if note.code == "laws-undecided")
 
 
 def _spectrum(wanted: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...]) -> RetardationSpectrum:

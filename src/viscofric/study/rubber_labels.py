@@ -131,14 +131,15 @@ def _shift_law(rubber: Rubber) -> xarray.Dataset | None:
 
 def _laws(laws: LawComparison) -> xarray.Dataset:
     fitted = [row for row in laws.rows if row.law is not None]
-    lowest = min(row.aicc for row in fitted)
+    lowest = min(row.aic for row in fitted)
     refused = {row.title: row.refusal for row in laws.rows if row.law is None}
     return dataset(
         "fitted_law",
         {
             "law": [row.title for row in fitted],
             "constants": [str(row.law) for row in fitted],
-            "information_criterion": [row.aicc - lowest for row in fitted],
+            "information_criterion": [row.aic - lowest for row in fitted],
+            "akaike_weight": [row.weight for row in fitted],
             "law_scatter": [row.scatter for row in fitted],
         },
         chosen=laws.chosen.title,

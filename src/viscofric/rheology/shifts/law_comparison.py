@@ -1,13 +1,14 @@
-"""Which shift law measured factors support: all of them fitted, and chosen by an information criterion."""
+"""Which shift law measured factors support: every law that can be fitted, the one to take, and how sure that is."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial
@@ -16,12 +17,19 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.law_fitting import FactorTable
     from viscofric.rheology.shifts.laws import ParametricLaw
 
-#: A law within this of the lowest AICc is still supported (K. P. Burnham, D. R. Anderson, Model Selection and
-#: Multimodel Inference, 2nd ed. 2002, p. 70: from 4 on "considerably less").  Among such, fewer constants win.
-SUPPORTED = 4.0
+#: A law within this of the lowest AIC has substantial support, and among such, fewer constants win …
+SUPPORTED = 2.0
+#: … and from this on, considerably less (K. P. Burnham, D. R. Anderson, Model Selection and Multimodel Inference,
+#: 2nd ed. 2002, p. 70): laws that are nearer cannot be excluded.
+EXCLUDED = 4.0
 #: A polynomial explains nothing and says nothing beyond its data.  It is chosen only where the laws of physics miss
 #: the factors by more than this, a quarter of α; real factors known to 0.005 decades follow none to the last digit.
+#: Laws that part by less are alike.
 LARGEST_SCATTER = 0.1  # decades
+#: Laws are compared so far to either side of the factors.
+BEYOND = 10.0  # K
+#: AICs closer than this are equal.
+ROUNDING = 1e-3
 #: Laws that are compared, those of physics with the fewest constants first.
 _COMPARED = ("arrhenius", "wlf", "wlf+arrhenius", "polynomial")
 
@@ -39,16 +47,18 @@ class LawRow:
     law : ParametricLaw or None
         As fitted; None where it was refused.
     constants : int
-        Number of constants; the excess scatter comes on top.
+        Number of constants.
     chi2 : float
         χ² by the measured covariance alone, of `freedom` expected; NaN where the law was refused.
     freedom : int
-        Number of differences of neighbouring factors less `constants`.
+        Number of differences of neighbouring factors less `constants`; 0 where the law passes through all factors.
     scatter : float
-        Independent scatter about the law, beyond the measured uncertainties, of greatest likelihood; decades.
-    aicc : float
-        Information criterion, −2 ln L + 2k + 2k(k + 1)/(N − k − 1), with k = constants + 1 for the scatter; infinite
-        where the law was refused.
+        Independent scatter about the law, beyond the measured uncertainties, that makes the misfit plausible; decades.
+    aic : float
+        Information criterion, −2 ln L + 2k with k constants, a glass transition counting for three; infinite where
+        the law was refused.
+    weight : float
+        Akaike weight among the laws of physics, e^(−AIC/2) of a sum of one; zero for a polynomial that is not chosen.
     refusal : str
         Why the law was refused; empty where it was fitted.
     same_as : str
@@ -62,9 +72,15 @@ class LawRow:
     chi2: float = float("nan")
     freedom: int = 0
     scatter: float = 0.0
-    aicc: float = float("inf")
+    aic: float = float("inf")
+    weight: float = 0.0
     refusal: str = ""
     same_as: str = ""
+
+    @property
+    def exact(self) -> bool:
+        """Whether the law has as many constants as there are differences of factors, so that nothing tests it."""
+        return self.law is not None and self.freedom == 0
 
 
 @dataclass(frozen=True)
@@ -74,24 +90,28 @@ class LawComparison:
     Parameters
     ----------
     rows : tuple of LawRow
-        Every law, the lowest AICc first, refused ones last.
+        Every law, the lowest AIC first, refused ones last.
     chosen : LawRow
-        The row of `best`: of the laws of physics whose AICc is within 4 of their lowest, the one with the fewest
-        constants, but none that needs scatter beyond the stated errors where another of them needs none; a polynomial
-        only where that one misses the factors by more than 0.1 decades.
-    explanation : str
-        One to three plain sentences.
+        The row of `best`: of the laws of physics whose AIC is within 2 of their lowest, the one with the fewest
+        constants; a polynomial only where that one misses the factors by more than 0.1 decades.
+    notes : tuple of Note
+        Why, and how sure the choice is, one sentence each.
 
     Notes
     -----
-    N. Sugiura, Commun. Stat. Theory Methods 7 (1978) 13; C. M. Hurvich, C.-L. Tsai, Biometrika 76 (1989) 297.
-    The likelihood is Gaussian, with the full covariance of the factors and, on top, independent scatter of one
-    size in each, which is one more constant of every law.
+    The likelihood is Gaussian, with the full covariance of the factors.  As their errors are known, Akaike's
+    criterion needs no correction for few temperatures.  On top comes an independent misfit of unknown size, over
+    which the likelihood is averaged (`law_fitting.criterion`).
+
+    References
+    ----------
+    H. Akaike, IEEE Trans. Autom. Control 19 (1974) 716, doi:10.1109/TAC.1974.1100705; K. P. Burnham, D. R. Anderson,
+    Model Selection and Multimodel Inference, 2nd ed., Springer 2002.
     """
 
     rows: tuple[LawRow, ...]
     chosen: LawRow
-    explanation: str
+    notes: tuple[Note, ...]
 
     @property
     def best(self) -> ParametricLaw:
@@ -99,20 +119,32 @@ class LawComparison:
         assert self.chosen.law is not None
         return self.chosen.law
 
+    @property
+    def explanation(self) -> str:
+        """The notes as one text."""
+        return " ".join(self.notes)
+
 
 def compare_laws(table: FactorTable) -> LawComparison:
     """Fit every law to a table and choose; see `LawComparison`."""
-    rows = {kind: _row(kind, table) for kind in _COMPARED}
-    fitted = [row for row in rows.values() if row.law is not None]
+    rows = [_row(kind, table) for kind in _COMPARED]
+    fitted = [row for row in rows if row.law is not None]
     if not fitted:
-        raise InputError(f"no shift law describes these factors: {rows['arrhenius'].refusal}")
-    chosen = _chosen(fitted, _stated(table))
-    every = sorted([*rows.values(), _vft(rows["wlf"])], key=lambda row: row.aicc)
-    return LawComparison(tuple(every), chosen, _explanation(chosen, fitted, rows["wlf"], table))
+        raise InputError(f"no shift law describes these factors: {rows[0].refusal}")
+    kind = _chosen(fitted).kind
+    physical = [row for row in fitted if row.kind != "polynomial" or row.kind == kind]
+    lowest = min(row.aic for row in physical)
+    total = sum(float(np.exp(0.5 * (lowest - row.aic))) for row in physical)
+    rows = [
+        replace(row, weight=float(np.exp(0.5 * (lowest - row.aic))) / total) if row in physical else row for row in rows
+    ]
+    by_kind = {row.kind: row for row in rows}
+    every = sorted([*rows, _vft(by_kind["wlf"])], key=lambda row: row.aic)
+    return LawComparison(tuple(every), by_kind[kind], _notes(by_kind[kind], rows, table))
 
 
 def polynomial(table: FactorTable) -> InversePolynomial:
-    """Fit polynomials of degree 2 to 4 and return the one of the lowest AICc; degree 1 is the Arrhenius law.
+    """Fit polynomials of degree 2 to 4 and return the one of the lowest AIC; degree 1 is the Arrhenius law.
 
     Raises
     ------
@@ -129,88 +161,102 @@ def _row(kind: str, table: FactorTable, degree: int | None = None) -> LawRow:
     if kind == "polynomial" and degree is None:
         return _polynomial_row(table)
     try:
-        law = law_fitting.fit(kind, table, degree)
+        law, chi2, scatter = law_fitting.fitted(kind, table, degree)
     except InputError as error:
         return LawRow(kind, TITLES[kind], None, 0, refusal=str(error))
     size = len(law.parameters)
-    found = law_fitting.likelihood(law, table)
     title = f"polynomial of degree {degree}" if degree else law.title
-    freedom = len(table) - size
-    aicc = _aicc(found.deviance, size + 1, len(table))
-    if not np.isfinite(aicc):
-        few = f"{len(table) + 1} temperatures are too few to compare the {title} law; give {size + 4} or more."
-        return LawRow(kind, title, None, size, refusal=few)
-    return LawRow(kind, title, law, size, law_fitting.chi_squared(law, table), freedom, found.scatter, aicc)
+    aic = law_fitting.criterion(law, table)
+    return LawRow(kind, title, law, size, chi2, len(table) - size, scatter, aic)
 
 
 def _polynomial_row(table: FactorTable) -> LawRow:
     degrees = [_row("polynomial", table, degree) for degree in range(2, LARGEST_DEGREE + 1)]
-    return min(degrees, key=lambda row: row.aicc)
-
-
-def _aicc(deviance: float, constants: int, count: int) -> float:
-    left = count - constants - 1
-    if left <= 0:
-        return float("inf")
-    return deviance + 2.0 * constants + 2.0 * constants * (constants + 1) / left
+    return min(degrees, key=lambda row: row.aic)
 
 
 def _vft(wlf: LawRow) -> LawRow:
     """Return the row of the VFT law, which is the WLF curve and no candidate of its own."""
+    refused = LawRow("vft", TITLES["vft"], None, wlf.constants, refusal=wlf.refusal, same_as="wlf")
     if not isinstance(wlf.law, WLF):
-        return LawRow("vft", TITLES["vft"], None, wlf.constants, refusal=wlf.refusal, same_as="wlf")
+        return refused
     try:
-        law = wlf.law.to_vft()
+        return replace(wlf, kind="vft", title=TITLES["vft"], law=wlf.law.to_vft(), same_as="wlf")
     except InputError as error:
-        return LawRow("vft", TITLES["vft"], None, wlf.constants, refusal=str(error), same_as="wlf")
-    return LawRow("vft", law.title, law, wlf.constants, wlf.chi2, wlf.freedom, wlf.scatter, wlf.aicc, same_as="wlf")
+        return replace(refused, refusal=str(error))
 
 
-def _stated(table: FactorTable) -> float:
-    """Return the usual standard error of the factors, decades."""
-    return float(np.sqrt(np.median(table.variance)))
-
-
-def _chosen(fitted: list[LawRow], stated: float) -> LawRow:
+def _chosen(fitted: list[LawRow]) -> LawRow:
     """Choose the law of physics with the fewest constants that is supported, or a polynomial where all fail."""
     laws = [row for row in fitted if row.kind != "polynomial"]
-    lowest = min((row.aicc for row in laws), default=float("inf"))
-    supported = [row for row in laws if row.aicc <= lowest + SUPPORTED]
-    # With few temperatures AICc pays more for one constant less than for errors that are met.
-    supported = [row for row in supported if row.scatter <= stated] or supported
+    lowest = min((row.aic for row in laws), default=float("inf"))
+    supported = [row for row in laws if row.aic <= lowest + SUPPORTED]
     chosen = min(supported, key=lambda row: row.constants, default=fitted[0])
     empirical = next((row for row in fitted if row.kind == "polynomial"), chosen)
-    if chosen.scatter > LARGEST_SCATTER and empirical.aicc < lowest - SUPPORTED:
+    if chosen.scatter > LARGEST_SCATTER and empirical.aic < lowest - EXCLUDED:
         return empirical
     return chosen
 
 
-def _explanation(chosen: LawRow, fitted: list[LawRow], wlf: LawRow, table: FactorTable) -> str:
-    others = sorted((row for row in fitted if row is not chosen), key=lambda row: row.aicc)
-    if not others:
-        first = f"{chosen.title} is the only law that can be fitted to these shift factors."
-    elif chosen.aicc <= others[0].aicc:
-        gap = others[0].aicc - chosen.aicc
-        first = f"{chosen.title} describes these shift factors best: its AICc is lower by {gap:.2g} than that of "
-        first += f"{others[0].title}, the next."
-    else:
-        reasons = [_no_reason(row, chosen) for row in others if row.aicc < chosen.aicc]
+def _notes(chosen: LawRow, rows: list[LawRow], table: FactorTable) -> tuple[Note, ...]:
+    """Say why a law was chosen, how sure that is, and what it leaves."""
+    fitted = [row for row in rows if row.law is not None]
+    others = sorted((row for row in fitted if row is not chosen), key=lambda row: row.aic)
+    reasons = [_no_reason(row, chosen) for row in others if row.aic < chosen.aic - ROUNDING]
+    others = [row for row in others if row.kind != "polynomial"]
+    if reasons:
         first = f"{chosen.title} is taken: {', and '.join(reasons)}."
-    sentences = [first[0].upper() + first[1:]]
-    if wlf.law is not None:
-        sentences.append("VFT is the same curve as WLF in other constants, and no candidate of its own.")
-    stated = _stated(table)
-    if chosen.scatter > stated:
-        sentences.append(
-            f"The factors scatter about it by {chosen.scatter:.2g} decades, more than their uncertainties of about "
-            f"{stated:.2g} explain."
+    elif not others:
+        first = f"{chosen.title} is the only law of physics that can be fitted to these shift factors."
+    else:
+        gap = others[0].aic - chosen.aic
+        first = f"{chosen.title} describes these shift factors best: its AIC is lower by {gap:.2g} than that of "
+        first += f"{others[0].title}, the next."
+    notes = [Note("law-chosen", first[0].upper() + first[1:])]
+    if chosen.exact:
+        text = f"It has as many constants as there are steps between the {len(table) + 1} temperatures, so that it "
+        notes.append(Note("law-exact", text + "passes through all factors and nothing tests it."))
+    notes += [
+        _rivalry(chosen, row, table)
+        for row in others
+        if chosen.kind != "polynomial" and row.aic <= chosen.aic + EXCLUDED
+    ]
+    stated = float(np.sqrt(np.median(table.variance)))
+    if stated <= 2.0 * law_fitting.SMALLEST_ERROR:
+        text = f"The factors have no standard errors; laws are taken to hold to about {law_fitting.USUAL_MISFIT:g} "
+        notes.append(Note("factors-without-errors", text + "decades."))
+    elif chosen.scatter > stated:
+        text = f"The factors scatter about it by {chosen.scatter:.2g} decades, more than their uncertainties of about "
+        notes.append(Note("law-scatter", text + f"{stated:.2g} explain."))
+    if any(row.kind == "wlf" for row in fitted):
+        notes.append(
+            Note("vft-is-wlf", "VFT is the same curve as WLF in other constants, and no candidate of its own.")
         )
-    return " ".join(sentences)
+    return tuple(notes)
+
+
+def _rivalry(chosen: LawRow, rival: LawRow, table: FactorTable) -> Note:
+    """Say how far a law that cannot be excluded is from the chosen one."""
+    low, high = float(table.temperatures[0]), float(table.temperatures[-1])
+    kelvin = np.linspace(low - BEYOND, high + BEYOND, 81)
+    laws = [row.law.unbounded() for row in (chosen, rival) if row.law is not None]
+    kelvin = kelvin[kelvin > max(law.extrapolation_limits[0] for law in laws) + 1.0]
+    apart = np.abs(laws[0].log10(kelvin) - laws[1].log10(kelvin))
+    inside = float(np.max(apart[(kelvin >= low) & (kelvin <= high)]))
+    far = f"{inside:.2g} decades between the temperatures and {float(apart.max()):.2g} up to {BEYOND:g} K beyond them"
+    weights = f"Akaike weights {chosen.weight:.2f} and {rival.weight:.2f}"
+    if float(apart.max()) <= LARGEST_SCATTER:
+        return Note("laws-alike", f"{rival.title} cannot be excluded ({weights}) and differs by at most {far}.")
+    return Note(
+        "laws-undecided",
+        f"The factors cannot decide between {chosen.title} and {rival.title} ({weights}), which differ by up to {far}; "
+        "more temperatures, or a wider range of them, would.",
+    )
 
 
 def _no_reason(row: LawRow, chosen: LawRow) -> str:
-    """Say why a law with a lower AICc was not taken."""
-    gap = f"{chosen.aicc - row.aicc:.2g}"
+    """Say why a law with a lower AIC was not taken."""
+    gap = f"{chosen.aic - row.aic:.2g}"
     if row.kind == "polynomial":
-        return f"the AICc of a {row.title} is lower by {gap}, but describes without explaining"
-    return f"the AICc of {row.title} is lower by {gap}, which does not pay for more constants"
+        return f"the AIC of a {row.title} is lower by {gap}, but describes without explaining"
+    return f"the AIC of {row.title} is lower by {gap}, which does not pay for more constants"

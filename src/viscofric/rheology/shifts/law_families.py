@@ -46,6 +46,8 @@ class Family:
     #: Whether the constants are sought through their logarithms; those that are not enter linearly.
     positive = True
     size = 0
+    #: What Akaike's criterion adds to `size`.
+    surcharge = 0
 
     def __init__(self, temperatures: Array, reference: float) -> None:
         self.temperatures, self.reference = temperatures, reference
@@ -113,6 +115,9 @@ class _Arrhenius(Family):
 
 class _WLFArrhenius(Family):
     size = 3
+    #: The place where one law passes into another is no regular constant: it counts for three (Y. Ninomiya, Ann. Inst.
+    #: Stat. Math. 67 (2015) 943).
+    surcharge = 2
 
     def law(self, parameters: Array, covariance: Array | None = None) -> ParametricLaw:
         return WLFArrhenius(parameters[0], parameters[1], parameters[2], self.reference, *self._fitted(covariance))

@@ -21,6 +21,12 @@ if TYPE_CHECKING:
 #: Rounding of tabulated values; keeps exact tables from dividing by zero.
 SMALLEST_ERROR = 1e-7  # decades
 LARGEST_SCATTER = 10.0  # decades; explains anything
+#: No law is followed more closely than this: where α changes by a tenth of a decade a kelvin, it is an isotherm's
+#: temperature that is off by 0.03 K.
+SMALLEST_MISFIT = 0.003  # decades
+#: What a good law usually leaves beyond the errors of the factors; the scale of a half-Cauchy density, which rules out
+#: no size (A. Gelman, Bayesian Analysis 1 (2006) 515).
+USUAL_MISFIT = 0.01  # decades
 #: A constant that may as well be a hundred times itself is not one that the data know of.
 LARGEST_RELATIVE_ERROR = 100.0
 ITERATIONS = 50
@@ -83,10 +89,11 @@ class Solution(NamedTuple):
     chi2: float
 
 
-class Likelihood(NamedTuple):
-    """The greatest likelihood of a law: −2 ln L, and the extra scatter (decades) that makes it greatest."""
+class Fitted(NamedTuple):
+    """A law, its χ² by the measured covariance alone, and the scatter (decades) that makes its misfit plausible."""
 
-    deviance: float
+    law: ParametricLaw
+    chi2: float
     scatter: float
 
 
@@ -96,15 +103,22 @@ def fit(kind: Literal["wlf"], table: FactorTable) -> WLF: ...
 def fit(kind: str, table: FactorTable, degree: int | None = None) -> ParametricLaw: ...
 def fit(kind: str, table: FactorTable, degree: int | None = None) -> ParametricLaw:
     """Fit a law by generalised least squares; see `ShiftFactors.law`."""
+    return fitted(kind, table, degree).law
+
+
+def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
+    """Fit a law as `fit` does, and return its misfit too."""
     if kind not in LAWS:
         raise InputError(f"law = {kind!r}: must be {', '.join(repr(one) for one in LAWS[:-1])} or {LAWS[-1]!r}.")
     if kind == "vft":  # the same curve, whose constants and covariance follow exactly
-        return fit("wlf", table).to_vft()
+        wlf = fitted("wlf", table)
+        return wlf._replace(law=wlf.law.to_vft())  # type: ignore[attr-defined]
     family = family_of(kind, table.temperatures, table.reference, degree)
     if len(table) < family.size:
         raise InputError(f"{len(table) + 1} temperatures are too few to fit {kind!r}; give {family.size + 1} or more.")
     try:
-        found = _with_misfit(family, table, family.start(table.values))
+        bare = _least_squares(family, table, family.start(table.values), 0.0)
+        found, scatter = _with_misfit(family, table, bare)
     except np.linalg.LinAlgError:
         raise _not_described(table, kind) from None
     errors = np.diag(found.covariance)
@@ -112,11 +126,11 @@ def fit(kind: str, table: FactorTable, degree: int | None = None) -> ParametricL
         raise _not_described(table, kind)
     if family.positive and np.any(errors > (LARGEST_RELATIVE_ERROR * found.parameters) ** 2):
         raise _not_described(table, kind)
-    return family.law(found.parameters, found.covariance)
+    return Fitted(family.law(found.parameters, found.covariance), bare.chi2, scatter)
 
 
-def likelihood(law: ParametricLaw, table: FactorTable) -> Likelihood:
-    """Maximise the Gaussian likelihood of a table over a law's constants and over extra scatter.
+def criterion(law: ParametricLaw, table: FactorTable) -> float:
+    """Return Akaike's criterion, −2 ln L + 2k: constants of greatest likelihood, the misfit averaged over.
 
     Parameters
     ----------
@@ -125,41 +139,28 @@ def likelihood(law: ParametricLaw, table: FactorTable) -> Likelihood:
     table : FactorTable
         What it was fitted to.
 
-    Returns
-    -------
-    Likelihood
-        −2 ln L of the differences of neighbouring values, n − 1 in number, whose covariance is the measured one
-        and that of independent scatter, of one variance not below zero, in every value.
+    Notes
+    -----
+    k is the number of constants, a glass transition between two laws counting for three.
+    L is the Gaussian likelihood of the differences of neighbouring values, n − 1 in number, whose covariance is the
+    measured one and that of an independent scatter s in every value.  No law is followed exactly, and few factors do
+    not show how closely; so L is averaged over s, from `SMALLEST_MISFIT` on, with the density 1/(1 + (s/m)²) of
+    m = `USUAL_MISFIT`.  Nothing in it grows without bound where a law passes through all factors.
     """
-    from scipy.optimize import minimize_scalar
-
     degree = len(law.parameters) if law.kind == "polynomial" else None
     family = family_of(law.kind, table.temperatures, table.reference, degree)
-    start = law.parameters
-
-    def deviance(scatter: float) -> float:
-        found = _least_squares(family, table, start, scatter)
-        logarithms = float(np.sum(np.log(2.0 * np.pi * (table.variance + scatter))))
-        return found.chi2 + logarithms + table.log_volume
-
-    decades = np.linspace(np.log(SMALLEST_ERROR), np.log(LARGEST_SCATTER), 19)
-    trials = [deviance(float(np.exp(2.0 * step))) for step in decades]
-    best = int(np.argmin(trials))
-    bounds = decades[max(best - 1, 0)], decades[min(best + 1, len(decades) - 1)]
-    search = minimize_scalar(
-        lambda step: deviance(float(np.exp(2.0 * step))), bounds=bounds, method="bounded", options={"xatol": 1e-2}
-    )
-    none = deviance(0.0)
-    if none <= search.fun:
-        return Likelihood(none, 0.0)
-    return Likelihood(float(search.fun), float(np.exp(search.x)))
+    scatter = np.geomspace(SMALLEST_MISFIT, LARGEST_SCATTER, 25)
+    weight = scatter / (1.0 + (scatter / USUAL_MISFIT) ** 2)  # of equal steps of ln s
+    logarithms = np.array([_log_density(family, table, law.parameters, float(one) ** 2) for one in scatter])
+    most = float(logarithms.max())
+    mean = float(np.sum(weight * np.exp(logarithms - most)) / np.sum(weight))
+    return -2.0 * (most + float(np.log(mean))) + 2.0 * (family.size + family.surcharge)
 
 
-def chi_squared(law: ParametricLaw, table: FactorTable) -> float:
-    """Return the χ² of a law of this kind when the measured uncertainties are all there is."""
-    degree = len(law.parameters) if law.kind == "polynomial" else None
-    family = family_of(law.kind, table.temperatures, table.reference, degree)
-    return _least_squares(family, table, law.parameters, 0.0).chi2
+def _log_density(family: Family, table: FactorTable, start: Array, scatter: float) -> float:
+    """Return the largest ln L over the constants, with a scatter of this variance in every value."""
+    chi2 = _least_squares(family, table, start, scatter).chi2
+    return -0.5 * (chi2 + float(np.sum(np.log(2.0 * np.pi * (table.variance + scatter)))) + table.log_volume)
 
 
 def _not_described(table: FactorTable, kind: str) -> InputError:
@@ -170,16 +171,17 @@ def _not_described(table: FactorTable, kind: str) -> InputError:
     )
 
 
-def _with_misfit(family: Family, table: FactorTable, start: Array) -> Solution:
-    """Fit, adding just as much independent scatter per temperature as makes the misfit plausible.
+def _with_misfit(family: Family, table: FactorTable, bare: Solution) -> tuple[Solution, float]:
+    """Fit, adding just as much independent scatter per temperature (decades) as makes the misfit plausible.
 
     The scatter σ² solves χ²(σ²) = degrees of freedom (R. C. Paule, J. Mandel, J. Res. Natl. Bur. Stand. 87 (1982)
-    377); it is zero where the uncertainties explain the misfit.
+    377); it is zero where the uncertainties explain the misfit of the fit without it, and where nothing is left over
+    from which to tell it.
     """
     freedom = len(table) - family.size
-    found = _least_squares(family, table, start, 0.0)
-    if freedom == 0 or found.chi2 <= freedom:
-        return found
+    if freedom == 0 or bare.chi2 <= freedom:
+        return bare, 0.0
+    found = bare
     low, high = 2 * np.log(SMALLEST_ERROR), 2 * np.log(LARGEST_SCATTER)
     for _ in range(40):
         middle = 0.5 * (low + high)
@@ -187,7 +189,7 @@ def _with_misfit(family: Family, table: FactorTable, start: Array) -> Solution:
         low, high = (middle, high) if found.chi2 > freedom else (low, middle)
         if high - low < 1e-2:
             break
-    return found
+    return found, float(np.exp(0.25 * (low + high)))
 
 
 def _least_squares(family: Family, table: FactorTable, start: Array, scatter: float) -> Solution:

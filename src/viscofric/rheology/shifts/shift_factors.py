@@ -228,7 +228,7 @@ class ShiftFactors(ShiftLaw):
         above : float or quantity, optional
             Leave out measured temperatures below this one, such as those below the glass transition.
         degree : int, optional
-            Of the polynomial, 1 to 4; without it, that from 2 to 4 of the lowest AICc.
+            Of the polynomial, 1 to 4; without it, that from 2 to 4 of the lowest AIC.
 
         Returns
         -------
@@ -256,7 +256,7 @@ class ShiftFactors(ShiftLaw):
         Raises
         ------
         InputError
-            If no law describes the table, or the temperatures are too few to compare any.
+            If no law describes the table.
         """
         return compare_laws(self._table(above))
 

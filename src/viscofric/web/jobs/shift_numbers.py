@@ -116,7 +116,9 @@ def _law_row(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, An
         "chi2": plain(row.chi2),
         "freedom": row.freedom,
         "scatter": plain(row.scatter),
-        "aicc": plain(row.aicc),
+        "aic": plain(row.aic),
+        "weight": plain(row.weight),
+        "exact": row.exact,
         "refusal": row.refusal,
         "same_as": row.same_as,
     }

@@ -114,17 +114,18 @@ export function lawTable({ laws }, app) {
     return [
       row.title,
       words,
-      row.aicc === null ? "–" : row.aicc.toFixed(1).replace("-", "−"),
-      row.refusal ? "–" : row.scatter.toFixed(3),
+      row.aic === null ? "–" : row.aic.toFixed(1).replace("-", "−"),
+      row.refusal || row.kind === "polynomial" ? "–" : row.weight.toFixed(2),
+      row.refusal ? "–" : row.exact ? "exact" : row.scatter.toFixed(3),
       answers,
       mark,
       use ?? "",
     ];
   });
   return fields.table(
-    ["law", "constants", "AICc", "scatter (decades)", "answers", "", ""],
+    ["law", "constants", "AIC", "weight", "scatter (decades)", "answers", "", ""],
     rows,
-    "Laws compared: the lower AICc, the better supported",
+    "Laws compared: the lower the AIC, the better supported",
   );
 }
 
