@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 
 class Note(str):
@@ -49,3 +51,18 @@ def codes(notes: Iterable[str]) -> set[str]:
         Notes, and sentences without a code, which are passed over.
     """
     return {note.code for note in notes if isinstance(note, Note)}
+
+
+@contextmanager
+def warned() -> Iterator[list[Note]]:
+    """Collect the notes that are warned of inside, for those who show them in their own way; other warnings go on."""
+    found: list[Note] = []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield found
+    for one in caught:
+        said = one.message.args[0] if isinstance(one.message, Warning) and one.message.args else None
+        if isinstance(said, Note):
+            found.append(said)
+        else:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)

@@ -131,7 +131,13 @@ def test_a_card_that_cannot_be_written_keeps_no_other_from_it(tmp_path: Path) ->
     assert done.exit_code == 1  # ANSYS takes no Poisson ratio of 0.5
     assert "no card for ansys" in done.output
     assert (tmp_path / "out" / "cards" / "rubber_abaqus.inp").exists()
-    assert "holds at the reference temperature only" in done.output  # no law was asked for
+    assert "card for abaqus holds at 30.0 °C only" in done.output  # no law was asked for
+    law = call(
+        "convert", tmp_path / "out" / "rubber.json", tmp_path / "law.inp", "--format", "abaqus", "--card-law", "wlf"
+    )
+    assert law.exit_code == 0
+    assert "Note" not in law.stderr
+    assert isinstance(vf.read_card(tmp_path / "law.inp").shift, vf.WLF)
 
 
 def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str], tmp_path: Path) -> None:

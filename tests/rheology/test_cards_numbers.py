@@ -221,7 +221,7 @@ def test_ls_dyna_asks_to_check_the_sign_of_its_shift(tmp_path):
 # --- tonne, mm, s ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.filterwarnings("error")
+@pytest.mark.filterwarnings("error", "ignore:The card for")
 @pytest.mark.parametrize("program", ["abaqus", "ansys", "ls-dyna"])
 @pytest.mark.parametrize("law", [WLF(8.86, 101.6, 298.15), Arrhenius(123456.789, 303.15), None])
 @pytest.mark.parametrize("domain", ["time", "frequency"])

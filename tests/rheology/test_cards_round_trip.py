@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import codes, warned
 from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
@@ -19,6 +21,9 @@ from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
+
+#: What a card leaves out is the business of two tests below.
+pytestmark = pytest.mark.filterwarnings("ignore:The card for")
 
 FINITE_ELEMENTS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches")
 FORMATS = (*FINITE_ELEMENTS, "csv", "json")
@@ -69,9 +74,42 @@ def assert_same(one, other):
 @pytest.mark.parametrize("law", LAWS)
 def test_what_is_written_comes_back(tmp_path, program, law):
     material = rubber(law)
-    path = write_card(material, tmp_path / "card", program, density=1100.0)
+    with warned() as notes:
+        path = write_card(material, tmp_path / "card", program, density=1100.0)
+    without = law != "none" and program in FINITE_ELEMENTS
+    without = without and (law not in ("wlf", "vft", "arrhenius") or program == "comsol-branches")
+    assert codes(notes) == ({"card-without-shift"} if without else set())
     assert_same(read_card(path), material)  # no warning: nothing had to be assumed
     assert_same(read_card(path, program), material)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("program", ["abaqus", "ansys", "ls-dyna", "comsol"])
+def test_a_table_of_shift_factors_becomes_a_law_where_one_is_asked_for(tmp_path, program):
+    """WLF (8.0, 120 K) at five temperatures: the program gets the constants, and viscofric reads the law back."""
+    kelvin = np.arange(283.15, 324.0, 10.0)
+    factors = ShiftFactors(kelvin, WLF(8.0, 120.0, 303.15).log10(kelvin), 303.15)
+    material = replace(rubber(), shift=factors)
+    for law in ("best", "wlf", "vft"):
+        path = write_card(material, tmp_path / "card", program, density=1100.0, law=law)
+        found = read_card(path).shift
+        found = found.to_wlf() if isinstance(found, VFT) else found
+        assert (found.C1, found.C2, found.reference) == pytest.approx((8.0, 120.0, 303.15), rel=1e-6)
+    with warned() as notes:
+        write_card(material, tmp_path / "card", program, density=1100.0, law="arrhenius")
+    assert codes(notes) == {"card-law-misfit"}  # by 0.14 decades
+    with pytest.raises(InputError, match="no table of shift factors"):
+        write_card(rubber(), tmp_path / "card", program, density=1100.0, law="best")
+    with pytest.raises(InputError, match="must be one of best, wlf, vft, arrhenius"):
+        write_card(material, tmp_path / "card", program, density=1100.0, law="polynomial")
+
+
+def test_what_a_card_leaves_out_is_warned_of(tmp_path):
+    shifted = replace(rubber(), vertical_shift=DensityShift(298.15))
+    with pytest.warns(UserWarning, match="The card for abaqus") as told:
+        write_card(shifted, tmp_path / "card", "abaqus", domain="frequency")
+    assert codes(one.message.args[0] for one in told) == {"card-without-shift", "card-without-vertical-shift"}
+    assert all(one.filename == __file__ for one in told)
 
 
 @pytest.mark.parametrize("program", ["abaqus", "comsol", "comsol-branches", "csv", "json"])

@@ -111,7 +111,11 @@ def test_what_a_program_cannot_take_is_told_in_a_sentence(desk: Desk) -> None:
     with pytest.raises(InputError, match="density"):
         desk.run(export_card, BALL, format="abaqus", density="1800 kg")
     measured = desk.run(export_card, SWEEPS, format="abaqus")
-    assert any("reference temperature only" in one for one in measured["notes"])
+    assert "“Shift law”" in " ".join(measured["notes"])
+    assert "*TRS" not in measured["text"]
+    fitted = desk.run(export_card, SWEEPS, format="abaqus", law="wlf")
+    assert "*TRS, DEFINITION=WLF" in fitted["text"]
+    assert fitted["notes"] == []
 
 
 def test_a_file_that_is_gone_is_named(desk: Desk) -> None:

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from viscofric.rheology.cards import CardFormat, write_card
+from viscofric.rheology.cards import CardFormat, CardLaw, write_card
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.bands import draw_rubber
 from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
@@ -110,8 +110,8 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
     return written
 
 
-def write_program_card(material: Material, folder: Path, form: CardFormat) -> Path:
-    """Write a rubber for a program into a folder, in a file named after the program.
+def write_program_card(material: Material, folder: Path, form: CardFormat, law: CardLaw | None = None) -> Path:
+    """Write a rubber for a program into a folder, in a file named after the program; see `write_card`.
 
     Raises
     ------
@@ -121,4 +121,4 @@ def write_program_card(material: Material, folder: Path, form: CardFormat) -> Pa
         If the file cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    return write_card(material, folder / f"rubber_{form.replace('-', '_')}{CARDS[form]}", format=form)
+    return write_card(material, folder / f"rubber_{form.replace('-', '_')}{CARDS[form]}", format=form, law=law)

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import tell_notes, told
 from viscofric.cli.files import refuse_to_overwrite
 
 if TYPE_CHECKING:
-    from viscofric.rheology.cards import CardFormat
+    from viscofric.rheology.cards import CardFormat, CardLaw
 
+CARD_LAWS = ("best", "wlf", "vft", "arrhenius")
 FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json")
 
 
@@ -31,6 +32,9 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
     help="Of Abaqus, ANSYS and LS-DYNA cards; MPa goes with mm, s and tonne.",
 )
 @click.option("--density", metavar="RHO", help="Such as '1100 kg/m^3'; LS-DYNA needs it.")
+@click.option(
+    "--card-law", type=click.Choice(CARD_LAWS), help="Law fitted to a table of shift factors, written in its place."
+)
 def command(
     rubber: str,
     output: Path,
@@ -38,17 +42,28 @@ def command(
     poisson_ratio: float | None,
     unit_system: Literal["Pa", "MPa"],
     density: str | None,
+    card_law: CardLaw | None,
 ) -> None:
     """Write RUBBER as a material card of another program into the file OUTPUT.
 
     RUBBER is a material file (JSON, CSV, or a card of any of these programs), or a name of the catalogue.
     """
-    from viscofric.cli.material.rubbers import find_rubber, tell_of_card
+    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.notes import warned
     from viscofric.rheology import write_card
 
     refuse_to_overwrite(output, [Path(rubber)])
     with told():
         material = find_rubber(rubber)
-        write_card(material, output, format=form, poisson_ratio=poisson_ratio, density=density, unit_system=unit_system)
+        with warned() as notes:
+            write_card(
+                material,
+                output,
+                format=form,
+                poisson_ratio=poisson_ratio,
+                density=density,
+                unit_system=unit_system,
+                law=card_law,
+            )
     click.echo(f"card     {output}")
-    tell_of_card(material, form)
+    tell_notes(notes)

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import tell_doubts, told
-from viscofric.cli.material.convert import FORMATS
+from viscofric.cli.errors import tell_doubts, tell_notes, told
+from viscofric.cli.material.convert import CARD_LAWS, FORMATS
 from viscofric.cli.material.options import reading_options
 
 if TYPE_CHECKING:
-    from viscofric.rheology.cards import CardFormat
+    from viscofric.rheology.cards import CardFormat, CardLaw
     from viscofric.rheology.material import Material
     from viscofric.study.material_table import MaterialTable
     from viscofric.study.results import StudyResults
@@ -60,6 +60,7 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 @click.option("--modes", type=int, help="With --spectrum sparse: this many modes at most.")
 @click.option("--tau-ratio", type=float, default=math.e, help="From one retardation time to the next [default: e].")
 @click.option("--card", "cards", type=click.Choice(FORMATS), multiple=True, help="Also write a card for this program.")
+@click.option("--card-law", type=click.Choice(CARD_LAWS), help="Law of the cards, fitted to measured shift factors.")
 @click.option("--samples", type=int, default=200, show_default=True, help="Draws for the bands of E; 0 for none.")
 @click.option(
     "-o",
@@ -71,6 +72,7 @@ def command(
     files: tuple[Path, ...],
     output: Path | None,
     cards: tuple[CardFormat, ...],
+    card_law: CardLaw | None,
     samples: int,
     synthetic: bool,
     **asked: Any,
@@ -93,7 +95,9 @@ def command(
             folder,
             title=asked["name"] or f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if files[1:] else ""),
             command=_command(
-                files, {**asked, "card": cards, "samples": samples, "output": output, "synthetic": synthetic}
+                files,
+                {**asked, "card": cards, "card_law": card_law, "samples": samples}
+                | {"output": output, "synthetic": synthetic},
             ),
             samples=samples,
             synthetic=synthetic,
@@ -105,23 +109,25 @@ def command(
     for path in figures:
         click.echo(f"figure   {path}")
     click.echo(f"report   {report}")
-    failed = [form for form in cards if not _write_card(rubber.material, folder, form)]
+    failed = [form for form in cards if not _write_card(rubber.material, folder, form, card_law)]
     if failed:
         raise click.exceptions.Exit(1)
 
 
-def _write_card(material: Material, folder: Path, form: CardFormat) -> bool:
+def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw | None) -> bool:
     """Write one card and say so; a program that cannot hold the rubber keeps no other from it."""
-    from viscofric.cli.material.rubbers import tell_of_card
     from viscofric.errors import ViscofricError
+    from viscofric.notes import warned
     from viscofric.study.rubber_results import write_program_card
 
     try:
-        click.echo(f"card     {write_program_card(material, folder / 'cards', form)}")
+        with warned() as notes:
+            path = write_program_card(material, folder / "cards", form, law)
     except ViscofricError as error:
         click.echo(f"Error: no card for {form}: {error} (viscofric material convert has the options.)", err=True)
         return False
-    tell_of_card(material, form)
+    click.echo(f"card     {path}")
+    tell_notes(notes)
     return True
 
 

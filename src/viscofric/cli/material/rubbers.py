@@ -25,15 +25,3 @@ def find_rubber(name: str) -> Material:
     for note in card.notes:
         click.echo(f"Note: {note}", err=True)
     return card.material
-
-
-def tell_of_card(material: Material, form: str) -> None:
-    """Say where a program's card holds less of the rubber than its own files do."""
-    from viscofric.rheology import ShiftFactors
-
-    if form not in ("csv", "json") and isinstance(material.shift, ShiftFactors):
-        click.echo(
-            f"Note: the card for {form} holds at the reference temperature only, since other programs take a shift law "
-            "but no table of factors; fit with --shift best gives the rubber a law.",
-            err=True,
-        )

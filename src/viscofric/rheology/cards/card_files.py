@@ -3,27 +3,36 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
 
+import numpy as np
+
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
+from viscofric.notes import Note
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, plain
-from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing
+from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
 from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
-from viscofric.units import positive, to_si
+from viscofric.rheology.shifts.law_comparison import LARGEST_SCATTER
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.units import celsius, positive, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from os import PathLike
 
     from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.laws import ParametricLaw
     from viscofric.units import Quantity
 
 #: What `write_card` can write.
 CardFormat: TypeAlias = Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"]
 
 
+#: Laws that `write_card` fits for programs.
+CardLaw: TypeAlias = Literal["best", "wlf", "vft", "arrhenius"]
 #: Programs whose cards have no units: the model's own count.
 _WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
 
@@ -57,6 +66,7 @@ def write_card(
     domain: Literal["time", "frequency"] = "time",
     material_id: int = 1,
     unit_system: UnitSystem = "Pa",
+    law: CardLaw | None = None,
 ) -> Path:
     """Write a material for another program, in Pa, s, m and kg or in MPa, s, mm and tonnes.
 
@@ -65,7 +75,8 @@ def write_card(
     bulk modulus of the glass far larger than any real one; take the largest ratio that the elements bear, or one
     that gives the bulk modulus meant.  What a format cannot hold
     (a shift other than WLF, VFT or Arrhenius, covariances, the vertical shift, the citation) goes into comments,
-    which `read_card` reads back: nothing is lost on the way there and back.
+    which `read_card` reads back: nothing is lost on the way there and back.  A warning says where the program then has
+    no dependence on temperature; `law` gives it one.
 
     COMSOL has this bulk relaxation only with "Volumetric and deviatoric" branches (6.2); for others its parameters hold
     the bulk modulus of the glass.  The sign of a WLF shift in LS-DYNA must be checked on one element.  The comments of
@@ -92,11 +103,20 @@ def write_card(
     unit_system : {"Pa", "MPa"}
         Of cards for Abaqus, ANSYS and LS-DYNA: SI, or mm, s, tonne and N, with moduli in MPa and density in t/mm³.
         The card's comments say which; `read_card` knows it from them.
+    law : {"best", "wlf", "vft", "arrhenius"}, optional
+        Fitted to the material's table of shift factors and written in its place: programs take a law and no table.
+        "best" is that of these which the table supports best (`ShiftFactors.compare_laws`).
 
     Returns
     -------
     Path
         The file.
+
+    Warns
+    -----
+    UserWarning
+        With a `Note`: ``card-without-shift`` where the program gets no dependence on temperature,
+        ``card-without-vertical-shift`` where it gets no b(T), ``card-law-misfit`` where a fitted law misses the table.
 
     Raises
     ------
@@ -108,7 +128,8 @@ def write_card(
     Examples
     --------
     >>> import viscofric as vf
-    >>> path = vf.write_card(vf.synthetic_fluoroelastomer(), "rubber.inp", format="abaqus", poisson_ratio=0.49)
+    >>> rubber = vf.catalogue_material("PVB interlayer")
+    >>> path = vf.write_card(rubber, "rubber.inp", format="abaqus", poisson_ratio=0.49)
     >>> "*VISCOELASTIC" in path.read_text().upper()
     True
     """
@@ -128,6 +149,9 @@ def write_card(
         )
     if material_id != int(material_id) or material_id < 1:
         raise InputError(f"material_id = {material_id!r}: must be a whole number from 1 on.")
+    notes: list[Note] = []
+    if law is not None:
+        material = _with_law(material, law, notes)
     writing = Writing(
         None if poisson_ratio is None else to_si(poisson_ratio, "dimensionless", "poisson_ratio"),
         None if density is None else positive(density, "kg/m^3", "density"),
@@ -142,12 +166,73 @@ def write_card(
         text = plain.write_csv(material)
     else:
         text = _PROGRAMS[format].write(material, writing)
+        notes += _left_out(material, format, domain, text)
     file = Path(path)
     try:
         file.write_text(text, encoding="utf-8")
     except (OSError, ValueError) as error:
         raise DataFileError(path, f"cannot be written ({getattr(error, 'strerror', None) or error}).") from None
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
     return file
+
+
+def _with_law(material: Material, law: str, notes: list[Note]) -> Material:
+    """Return the material with a law fitted to its table of shift factors, and note where that misses them."""
+    if law not in get_args(CardLaw):
+        raise InputError(f"law = {law!r}: must be one of {', '.join(get_args(CardLaw))}.")
+    factors: Any = material.shift
+    if not isinstance(factors, ShiftFactors):
+        raise InputError(f"law = {law!r}: the material has no table of shift factors to fit a law to; leave it out.")
+    fitted = _best_law(factors) if law == "best" else factors.law(law)
+    missed = _missed(factors, fitted)
+    if missed > LARGEST_SCATTER:
+        text = f"The {fitted.title} law of the card misses the shift factors by up to {missed:.2g} decades."
+        notes.append(Note("card-law-misfit", text))
+    return replace(material, shift=fitted)
+
+
+def _best_law(factors: ShiftFactors) -> ParametricLaw:
+    """Return the best of the laws that programs know."""
+    laws = factors.compare_laws()
+    known = [row.law for row in (laws.chosen, *laws.rows) if row.law is not None and card_law(row.law) is not None]
+    if not known:
+        raise InputError("law = 'best': neither a WLF nor an Arrhenius law describes the shift factors.")
+    return known[0]
+
+
+def _missed(factors: ShiftFactors, law: ParametricLaw) -> float:
+    return float(np.max(np.abs(factors.log10_values - law.log10(factors.temperatures))))
+
+
+def _left_out(material: Material, form: str, domain: str, text: str) -> list[Note]:
+    """Say what of the dependence on temperature the program does not get from a card."""
+    notes, shift = [], material.shift
+    written = (stored_content(text) or {"card": {}})["card"].get("shift")
+    if shift is not None and not written:
+        about = f"The card for {form} holds at {celsius(float(shift.reference)):z.1f} °C only: "
+        notes.append(Note("card-without-shift", about + _why_no_shift(shift, form, domain)))
+    if material.vertical_shift is not None:
+        notes.append(Note("card-without-vertical-shift", f"The card for {form} lacks the vertical shift b(T)."))
+    return notes
+
+
+def _why_no_shift(shift: Any, form: str, domain: str) -> str:
+    if form == "comsol-branches":
+        return 'a table of branches holds no shift; format "comsol" does.'
+    if form == "abaqus" and domain == "frequency":
+        return "in the frequency domain Abaqus takes no shift."
+    if not isinstance(shift, ShiftFactors):
+        return f"the program knows a WLF or an Arrhenius law, but no {shift.title} law; give the material one of them."
+    only = "the program takes a shift law, but no table of shift factors"
+    try:
+        law = _best_law(shift)
+    except InputError:
+        return f"{only}, and neither a WLF nor an Arrhenius law describes them."
+    return (
+        f"{only}. {law}, fitted to them, misses them by up to {max(_missed(shift, law), 0.001):.1g} decades; "
+        'law="best" (in the shell --card-law best) writes it.'
+    )
 
 
 def open_card(
@@ -186,7 +271,8 @@ def open_card(
     Examples
     --------
     >>> import viscofric as vf
-    >>> path = vf.write_card(vf.synthetic_fluoroelastomer(), "rubber.inp", format="abaqus", poisson_ratio=0.49)
+    >>> rubber = vf.catalogue_material("PVB interlayer")
+    >>> path = vf.write_card(rubber, "rubber.inp", format="abaqus", poisson_ratio=0.49)
     >>> card = vf.open_card(path)
     >>> card.format
     'an Abaqus card'

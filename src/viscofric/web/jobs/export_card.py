@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from viscofric.notes import warned
 from viscofric.web.jobs.export_files import offered
+from viscofric.web.jobs.page_words import page_words
 from viscofric.web.jobs.rubbers import made_rubber
 
 if TYPE_CHECKING:
@@ -28,6 +30,8 @@ class Options(BaseModel):
     temperature_unit: Literal["K", "degC"] = "K"
     unit_system: Literal["Pa", "MPa"] = "Pa"
     domain: Literal["time", "frequency"] = "time"
+    #: Fitted where the rubber has a table of shift factors; a rubber with a law keeps it.
+    law: Literal["best", "wlf", "vft", "arrhenius"] | None = None
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -58,20 +62,17 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     form: CardFormat = options.format
     name = "rubber" if form in _OWN else f"rubber_{form.replace('-', '_')}"
     path = context.downloads / f"{name}{CARDS[form]}"
-    write_card(
-        rubber.material,
-        path,
-        form,
-        poisson_ratio=options.poisson_ratio,
-        density=options.density or None,
-        temperature_unit=options.temperature_unit,
-        unit_system=options.unit_system if form in _WITHOUT_UNITS else "Pa",
-        domain=options.domain,
-    )
-    notes = []
-    if form not in _OWN and isinstance(rubber.material.shift, ShiftFactors):
-        notes.append(
-            "The card holds at the reference temperature only, since other programs take a shift law but no table of "
-            "factors; a fitted law (step 2) gives the rubber one."
+    with warned() as notes:
+        write_card(
+            rubber.material,
+            path,
+            form,
+            poisson_ratio=options.poisson_ratio,
+            density=options.density or None,
+            temperature_unit=options.temperature_unit,
+            unit_system=options.unit_system if form in _WITHOUT_UNITS else "Pa",
+            domain=options.domain,
+            law=options.law if form not in _OWN and isinstance(rubber.material.shift, ShiftFactors) else None,
         )
-    return {"text": path.read_text(encoding="utf-8"), "download": offered(path, f"card for {form}"), "notes": notes}
+    said = [page_words(note)[0] for note in notes]
+    return {"text": path.read_text(encoding="utf-8"), "download": offered(path, f"card for {form}"), "notes": said}

@@ -11,6 +11,12 @@ const PROGRAMS = [
   ["json", "viscofric (JSON)"],
   ["csv", "table (CSV)"],
 ];
+const LAWS = [
+  ["", "that of the rubber"],
+  ["best", "the best law"],
+  ["wlf", "WLF"],
+  ["arrhenius", "Arrhenius"],
+];
 const WITH_UNITS = ["abaqus", "ansys", "ls-dyna"];
 const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
 
@@ -81,6 +87,7 @@ export function cardCard(app) {
     ["time", "time (Prony series)"],
     ["frequency", "frequency"],
   ]);
+  const law = select(LAWS);
   const poisson = box("that of the rubber");
   const density = box("none");
   const wrong = note([], "error");
@@ -91,6 +98,7 @@ export function cardCard(app) {
     system: viewField(app, "card.system", "Units of the model", system),
     temperature: viewField(app, "card.temperature", "Temperatures of the model", temperature),
     domain: viewField(app, "card.domain", "Analysis", domain),
+    law: viewField(app, "card.law", "Shift law", law, "programs take no table; a law is fitted to it"),
     poisson: viewField(app, "card.poisson", "Poisson's ratio", poisson, "ANSYS and LS-DYNA cannot take 0.5"),
     density: viewField(app, "card.density", "Density", density, "such as 1800 kg/m^3; LS-DYNA needs it"),
   };
@@ -99,7 +107,7 @@ export function cardCard(app) {
     const own = ["json", "csv"].includes(program.value);
     optional.system.hidden = !WITH_UNITS.includes(program.value);
     optional.domain.hidden = program.value !== "abaqus";
-    for (const one of [optional.temperature, optional.poisson, optional.density]) one.hidden = own;
+    for (const one of [optional.temperature, optional.law, optional.poisson, optional.density]) one.hidden = own;
   };
   program.addEventListener("change", fit);
   fit();
@@ -113,6 +121,7 @@ export function cardCard(app) {
       unit_system: system.value,
       domain: domain.value,
     };
+    if (law.value) options.law = law.value;
     if (ratio) options.poisson_ratio = Number(ratio);
     if (density.value.trim()) options.density = density.value.trim();
     go.disabled = true;
