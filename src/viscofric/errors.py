@@ -57,5 +57,9 @@ class SuperpositionError(InputError):
     """The isotherms cannot be joined into one master curve."""
 
 
+class LiquidError(InputError):
+    """A material flows where a solid, with a relaxed modulus E0 above zero, is needed."""
+
+
 class ConvergenceError(ViscofricError, RuntimeError):
     """An iterative solution did not reach its tolerance; it is never returned as if it had."""

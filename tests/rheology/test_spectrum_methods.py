@@ -12,8 +12,10 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from viscofric.data import MasterCurve
-from viscofric.errors import InputError
-from viscofric.rheology import RetardationSpectrum, fit_retardation_spectrum
+from viscofric.errors import InputError, LiquidError
+from viscofric.rheology import RelaxationSpectrum, RetardationSpectrum, fit_retardation_spectrum
+from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
+from viscofric.rheology.uncertainty.refit import Refit
 
 METHODS = ("non-negative", "regularised", "sparse")
 
@@ -178,12 +180,52 @@ def maxwell(low):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_liquid_is_refused(method):
-    with pytest.raises(InputError, match=r"E' falls as ω\^2\.00 and E'' as ω\^1\.00, as in a liquid"):
+    with pytest.raises(LiquidError, match=r"tan δ = 1e\+03.*E0 above zero; leave out the hottest isotherms"):
         fit_retardation_spectrum(maxwell(1e-3), method=method)
 
 
+def melt(chains, noise=0.01):
+    """Return a SYNTHETIC melt of chains of so many entanglements: a Rouse wedge, a plateau, and flow after Z^3.4."""
+    wedge = np.logspace(-9.0, -3.0, 19)
+    odd = np.arange(1.0, 40.0, 2.0)
+    tau = np.append(wedge, 3e-3 * chains**3.4 / odd**2 if chains > 1.0 else [])
+    E = np.append(3e5 * np.sqrt(1e-3 / wedge), 4.9e5 / odd**2 if chains > 1.0 else [])
+    omega = np.logspace(-1.0, 5.0, 61)
+    modulus = RelaxationSpectrum(0.0, E, tau).complex_modulus(omega)
+    scatter = 1.0 + noise * np.random.default_rng(3).standard_normal((2, 61))
+    return MasterCurve(omega, modulus.real * scatter[0], modulus.imag * scatter[1], np.full(61, 433.0), 433.0)
+
+
+@pytest.mark.parametrize("noise", [0.01, 0.03])
+def test_melts_are_fitted_closely_or_refused_up_to_one_molar_mass(noise):
+    """Without chains that entangle, and from 2 to 60 entanglements: the plateau grows from nothing to six decades."""
+    refused = []
+    for chains in (1.0, *np.geomspace(2.0, 60.0, 16)):
+        curve = melt(chains, noise)
+        try:
+            spectrum = fit_retardation_spectrum(curve)
+        except LiquidError:
+            refused.append(True)
+            continue
+        refused.append(False)
+        low = curve.angular_frequency < 1.0
+        fitted = spectrum.complex_modulus(curve.angular_frequency)[low]
+        away = np.log10([fitted.real / curve.storage_modulus[low], fitted.imag / curve.loss_modulus[low]])
+        assert np.sqrt(np.mean(away**2)) < 0.051  # the rule, over the lowest decade
+        assert max(spectrum.fit.rms_storage, spectrum.fit.rms_loss) < 0.035
+        # Draws of the rubber, which start from the fit, follow it as closely.
+        misfit = ModulusMisfit(curve.angular_frequency, curve.complex_modulus)
+        again = Refit(spectrum, curve.angular_frequency[0], curve.angular_frequency[-1])(misfit)
+        left = misfit.residual(misfit.columns(again.tau) @ np.append(again.glass, again.C))
+        assert np.sqrt(np.mean(left**2)) / np.log(10.0) < 0.035
+    assert refused[0]
+    assert not refused[-1]
+    assert refused == sorted(refused, reverse=True)  # no shorter chain is fitted where a longer one is refused
+
+
 def test_what_may_be_a_liquid_is_told_and_a_soft_rubber_is_not():
-    doubtful = fit_retardation_spectrum(maxwell(0.3))
+    glassy = vf.synthetic_fluoroelastomer().spectrum  # from the middle of its glass transition on, where tan δ is 1.3
+    doubtful = fit_retardation_spectrum(master_of(glassy, low=math.log10(2e6), high=12.0))
     assert any("whether there is an E0 above zero is not known" in note for note in doubtful.fit.notes)
     soft = RetardationSpectrum(1e3, 1e9, [1e-3 - 1e-9], [1.0])  # E'' falls as ω too, E' stays
     assert not any("liquid" in note for note in fit_retardation_spectrum(master_of(soft)).fit.notes)

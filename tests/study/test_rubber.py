@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, LiquidError
 from viscofric.friction.identification.origin import with_origin
+from viscofric.notes import codes
 from viscofric.study.rubber import make_rubber
 from viscofric.study.rubber_labels import rubber_data
+from viscofric.study.rubber_results import run_material
 from viscofric.study.run_file import material_of
 
 if TYPE_CHECKING:
@@ -128,3 +130,34 @@ def test_failed_superposition_goes_with_the_rubber(real_data: Path, tmp_path: Pa
     assert isinstance(spectrum, vf.RetardationSpectrum)
     assert spectrum.fit is not None
     assert any("superposition does not hold" in note.lower() for note in spectrum.fit.notes)
+
+
+@pytest.fixture
+def melt(tmp_path: Path) -> Path:
+    """Write sweeps of a SYNTHETIC liquid of three relaxation times with a WLF shift, free of noise; return the file."""
+    path, shift = tmp_path / "melt.csv", vf.WLF(8.0, 120.0, "30 degC")
+    liquid = vf.RelaxationSpectrum(0.0, [1e9, 1e7, 1e6], [1e-4, 1e-2, 1.0])
+    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
+    for celsius in range(10, 51, 10):
+        for hertz in np.geomspace(0.1, 10.0, 13):
+            modulus = complex(liquid.complex_modulus(2 * np.pi * hertz * shift(celsius + 273.15))) / 1e6
+            rows.append(f"{celsius},{hertz:.12g},{modulus.real:.12g},{modulus.imag:.12g}")
+    path.write_text("\n".join(rows), encoding="utf-8")
+    return path
+
+
+def test_shift_factors_and_master_curve_of_a_liquid_are_kept(melt: Path, tmp_path: Path) -> None:
+    """It has no spectrum that a contact could use, but all that sweeps say before one."""
+    wanted = material_of({"dma": str(melt), "deformation": "tension", **REFERENCE})
+    with pytest.raises(LiquidError):
+        make_rubber(wanted)
+    results, made, written = run_material(wanted, tmp_path / "out", samples=20, synthetic=True)
+    assert {path.name for path in written} == {"rubber.json", "shift_factors.csv", "master_curve.csv"}
+    assert "liquid" in codes(made.notes)
+    law = vf.WLF(8.0, 120.0, "30 degC")
+    factors = vf.read_shift_factors(tmp_path / "out" / "shift_factors.csv")
+    np.testing.assert_allclose(factors.log10_values, law.log10(factors.temperatures), atol=0.01)
+    assert {"master_curve", "shift_factors", "laws"} <= set(results.tree.children)
+    assert "spectrum" not in results.tree.children
+    with pytest.raises(LiquidError):
+        vf.solve_steady(made.material, vf.Ball("10 mm"), speed="10 mm/s", load="1 N", temperature="30 degC")

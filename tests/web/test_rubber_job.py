@@ -207,3 +207,23 @@ def test_rubber_of_a_real_instrument(real_data: Path, tmp_path: Path) -> None:
     assert found["check"]["verdict"] in ("holds", "roughly")
     assert len(found["shift"]["factors"]["temperature"]) >= 15
     assert found["band"]["draws"] == 40
+
+
+def test_a_liquid_has_shift_factors_and_moduli_and_no_modes(tmp_path: Path) -> None:
+    """SYNTHETIC sweeps of three relaxation times; a contact with it is refused in the same words."""
+    shift, rows = vf.WLF(8.0, 120.0, "30 degC"), ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
+    liquid = vf.RelaxationSpectrum(0.0, [1e9, 1e7, 1e6], [1e-4, 1e-2, 1.0])
+    for celsius in (10.0, 20.0, 30.0, 40.0):
+        for hertz in np.geomspace(0.1, 10.0, 9):
+            modulus = complex(liquid.complex_modulus(2.0 * np.pi * hertz * shift(celsius + 273.15))) / 1e6
+            rows.append(f"{celsius},{hertz},{modulus.real},{modulus.imag}")
+    (tmp_path / "melt.csv").write_text("\n".join(rows), encoding="utf-8")
+    (tmp_path / "tab").mkdir()
+    context = workspace_with(tmp_path / "tab", tmp_path / "melt.csv")
+    asked = {"dma": "melt.csv", "deformation": "tension", "reference_temperature": "30 degC"}
+    answer = done("rubber", context, asked, uncertainty=DRAWS)
+    assert len(answer["shift"]["factors"]["log10"]) == 4
+    assert answer["shift"]["laws"]
+    assert answer["spectrum"]["modes"] is None
+    assert answer["spectrum"]["measured"] is not None
+    assert any("flows like a liquid" in note for note in answer["notes"])

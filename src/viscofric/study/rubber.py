@@ -5,13 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
+from viscofric.notes import Note
 from viscofric.readers import deformation_is_told, read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_files import read_shift_factors
+from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.superpose import superpose
@@ -98,24 +100,29 @@ class Rubber:
         return said
 
 
-def make_rubber(wanted: MaterialTable) -> Rubber:
+def make_rubber(wanted: MaterialTable, *, liquids: bool = False) -> Rubber:
     """Make the rubber that [material] of a run file asks for.
 
     Parameters
     ----------
     wanted : MaterialTable
         With its paths resolved.
+    liquids : bool
+        Whether a liquid, which has no spectrum that a contact could use, becomes a table of its master curve, with a
+        note; for those who look at shift factors and moduli.
 
     Raises
     ------
+    LiquidError
+        If it is a liquid, unless `liquids` is true.
     StudyError
         If sweeps do not say whether they were taken in tension or in shear.
     DataFileError, SuperpositionError, InputError
         If a file cannot be used, or the sweeps do not give what is asked for.
     """
     if wanted.dma is not None:
-        return _from_sweeps(wanted)
-    return _ready(wanted) if wanted.master_curve is None else _from_master_curve(wanted)
+        return _from_sweeps(wanted, liquids)
+    return _ready(wanted) if wanted.master_curve is None else _from_master_curve(wanted, liquids)
 
 
 def _ready(wanted: MaterialTable) -> Rubber:
@@ -134,7 +141,7 @@ def _ready(wanted: MaterialTable) -> Rubber:
     return Rubber(material, notes=notes, source=source, synthetic=synthetic)
 
 
-def _from_sweeps(wanted: MaterialTable) -> Rubber:
+def _from_sweeps(wanted: MaterialTable, liquids: bool) -> Rubber:
     files = wanted.dma or ()
     name = str(files[0]) if len(files) == 1 else f"{files[0]} and {len(files) - 1} more"
     sweeps = read_dma(
@@ -155,19 +162,20 @@ def _from_sweeps(wanted: MaterialTable) -> Rubber:
         raise  # names its own file
     except InputError as error:
         raise type(error)(f"{name}: {error}") from error
+    spectrum, flowing = _spectrum(wanted, fit.master_curve, _verdict(fit), liquids)
     material = Material(
-        _spectrum(wanted, fit.master_curve, _verdict(fit)),
+        spectrum,
         shift=shift,
         poisson_ratio=wanted.poisson_ratio,
         name=wanted.name,
         vertical_shift=fit.vertical_shift,
     )
-    notes = (*fit.notes, *_undecided(laws, wanted.shift))
+    notes = (*fit.notes, *flowing, *_undecided(laws, wanted.shift))
     origin = "given" if wanted.shift_factors else "held" if wanted.fixed_shift_factors else "found"
     return Rubber(material, sweeps=sweeps, fit=fit, laws=laws, shift_used=used, shift_origin=origin, notes=notes)
 
 
-def _from_master_curve(wanted: MaterialTable) -> Rubber:
+def _from_master_curve(wanted: MaterialTable, liquids: bool) -> Rubber:
     """Take a curve that others superposed; α(T) is what they found, if it is given."""
     path, reference = wanted.master_curve, wanted.reference_temperature
     if path is None or reference is None:
@@ -185,9 +193,9 @@ def _from_master_curve(wanted: MaterialTable) -> Rubber:
         shift, laws, used = _law_or_table(wanted.shift, factors)
     else:
         laws, used = None, ""
-    spectrum = _spectrum(wanted, curve, ())
+    spectrum, flowing = _spectrum(wanted, curve, (), liquids)
     material = Material(spectrum, shift=shift, poisson_ratio=wanted.poisson_ratio, name=wanted.name)
-    notes = _undecided(laws, wanted.shift)
+    notes = (*flowing, *_undecided(laws, wanted.shift))
     return Rubber(material, master_curve=curve, laws=laws, shift_used=used, notes=notes)
 
 
@@ -198,12 +206,24 @@ def _undecided(laws: LawComparison | None, wanted: str) -> tuple[str, ...]:
     return tuple(note for note in laws.notes if note.code == "laws-undecided")
 
 
-def _spectrum(wanted: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...]) -> RetardationSpectrum:
-    """Fit the spectrum; what is wrong with its master curve goes with it, into its file and to whoever uses it."""
-    spectrum = fit_retardation_spectrum(curve, tau_ratio=wanted.tau_ratio, method=wanted.spectrum, modes=wanted.modes)
+def _spectrum(
+    wanted: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...], liquids: bool
+) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
+    """Fit the spectrum; what is wrong with its master curve goes with it, into its file and to whoever uses it.
+
+    A liquid becomes a table, with a note, or is refused.
+    """
+    try:
+        spectrum = fit_retardation_spectrum(
+            curve, tau_ratio=wanted.tau_ratio, method=wanted.spectrum, modes=wanted.modes
+        )
+    except LiquidError as error:
+        if not liquids:
+            raise
+        return ModulusTable.from_master_curve(curve), (Note("liquid", f"No spectrum: {error}"),)
     if spectrum.fit is None or not verdict:
-        return spectrum
-    return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes)))
+        return spectrum, ()
+    return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes))), ()
 
 
 def _verdict(fit: Superposition) -> tuple[str, ...]:

@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.errors import InputError
 from viscofric.rheology.cards.native import plain
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -165,25 +164,19 @@ def _superposition(fit: Superposition) -> xarray.Dataset:
 
 
 def _master_curve(curve: MasterCurve, material: Material) -> xarray.Dataset:
-    spectrum = material.spectrum
-    fitted = spectrum.complex_modulus(curve.angular_frequency)
-    quality = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
-    if quality is None or quality.rms_storage is None or quality.rms_loss is None:
-        raise InputError("spectrum: has not been fitted to a master curve.")
-    return dataset(
-        "reading",
-        {
-            "angular_frequency": curve.angular_frequency,
-            "storage_modulus": curve.storage_modulus,
-            "loss_modulus": curve.loss_modulus,
-            "temperature": curve.temperature,
-            "fitted_storage_modulus": fitted.real,
-            "fitted_loss_modulus": fitted.imag,
-        },
-        reference_temperature=curve.reference,
-        rms_log10_storage=quality.rms_storage,
-        rms_log10_loss=quality.rms_loss,
-    )
+    columns = {
+        "angular_frequency": curve.angular_frequency,
+        "storage_modulus": curve.storage_modulus,
+        "loss_modulus": curve.loss_modulus,
+        "temperature": curve.temperature,
+    }
+    attributes: dict[str, Any] = {"reference_temperature": curve.reference}
+    quality = material.spectrum.fit if isinstance(material.spectrum, RetardationSpectrum) else None
+    if quality is not None:  # a liquid has no spectrum
+        fitted = material.spectrum.complex_modulus(curve.angular_frequency)
+        columns |= {"fitted_storage_modulus": fitted.real, "fitted_loss_modulus": fitted.imag}
+        attributes |= {"rms_log10_storage": quality.rms_storage, "rms_log10_loss": quality.rms_loss}
+    return dataset("reading", columns, **attributes)
 
 
 def _spectrum(material: Material, samples: MaterialSamples | None) -> dict[str, xarray.Dataset]:

@@ -77,7 +77,7 @@ def run_material(
 
     folder = Path(output)
     hashes = input_hashes(wanted.inputs)
-    rubber = make_rubber(wanted)
+    rubber = make_rubber(wanted, liquids=True)
     draws = draw_rubber(rubber, samples)
     tree = xarray.DataTree.from_dict(rubber_data(rubber, draws))
     tree.attrs = {

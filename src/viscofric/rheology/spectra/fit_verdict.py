@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import LiquidError
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST
+from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.data import MasterCurve
+    from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
 
     Array = NDArray[np.float64]
 
@@ -27,23 +29,56 @@ PLATEAU_LOSS_TANGENT = 0.1
 ROUNDING = 1e-6
 #: Organic glasses have a few times 10⁹ Pa.
 STIFFEST_GLASS = 2e10  # Pa
-#: A liquid's E' falls as ω², its E'' as ω; beyond these slopes no part of E' above a quarter is a plateau's.
-TERMINAL_SLOPES = 1.8, 0.9
+#: A spectrum with a rubber plateau follows a measured curve over its lowest decade to this …
+MISSED = 0.05  # decades, rms of E' and E''
+#: … or one that flows follows it no better by this factor; else the material is a liquid.
+BETTER = 2.0
+#: A mode so much slower than the lowest frequency is seen as flow, 1/(iωη), to 1e-4.
+FLOW = 1e4
 #: Slopes are read over this factor of frequency, the outermost half decade.
 END = math.sqrt(10.0)
 #: So many points at least show a slope.
 POINTS_OF_A_SLOPE = 4
 
 
-def refuse_liquid(master_curve: MasterCurve) -> None:
-    """Raise `InputError` if the curve ends in terminal flow, as a liquid's does."""
-    slopes = _slopes_at_low_end(master_curve)
-    if slopes is not None and slopes[0] >= TERMINAL_SLOPES[0] and slopes[1] >= TERMINAL_SLOPES[1]:
-        raise InputError(
-            f"at the lowest frequency, {master_curve.angular_frequency[0]:.3g} rad/s, E' falls as "
-            f"ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}, as in a liquid (2 and 1): it has no rubber plateau, "
-            "E0 = 0; leave out the flowing isotherms to fit what lies above them."
-        )
+def solid_modes(misfit: ModulusMisfit, tau: Array, master_curve: MasterCurve) -> Modes:
+    """Fit non-negative modes with a rubber plateau, and raise `LiquidError` where only flow describes the low end.
+
+    Parameters
+    ----------
+    misfit : ModulusMisfit
+        Of the curve.
+    tau : (n,) array
+        Retardation times, s.  The slowest that a mode may have (`ModulusMisfit.ends`) is added where the curve's low
+        end is missed without it: a fixed lattice comes as near to it as it happens to.
+    master_curve : MasterCurve
+        The curve, for the sentence.
+    """
+    solid = nonnegative_modes(misfit, tau)
+    if _missed_at_low_end(misfit, solid) <= MISSED:
+        return solid
+    solid = nonnegative_modes(misfit, np.append(tau, math.exp(misfit.ends[1])))
+    missed = _missed_at_low_end(misfit, solid)
+    if missed <= MISSED:
+        return solid
+    flowing = nonnegative_modes(misfit, np.append(solid.tau, FLOW / misfit.angular_frequency[0]))
+    left = _missed_at_low_end(misfit, flowing)
+    if missed <= BETTER * left:
+        return solid
+    low = master_curve.angular_frequency[0]
+    raise LiquidError(
+        f"the material flows like a liquid at its lowest frequency, {low:.3g} rad/s (tan δ = "
+        f"{master_curve.loss_tangent[0]:.3g}): a spectrum with a rubber plateau misses E' and E'' of the lowest decade "
+        f"by {missed:.2g} decades (rms), one with E0 = 0 by {left:.2g}, and contacts need E0 above zero; leave out the "
+        "hottest isotherms to fit what lies above the flow."
+    )
+
+
+def _missed_at_low_end(misfit: ModulusMisfit, modes: Modes) -> float:
+    """Return the rms error of log10 E' and log10 E'' over the lowest decade of frequency."""
+    low = misfit.angular_frequency <= 10.0 * misfit.angular_frequency[0]
+    away = misfit.residual(misfit.columns(modes.tau) @ np.append(modes.glass, modes.C)).reshape(2, -1)[:, low]
+    return float(np.sqrt(np.mean(away**2))) / math.log(10.0)
 
 
 def judged(

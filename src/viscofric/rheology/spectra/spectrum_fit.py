@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.spectra import regularised, sparse
-from viscofric.rheology.spectra.fit_verdict import judged, refuse_liquid
+from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -73,8 +73,11 @@ def fit_retardation_spectrum(
     Raises
     ------
     InputError
-        If it is no master curve, there are fewer than four points, the curve ends in the flow of a liquid, a
-        setting is out of range, or it does not belong to the method.
+        If it is no master curve, there are fewer than four points, a setting is out of range, or it does not belong
+        to the method.
+    LiquidError
+        If the curve ends in the flow of a liquid: over its lowest decade no spectrum with a plateau follows it to
+        0.05 decades, and one that flows follows it more than twice as closely.
 
     Notes
     -----
@@ -94,13 +97,13 @@ def fit_retardation_spectrum(
     """
     master_curve = _curve_of(master_curve)
     _check(master_curve, method, tau_ratio, modes, regularisation, largest_error)
-    refuse_liquid(master_curve)
     misfit = ModulusMisfit(master_curve.angular_frequency, master_curve.complex_modulus)
+    dense = solid_modes(misfit, lattice(misfit, min(tau_ratio, math.e)), master_curve)
     if method == "sparse":
         fitted, notes = _sparse(misfit, tau_ratio, modes, largest_error)
         return judged(as_spectrum(fitted), master_curve, method=method, notes=notes)
     if method == "non-negative":
-        fitted = nonnegative_modes(misfit, lattice(misfit, tau_ratio))
+        fitted = dense if tau_ratio <= math.e else nonnegative_modes(misfit, lattice(misfit, tau_ratio))
         return judged(as_spectrum(fitted), master_curve, method=method, tau_ratio=tau_ratio)
     fitted, strength, notes = _regularised(misfit, tau_ratio, master_curve, regularisation)
     return judged(

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
-from viscofric.rheology.spectra.fit_verdict import judged, refuse_liquid
+from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 from viscofric.rheology.spectra.sparse import joint_error
@@ -63,7 +63,6 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
         raise InputError(
             f"a modulus table of {len(table)} frequencies is too short for retardation modes; give 4 or more."
         )
-    refuse_liquid(curve)
     misfit = ModulusMisfit(curve.angular_frequency, curve.complex_modulus)
     modes = nonnegative_modes(misfit, lattice(misfit, RATIOS[0]))
     error = joint_error(misfit, modes)
@@ -76,6 +75,7 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
         if (smaller := joint_error(misfit, closer)) < error:
             modes, error = closer, smaller
     if not error <= LARGEST_ERROR:
+        solid_modes(misfit, lattice(misfit, RATIOS[0]), curve)  # a liquid is refused by its name
         raise InputError(
             f"no retardation modes describe this table of moduli: the best leave an rms error of {error:.2g} decades "
             f"of E' and E'', more than {LARGEST_ERROR:g}, so that they are not one material's; smooth the table, or "

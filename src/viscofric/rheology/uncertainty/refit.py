@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 #: Refits begin at the answer but for the noise, and need not find it closer than that noise.
 CONVERGED = 1e-3
 
+#: Times closer than this are the same one of the lattice.
+SAME = 1e-6  # of ln τ
+
 
 class Refit:
     """Fits samples of a master curve the way that a spectrum was fitted, starting from it.
@@ -52,6 +55,8 @@ class Refit:
         if spectrum.fit.tau_ratio is not None:
             ends = ModulusMisfit(np.array([lowest, highest]), np.full(2, 1.0 + 1.0j))
             tau = lattice(ends, spectrum.fit.tau_ratio)
+            away = np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).min(axis=1)
+            tau = np.sort(np.append(tau, self.start.tau[away > SAME]))  # the slowest may lie between two of the lattice
             C = np.zeros(len(tau))
             C[np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).argmin(axis=1)] = self.start.C
             self.start = Modes(self.start.glass, C, tau)

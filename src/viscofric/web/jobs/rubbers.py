@@ -200,7 +200,7 @@ def named_without_folder(error: InputError, folders: Folders) -> InputError:
 
 def _made(table: MaterialTable, folders: Folders) -> Rubber:
     try:
-        rubber = make_rubber(table)
+        rubber = make_rubber(table, liquids=True)
     except InputError as error:
         raise named_without_folder(error, folders) from None
     if rubber.fit is not None:
