@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from viscofric.errors import ConvergenceError as ConvergenceError
     from viscofric.errors import DataFileError as DataFileError
     from viscofric.errors import InputError as InputError
+    from viscofric.errors import LiquidError as LiquidError
     from viscofric.errors import StudyError as StudyError
     from viscofric.errors import SuperpositionError as SuperpositionError
     from viscofric.errors import ViscofricError as ViscofricError
@@ -163,6 +164,7 @@ _HOME = {
     "DataFileError": "viscofric.errors",
     "InputError": "viscofric.errors",
     "StudyError": "viscofric.errors",
+    "LiquidError": "viscofric.errors",
     "SuperpositionError": "viscofric.errors",
     "ViscofricError": "viscofric.errors",
     "Agreement": "viscofric.friction.agreement",
