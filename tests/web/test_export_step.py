@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import zipfile
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
-    from pathlib import Path
+import viscofric
 
+if TYPE_CHECKING:
     from web.browser_tab import Tab
 
 _FINISHED = {
@@ -59,3 +60,19 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
     tab.value("page.state.state.set('title', 'A third')")
     page.get_by_text("The study has changed since").wait_for()
     assert link.count() == 0
+
+
+def test_card_of_measured_shift_factors_offers_a_law(tab: Tab) -> None:
+    """SYNTHETIC sweeps, shifted as measured: Abaqus takes no table of the factors."""
+    page = tab.page
+    sweeps = (Path(viscofric.__file__).parent / "example" / "dma.csv").read_text(encoding="utf-8")
+    tab.value("await (await import('/static/js/api.js')).uploadFiles([new File([given[0]], 'dma.csv')])", sweeps)
+    tab.value("page.state.state.set('material', {dma: ['dma.csv'], reference_temperature: '30 degC'})")
+    card = page.get_by_role("group", name="Card")
+    page.get_by_role("button", name="Write the card").click()
+    page.get_by_text("choose a law under “Shift law” to write it").wait_for()
+    assert "*TRS" not in card.inner_text()
+    page.get_by_label("Shift law").select_option("wlf")
+    page.get_by_role("button", name="Write the card").click()
+    page.get_by_text("*TRS, DEFINITION=WLF").wait_for()
+    assert page.get_by_text("choose a law under “Shift law” to write it").count() == 0
