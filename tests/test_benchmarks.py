@@ -137,6 +137,23 @@ def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: p
 
 
 @pytest.mark.usefixtures("contact_path")
+def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import stated_errors
+
+    stated_errors.main(["--first", "1", "--count", "1", "--json", str(tmp_path / "errors.json")])
+    assert "stated errors of 1 random contacts" in capsys.readouterr().out
+    results = read(tmp_path / "errors.json")
+    assert results["unsolved"] == []
+    numbers = {row["number"]: row for row in results["rows"]}
+    # A cylinder: its load is given, and it has no width.
+    assert numbers.keys() == {
+        "friction", "indentation", "area", "front", "rear", "max pressure", "centre of pressure", "derivatives",
+    }  # fmt: skip
+    assert all(row["apart"] > 0.0 for row in numbers.values())  # two different grids
+    assert all(row["within"] == (row["worst"] <= 1.0) for row in results["summary"])
+
+
+@pytest.mark.usefixtures("contact_path")
 def test_backend_benchmark_measures_what_is_there_and_names_what_is_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -19,9 +19,8 @@ from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.grids import Window
 from viscofric.contact.free.nested import find_window
 from viscofric.contact.free.problem import Problem, Stage
-from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
-from viscofric.contact.indenters.shapes import FlatPunch
+from viscofric.contact.indenters.shapes import Cone
 from viscofric.contact.influence.layer_potentials import LayerCell
 from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence
 from viscofric.contact.influence.mixtures import memory_influence
@@ -70,7 +69,7 @@ class Paraboloid:
     """x²/2 + y²/2, or less along y, in units of the Hertz contact."""
 
     along_y: float = 1.0
-    has_walls: bool = False
+    has_tip: bool = False
 
     def height(self, x: Array, y: Array) -> Array:
         return 0.5 * (x**2 + self.along_y * y**2)
@@ -180,12 +179,10 @@ def friction(stage: Stage, way: str, **changed: float | Array) -> float:
     assert result.converged
     assert np.array_equal(result.pressure > 0.0, stage.result.pressure > 0.0)
     there = Stage(stage.problem, stage.window, operator, result)
-    if way == "balance":
-        return there.balanced_friction.value
-    return there.pressure_friction if way == "pressure" else there.energy_friction
+    return there.balanced_friction.value if way == "balance" else there.pressure_friction
 
 
-@pytest.mark.parametrize("way", ["pressure", "balance", "energy"])
+@pytest.mark.parametrize("way", ["pressure", "balance"])
 @pytest.mark.parametrize(
     ("geometry", "held", "k", "length", "shape", "layered"),
     [
@@ -300,6 +297,23 @@ def test_ball_has_the_derivatives_of_its_friction_over_finite_steps(accuracy: fl
     assert derivatives.logarithmic.load == pytest.approx(over("load"), abs=near)
 
 
+def test_cone_has_the_derivatives_of_its_friction_over_finite_steps() -> None:
+    """Its tip stays where it is in its cells: where they shift with the contact, it is 5 % off and the error 2 %."""
+    rubber, cone = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3), Cone("5 deg")
+
+    def friction_at(speed: float) -> float:
+        return solve_steady(rubber, cone, speed=speed, load=1.0).friction_coefficient
+
+    # The two solutions are right to 3e-4, which the step of 0.2 divides; the step's own error is less.
+    over = (friction_at(0.33) - friction_at(0.3 / 1.1)) / (2.0 * np.log(1.1))
+    found = solve_steady(rubber, cone, speed=0.3, load=1.0, derivatives=True).derivatives
+    assert found is not None
+    assert found.logarithmic.speed == pytest.approx(over, rel=4e-3)
+    assert abs(found.logarithmic.speed - over) <= found.error
+    # μ depends on v/a alone, and a ∝ √F: the same but for what grids know.
+    assert found.logarithmic.load == pytest.approx(-0.5 * found.logarithmic.speed, abs=found.error)
+
+
 @settings(max_examples=4, deadline=None)
 @given(
     shares=st.lists(st.floats(0.05, 1.0), min_size=1, max_size=4),
@@ -356,16 +370,6 @@ def test_elastic_indenter_is_a_part_of_the_glass() -> None:
     assert list(elastic.C) == pytest.approx(rigid.C, **near)
     assert elastic.load == pytest.approx(rigid.load, **near)
     assert elastic.E_inf * (2e7) ** 2 == pytest.approx(rigid.E_inf / (1.0 / 2e7 + counter) ** 2, **near)
-
-
-def test_friction_of_a_flat_punch_grows_with_its_depth() -> None:
-    punch = FlatPunch(radius=1.0)
-    scale = Scale(POINT, 1.0, 1.0, 1.0)
-    solid = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))
-    problem = Problem(POINT, solid, ScaledIndenter(punch, scale), GivenIndentation(0.5), 1e-10)
-    stage = find_window(problem, 1.0)
-    # The whole face touches at any depth: pressures grow with it, and what they dissipate with its square.
-    assert friction_adjoint(stage, "energy").gradient.held * 0.5 == pytest.approx(stage.energy_friction, rel=1e-6)
 
 
 def test_units_do_not_matter() -> None:
@@ -426,8 +430,8 @@ def test_transposed_operator_has_the_transposed_matrix() -> None:
         np.vdot(a, operator.precondition(b)), rel=1e-12
     )
     # A quadratic form: exact for any step.
-    slope = (operator.dissipated_force(a + b) - operator.dissipated_force(a - b)) / 2.0
-    assert np.vdot(operator.dissipated_force_gradient(a), b) == pytest.approx(slope, rel=1e-10)
+    slope = (operator.bent_dissipated_force(a + b) - operator.bent_dissipated_force(a - b)) / 2.0
+    assert np.vdot(operator.bent_dissipated_force_gradient(a), b) == pytest.approx(slope, rel=1e-10)
 
 
 def test_other_arrays_give_the_same_derivatives() -> None:

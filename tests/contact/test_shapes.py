@@ -124,8 +124,8 @@ def test_slow_ellipsoid_feels_its_curvature_along_the_motion(ratio: float) -> No
 
 @pytest.mark.parametrize(
     ("indenter", "share"),
-    [(ELLIPSOID, 4.0 / 5.0), (CONE, 2.0 / 3.0), (PUNCH, 1.0)],
-    ids=["ellipsoid", "cone", "flat punch"],
+    [(ELLIPSOID, 4.0 / 5.0), (CONE, 2.0 / 3.0)],
+    ids=["ellipsoid", "cone"],
 )
 def test_fast_contacts_forget_slowly(indenter: Indenter, share: float) -> None:
     """For v → ∞ friction is μ = ΣC_kE∞/(vτ_k) ∫ p u dA/F, p and u those of the elastic contact at E∞.
@@ -162,14 +162,10 @@ def test_friction_and_dissipated_energy_agree(name: str) -> None:
     assert fine.load == pytest.approx(LOAD, rel=1e-12)  # scaled to the load: round-off
 
 
-def test_flat_punch_dissipates_at_its_edge() -> None:
-    """With no slope under the load, the lean of the pressure gives nothing, and the energy all of the friction."""
-    solution = solve_steady(RUBBER, PUNCH, speed=SPEED, load=LOAD, accuracy=0.01)
-    assert solution.pressure_friction_coefficient == 0.0
-    assert solution.friction_coefficient == pytest.approx(solution.energy_friction_coefficient, rel=0.02)
-    assert solution.diagnostics.energy == -1.0
-    coarser = solve_steady(RUBBER, PUNCH, speed=SPEED, load=LOAD, accuracy=0.05)
-    assert coarser.friction_coefficient == pytest.approx(solution.friction_coefficient, rel=0.06)  # both accuracies
+@pytest.mark.parametrize("speed", [1e-6 * SPEED, SPEED, -1e3 * SPEED])
+def test_a_sharp_edge_is_refused_in_motion(speed: float) -> None:
+    with pytest.raises(InputError, match="sharp edge"):
+        solve_steady(RUBBER, PUNCH, speed=speed, load=LOAD)
 
 
 @pytest.mark.parametrize("name", VISCOELASTIC)

@@ -25,7 +25,7 @@ _INDENTER = (
         help="Radii of curvature along its x, the way of the motion by default, and its y.",
     ),
     click.option("--cone", metavar="ANGLE", help="A cone; angle between flank and surface, such as '5 deg'."),
-    click.option("--punch", metavar="RADIUS", help="A flat circular punch with a sharp edge."),
+    click.option("--punch", metavar="RADIUS", help="A flat circular punch with a sharp edge, at a speed of zero only."),
     click.option(
         "--height-map",
         type=_FILE,

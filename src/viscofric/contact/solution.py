@@ -56,19 +56,21 @@ class Diagnostics:
         Relative error of the load.
     energy : float
         Energy balance: friction from the pressure's lean less that from the dissipated energy, over the larger of
-        them (or over 1e-6 a0/R).  Minus one for a flat punch, all of whose
-        friction sits on its edge.
+        them (or over 1e-6 a0/R).
     friction_error : float
         Error estimate of the friction coefficient (absolute), from its changes on the nested grids.
     indentation_error, load_error : float
-        Change of the indentation (m) and of the load (N or N/m) from the last but one grid to the last; zero for the
-        one that was given.
+        Error estimates of the indentation (m) and of the load (N or N/m), from their changes on the nested grids; zero
+        for the one that was given.
     edge_error : float
-        Error estimate of front, rear and half width, from the change of the one that changed most, m.
+        Error estimate of front, rear and half width, from the changes of the one that changed most, m.
     contact_area_error : float
         Error estimate of the contact area, from its changes on the nested grids, m² or m.
     max_pressure_error : float
-        Error estimate of the largest pressure, from its changes on the nested grids, Pa.
+        Error estimate of the largest pressure, from its changes on the nested grids, Pa.  Where it is not resolved, at
+        least that pressure itself and the one that a layer at the leading edge may hide.
+    centre_of_pressure_error : float
+        Error estimate of the centre of pressure, from its changes on the nested grids, m.
     peak_resolved : bool
         Whether the largest pressure means something: it lies more than two cells within the contact and has settled to
         2 %.  It has not where the layer at the leading edge is thinner than a cell, at a sharp edge or at a tip.
@@ -92,6 +94,7 @@ class Diagnostics:
     edge_error: float
     contact_area_error: float
     max_pressure_error: float
+    centre_of_pressure_error: float
     peak_resolved: bool
     levels: tuple[Level, ...]
     set_changes: int

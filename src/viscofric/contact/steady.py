@@ -19,7 +19,12 @@ from viscofric.contact.free.given_grid import COARSEST, LEAST_FINEST, GivenGrid
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
-from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
+from viscofric.contact.indenters.indenter import (
+    SMALL_STRAIN,
+    Indenter,
+    insist_on_indenter,
+    insist_on_round_edges,
+)
 from viscofric.contact.layers import Layer
 from viscofric.contact.motion import unit_direction
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -79,7 +84,8 @@ def solve_steady(
     material : Material
         That of a table of moduli is described by modes fitted to it; how well, the solution's warnings tell.
     indenter : Indenter
-        Ball, Ellipsoid, Cone, FlatPunch or HeightMap; for a line contact in plane strain, Cylinder or Profile.
+        Ball, Ellipsoid, Cone or HeightMap; for a line contact in plane strain, Cylinder or Profile.  A FlatPunch at a
+        speed of zero or infinity only.
     speed : float, str or pint.Quantity
         Velocity along `direction` at which the solid is deformed, m/s.  Zero and infinity are the elastic limits; a
         negative one is motion the other way.
@@ -292,6 +298,8 @@ def _solved(
         spectrum, abs(velocity) / scale.length, plane_strain / compliance, counterface / compliance
     )
     ahead = math.copysign(1.0, velocity)
+    if len(solid.compliances):
+        insist_on_round_edges(indenter)
     shape = ScaledIndenter(indenter, scale, (ahead * toward[0], ahead * toward[1]))
     problem = Problem(geometry, solid, shape, control, tolerance, Backend.of(backend), coarsest=coarsest)
     if layer is not None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
+from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
@@ -58,7 +58,7 @@ def predict_friction(
     material : Material
         With a shift law.
     indenter : Indenter
-        Ball, Ellipsoid, Cone, FlatPunch, HeightMap, Cylinder or Profile.
+        Ball, Ellipsoid, Cone, HeightMap, Cylinder or Profile.
     speeds : float, str, pint.Quantity, or an array or list of them
         Speeds at which the rubber is deformed, above zero; m/s if plain numbers.
     temperatures : float, str, pint.Quantity, or an array or list of them
@@ -112,6 +112,7 @@ def predict_friction(
     if unknown := settings.keys() - ContactSettings.__annotations__.keys():
         raise TypeError(f"predict_friction() got an unexpected keyword argument {min(unknown)!r}")
     insist_on_indenter(indenter)
+    insist_on_round_edges(indenter)
     force = positive(load, indenter.geometry.load_unit, "load")
     for name, values, unit in (("speeds", velocities, "m/s"), ("temperatures", kelvins, "K")):
         if not values.size:

@@ -183,6 +183,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
         "rear": diagnostics.edge_error,
         "half_width": None if line else diagnostics.edge_error,
         "max_pressure": diagnostics.max_pressure_error,
+        "centre_of_pressure": diagnostics.centre_of_pressure_error,
     }
     work = {
         "cells": list(diagnostics.shape),

@@ -64,7 +64,7 @@ class Refinement:
 class _Parabola:
     """r²/2, in units of Hertz's contact."""
 
-    has_walls = False
+    has_tip = False
 
     def height(self, x: Array, y: Array) -> Array:
         return np.asarray(0.5 * (x**2 + y**2))

@@ -193,7 +193,7 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
         vf.identify_material(curves, prior=RUBBER, prior_band=("1 Hz",), **SETTINGS)
     with pytest.raises(InputError, match=r"error of the anchor = -1\.0"):
         vf.ModulusAnchor(3e6, 1.0, 300.0, error=-1.0)
-    with pytest.raises(InputError, match="sits on its edges"):
+    with pytest.raises(InputError, match="sharp edge"):
         vf.identify_material(curves, indenter=vf.FlatPunch(radius="1 mm"))
     with pytest.raises(InputError, match="indentation and half_width"):
         vf.ContactAnchor(0.1, 300.0, 5.0, indentation=1e-5, half_width=1e-4)

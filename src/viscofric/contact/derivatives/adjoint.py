@@ -31,7 +31,7 @@ from viscofric.contact.free.balance import CUTS, free_gap, lag, lag_changes, nei
 from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.estimates import friction_estimate
 from viscofric.contact.influence.moments import correlation, memory_moments
-from viscofric.contact.operators.convolution import SHORT_MEMORY, bent_share
+from viscofric.contact.operators.convolution import bent_share
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
-Way: TypeAlias = Literal["pressure", "balance", "energy"]
+Way: TypeAlias = Literal["pressure", "balance"]
 
 # Residual of the adjoint problem, relative to its right-hand side, and how often it is formed anew on the way.
 _TOLERANCE = 1e-8
@@ -101,8 +101,9 @@ class Adjoint(NamedTuple):
 def friction_way(stages: list[Stage]) -> Way:
     """Return which expression of the friction coefficient is to be differentiated.
 
-    That which `viscofric.contact.free.estimates` trusts.  Where it extrapolates the energy, the energy
-    itself: extrapolated, the scatter of derivatives from grid to grid would grow threefold.
+    That which `viscofric.contact.free.estimates` trusts.  Where the gap is looked at behind the cell centres it is the
+    lean: of a layer at the leading edge that is thinner than a cell the balance has its value right, by its last share
+    Λ r, but not how that changes.
 
     Parameters
     ----------
@@ -110,9 +111,8 @@ def friction_way(stages: list[Stage]) -> Way:
         Solutions on nested grids, coarsest first.
     """
     fine = stages[-1]
-    if fine.problem.shape.has_walls:
-        return "energy"
-    return "pressure" if friction_estimate(stages).value == fine.pressure_friction else "balance"
+    leaning = fine.operator.shift > 0.0 or friction_estimate(stages).value == fine.pressure_friction
+    return "pressure" if leaning else "balance"
 
 
 def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
@@ -121,8 +121,8 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
     Parameters
     ----------
     stage : Stage
-    way : {"pressure", "balance", "energy"}
-        By the lean of the pressure, or by the dissipated energy with or without what cells leave out of it.
+    way : {"pressure", "balance"}
+        By the lean of the pressure, or by the dissipated energy with what cells leave out of it.
 
     Raises
     ------
@@ -130,15 +130,14 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
         If the adjoint problem is not solved.
     """
     operator, window, pressure = stage.operator, stage.window, stage.result.pressure
-    material, total, bent = operator.material, float(pressure.sum()), way == "balance"
+    material, total = operator.material, float(pressure.sum())
     held = np.zeros(window.shape)
     if way == "pressure":
         value = stage.pressure_friction
         by_pressure = stage.problem.shape.slope(window.x[:, None], window.y) / total
     else:
-        value = stage.balanced_friction.value if bent else stage.energy_friction
-        by_pressure = operator.dissipated_force_gradient(pressure, bent=bent) / (window.cell_area * total)
-    if bent:
+        value = stage.balanced_friction.value
+        by_pressure = operator.bent_dissipated_force_gradient(pressure) / (window.cell_area * total)
         scale = lag(material, window.spacing, CUTS[1]) / (window.spacing**2 * total)
         gap = free_gap(pressure, stage.gap)
         by_pressure += scale * neighbours(gap)
@@ -158,12 +157,10 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
         (work,) = _sums(operator, moved[None], operator.shift)
         slope, bend = _sums(operator, np.stack([energy, bends]), 0.0)
     gradient = _change(operator, work, by_held)
-    curvature = float(np.vdot(energy, _around(operator.cell.xx, energy, operator.cell.aspect))) if not bent else None
-    lost, change = _lost(slope, bend, material.memory_lengths / window.spacing, curvature)
+    lost, change = _lost(slope, bend, material.memory_lengths / window.spacing)
     by_length = material.compliances * change / material.memory_lengths
     gradient = gradient.plus(Gradient(0.0, lost, by_length, 0.0), -operator.unit / total)
-    if bent:
-        gradient = gradient.plus(Gradient(*lag_changes(material, window.spacing, CUTS[1]), 0.0), stage.opening)
+    gradient = gradient.plus(Gradient(*lag_changes(material, window.spacing, CUTS[1]), 0.0), stage.opening)
     return Adjoint(gradient, field, by_load)
 
 
@@ -278,19 +275,15 @@ def _change(operator: ConvolutionOperator, sums: _Sums, by_held: float) -> Gradi
     return Gradient(scale * sums.instant, scale * sums.delayed, by_logarithm / material.memory_lengths, by_held)
 
 
-def _lost(energy: _Sums, bends: _Sums, lengths: Array, curvature: float | None) -> tuple[Array, Array]:
+def _lost(energy: _Sums, bends: _Sums, lengths: Array) -> tuple[Array, Array]:
     """Return what each mode dissipates per compliance, negative, and its change with ln λ.
 
-    By its slope, (K − L)/λ, and partly by the bends λ ∂²K/∂x², unless the curvature ∂²L/∂x² of short memories is given;
-    see `viscofric.contact.operators.convolution.cell_influence`.
+    By its slope, (K − L)/λ, and partly by the bends λ ∂²K/∂x²; see
+    `viscofric.contact.operators.convolution.cell_influence`.
     """
     lost = (energy.delayed - energy.instant) / lengths
     change = energy.change / lengths - lost
-    if curvature is None:
-        share = bent_share(lengths)
-        shift = -2.0 * share * (1.0 - share)  # ∂ share/∂ ln λ
-        bend, bend_change = lengths * bends.delayed, lengths * (bends.delayed + bends.change)
-        return lost + share * (bend - lost), change + share * (bend_change - change) + shift * (bend - lost)
-    short = lengths <= SHORT_MEMORY
-    lost[short] = change[short] = lengths[short] * curvature
-    return lost, change
+    share = bent_share(lengths)
+    shift = -2.0 * share * (1.0 - share)  # ∂ share/∂ ln λ
+    bend, bend_change = lengths * bends.delayed, lengths * (bends.delayed + bends.change)
+    return lost + share * (bend - lost), change + share * (bend_change - change) + shift * (bend - lost)

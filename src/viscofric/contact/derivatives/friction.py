@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -22,6 +21,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array: TypeAlias = NDArray[np.float64]
+
+
+# Parts of the changes from grid to grid, and of what moving cells take away, that are claimed as error: with these, all
+# of 111 random contacts had derivatives within their error; with the changes alone, 91 %.
+_CHANGE_TRUST, _MOTION_SHARE = 1.5, 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,17 +70,17 @@ class FrictionDerivatives:
         ∂μ/∂δ, 1/m; None where the load is given.
     logarithmic : LogarithmicDerivatives
         The same with respect to the logarithms.
-    way : {"pressure", "balance", "energy"}
+    way : {"pressure", "balance"}
         What was differentiated: the friction coefficient from the lean of the pressure, or that from the dissipated
-        energy with what the cells at the edge leave out, whichever the solution trusts; where the indenter has walls,
-        that from the energy alone.
+        energy with what the cells at the edge leave out.
     error : float
-        Error estimate of the logarithmic derivatives, from the largest of their changes on the last three grids.
+        Error estimate of the logarithmic derivatives, from the largest of their changes on the last three grids and
+        from what moving the cells takes away.
 
     Notes
     -----
     They are those of the solution on its cells, which move with the contact (see
-    `viscofric.contact.derivatives.moving_cells`); where the indenter has walls, the cells stay where they are.
+    `viscofric.contact.derivatives.moving_cells`).
     Against the closed form of the line contact, at E∞/E0 from 1.3 to 1000 and v τ/a0 from 1e-4 to 1000, they are right
     to 3e-4 of the largest of them (median; nine in ten to 3e-3, all to 2e-2) at accuracy 1e-3, and to 2e-4 (nine in ten
     to 1e-3) at accuracy 1e-4.
@@ -124,20 +128,24 @@ def differentiate(
         If an adjoint problem is not solved.
     """
     way, last_grids = friction_way(stages), stages[-3:]
-    # Walls stay where they are.
-    motion = None if way == "energy" else Motion.of(last_grids[0])
+    motion = Motion.of(last_grids[0])
+    grids = last_grids if with_error else last_grids[-1:]
     found = [
-        _in_si(friction_gradient(stage, way, motion), stage, way, scale, spectrum, plane_strain, velocity)
-        for stage in (last_grids if with_error else last_grids[-1:])
+        [
+            _in_si(one, stage, way, scale, spectrum, plane_strain, velocity)
+            for one in friction_gradient(stage, way, motion)
+        ]
+        for stage in grids
     ]
     if not with_error:
-        return found[0]
-    before, last = (
-        float(np.abs(_numbers(after.logarithmic) - _numbers(first.logarithmic)).max())
-        for first, after in pairwise(found)
-    )
-    # A single change may be small by chance; from grid to grid they halve.
-    return replace(found[-1], error=scale.geometry.scatter * max(last, 0.5 * before))
+        return found[0][0]
+    moved, still = np.swapaxes([[_numbers(one.logarithmic) for one in pair] for pair in found], 0, 1)
+    # Single ones may be small by chance; from grid to grid they halve.
+    fading = 0.5 ** np.arange(len(grids) - 1.0, -1.0, -1.0)
+    change = float((np.abs(np.diff(moved, axis=0)).max(axis=1) * fading[1:]).max())
+    taken_away = float((np.abs(moved - still).max(axis=1) * fading).max())
+    error = _CHANGE_TRUST * scale.geometry.scatter * change + _MOTION_SHARE * taken_away
+    return replace(found[-1][0], error=error)
 
 
 def _in_si(

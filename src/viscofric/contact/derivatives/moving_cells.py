@@ -9,6 +9,9 @@ it makes ε a/h.  Cells that grow and shift with the contact do not.  With a cha
 ∂μ/∂ ln h and ∂μ/∂s being what it does to the solution on a grid to stretch the cells about the axis and to shift them.
 Both are nothing but error, and go to zero with the cells, so that how the contact grows and where it goes need not be
 known well: the spread of the pressure along the motion and its centre tell, on a coarse grid.
+
+A tip, where the slope jumps, is such an edge, too, and must stay where it is in its cells as well: it lies on the axis,
+so that the cells of an indenter with one grow about the axis but do not shift.
 """
 
 from __future__ import annotations
@@ -65,19 +68,26 @@ class Motion:
         spread = float(np.vdot(square, pressure)) / float(pressure.sum())
         by_centre, by_spread = mean_gradients(stage, [x, square])
         growth = by_spread.plus(by_spread, 0.5 / spread - 1.0)
-        return cls(growth, by_centre.plus(growth, -centre))
+        shift = by_centre.plus(growth, -centre)
+        return cls(growth, shift.plus(shift, -1.0) if stage.problem.shape.has_tip else shift)
 
 
-def friction_gradient(stage: Stage, way: Way, motion: Motion | None) -> Gradient:
+def friction_gradient(stage: Stage, way: Way, motion: Motion) -> tuple[Gradient, Gradient]:
     """Differentiate the friction coefficient on one grid.
 
     Parameters
     ----------
     stage : Stage
-    way : {"pressure", "balance", "energy"}
+    way : {"pressure", "balance"}
         As of `viscofric.contact.derivatives.adjoint.friction_adjoint`.
-    motion : Motion or None
-        With which cells move; they stay without, as they must for "energy", which is for indenters with walls.
+    motion : Motion
+        With which cells move.
+
+    Returns
+    -------
+    gradient : Gradient
+    still : Gradient
+        On cells that stay where they are.
 
     Raises
     ------
@@ -85,14 +95,12 @@ def friction_gradient(stage: Stage, way: Way, motion: Motion | None) -> Gradient
         If the adjoint problem is not solved.
     """
     gradient, field, by_load = friction_adjoint(stage, way)
-    if motion is None:
-        return gradient
     # The load is held, so that on larger cells the pressures add up to less.
     by_stretch = _stretched(stage, way, field, gradient) - stage.problem.geometry.dimension * by_load
     by_shift = _elsewhere(stage, way, field, shift=_STEP) / stage.window.spacing
     if not math.isfinite(by_stretch + by_shift):
-        return gradient  # the grid's last step leads beyond a height map's edge
-    return gradient.plus(motion.growth, by_stretch).plus(motion.shift, by_shift)
+        return gradient, gradient  # the grid's last step leads beyond a height map's edge
+    return gradient.plus(motion.growth, by_stretch).plus(motion.shift, by_shift), gradient
 
 
 def _stretched(stage: Stage, way: Way, field: Array, gradient: Gradient) -> float:

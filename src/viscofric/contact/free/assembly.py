@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from viscofric.contact.free.estimates import FRICTION_FLOOR, friction_estimate
+import numpy as np
+
+from viscofric.contact.free.control import GivenLoad
+from viscofric.contact.free.estimates import FRICTION_FLOOR, SLOW_FADING, friction_estimate, settled
 from viscofric.contact.free.footprint import FootprintErrors
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
 
@@ -69,12 +72,15 @@ def assemble(
 
 
 def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics:
-    fine, coarse = stages[-1], stages[-2]
+    fine = stages[-1]
     results = [stage.result for stage in stages]
     products = sum(one.products for one in results)
     linear = sum(one.linear_iterations for one in results)
     lean, energy = fine.pressure_friction, fine.energy_friction
     errors = FootprintErrors.of(stages)
+    loaded = isinstance(fine.problem.control, GivenLoad)
+    # The level that an indentation is counted from may be that of the leading edge.
+    indentation = max(_error(stages, "indentation"), fine.level_slope * errors.least)
     return Diagnostics(
         shape=fine.window.shape,
         spacing=scale.length * fine.window.spacing,
@@ -83,11 +89,12 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
         load=fine.result.load,
         energy=(lean - energy) / max(abs(lean), abs(energy), FRICTION_FLOOR),
         friction_error=scale.slope * friction_estimate(stages).error,
-        indentation_error=scale.depth * abs(fine.indentation - coarse.indentation),
-        load_error=scale.force * abs(fine.load - coarse.load),
+        indentation_error=scale.depth * (indentation if loaded else 0.0),
+        load_error=scale.force * (0.0 if loaded else _error(stages, "load")),
         edge_error=scale.length * errors.edge,
         contact_area_error=scale.area * errors.area,
         max_pressure_error=scale.pressure * errors.peak,
+        centre_of_pressure_error=scale.length * _error(stages, "centre_of_pressure"),
         peak_resolved=errors.peak_resolved,
         levels=tuple(
             Level(
@@ -104,3 +111,8 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
         products=products,
         ffts=2 * products + 2 * linear,
     )
+
+
+def _error(stages: list[Stage], name: str) -> float:
+    """Error estimate of a number that each stage has, from its changes."""
+    return settled(np.array([getattr(stage, name) for stage in stages]), SLOW_FADING).error

@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 FEWEST_GRIDS = 3  # one change alone may be small by chance
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
 FRICTION_FLOOR = 1e-6
+#: Of numbers other than friction: they settle with the first power of the cell at the least.
+SLOW_FADING = 0.5
 
 # Parts of the difference between the two ways to friction that are claimed as error at the least, of the balanced
 # energy and of the lean; where the gap is looked at behind the cell centres, since friction then settles more slowly
 # than its changes promise; and of what the errors of both do not explain, the lean's taken generously.  With these,
 # the closed form of the line contact lies within the error on all but one of 700 grids, at E∞/E0 from 1.1 to 1e4 and
 # v τ/a0 from 1e-6 to 1e6.
-_SHARES = (0.0, 0.02)
+_SHARES = (0.0, 0.5)
 _SHIFTED_SHARES = (0.5, 0.1)
 _UNEXPLAINED_SHARE, _LEAN_TRUST = 0.5, 3.0
 
@@ -48,8 +50,7 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     """Return the friction coefficient from the quantity that has settled best on the nested grids.
 
     The lean of the pressure settles quickest where the layer at the leading edge is thinner than a cell; the
-    dissipated energy, with what cells leave out of it, nearly everywhere else.  Where the indenter has a wall, the
-    energy alone can tell: the wall's share does not show in the lean.
+    dissipated energy, with what cells leave out of it, nearly everywhere else.
     """
     last = stages[-1]
     if len(stages) < FEWEST_GRIDS:
@@ -58,8 +59,6 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
         return Estimate(0.0, 0.0)  # an elastic contact dissipates nothing, however its pressure leans on the grid
     energy = np.array([stage.balanced_friction.value for stage in stages])
     lean = np.array([stage.pressure_friction for stage in stages])
-    if last.problem.shape.has_walls:
-        return _settled_energy(energy)
     difference = abs(float(lean[-1] - energy[-1]))
     shares = _SHIFTED_SHARES if last.operator.shift > 0.0 else _SHARES
     balanced = settled(energy).at_least(max(_uncertainty(stages), shares[0] * difference))
@@ -68,17 +67,6 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     unexplained = difference - balanced.error - _LEAN_TRUST * leaning.error  # speaks against either
     error = max(best.error, _UNEXPLAINED_SHARE * unexplained)
     return Estimate(best.value, last.problem.geometry.scatter * error)
-
-
-def _settled_energy(energy: Array) -> Estimate:
-    """Return the dissipated energy, or what it tends to by the order at which cells resolve a singular edge.
-
-    That is one half where the edge's layer is thinner than a cell, and one where it is not.
-    """
-    candidates = [settled(energy)]
-    if len(energy) > FEWEST_GRIDS:
-        candidates += [settled(energy[1:] + np.diff(energy) / (2.0**order - 1.0)) for order in (0.5, 1.0)]
-    return min(candidates, key=lambda candidate: candidate.error)
 
 
 def _uncertainty(stages: list[Stage]) -> float:
@@ -92,14 +80,23 @@ def _uncertainty(stages: list[Stage]) -> float:
     return last.balanced_friction.error * most / last.opening if last.opening > 0.0 else 0.0
 
 
-def settled(values: Array) -> Estimate:
+def settled(values: Array, fading: float = 0.25) -> Estimate:
     """Return the last of three or more values on nested grids, with an estimate of its error.
 
     With changes d1 (the last) and d0 before it, a geometric sequence has d1/(d0/d1 − 1) still to go.  No less than
-    d1 is taken, nor than d0/4 and a sixteenth of the one before, since single changes may be small by chance.
+    d1 is taken, nor than d0 and the one before times the fading, once and twice, since single changes may be small by
+    chance.
+
+    Parameters
+    ----------
+    values : (n,) array
+        From the coarsest grid on.
+    fading : float
+        By which changes are expected to fall from grid to grid: `SLOW_FADING` where nothing but these changes tells of
+        the error.
     """
     changes = np.abs(np.diff(values))[-3:]
     before, last = changes[-2:]
     ratio = max(before / last, 1.25) if last > 0.0 else math.inf
-    faded = changes * 0.25 ** np.arange(len(changes) - 1.0, -1.0, -1.0)
+    faded = changes * fading ** np.arange(len(changes) - 1.0, -1.0, -1.0)
     return Estimate(float(values[-1]), float(max(last / (ratio - 1.0), *faded)))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.free.estimates import settled
+from viscofric.contact.free.estimates import SLOW_FADING, settled
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 # The largest pressure counts as resolved this far from the edge (in cells) and settled this well.
 _RESOLVED_CELLS = 3
 _RESOLVED_CHANGE = 0.02
-# No edge is claimed to be known better than to this part of a cell: what the extrapolation misses on Hertz's contact.
-_LEAST_EDGE_ERROR = 0.25
+# No edge is claimed to be known better than to this part of a cell: twice what the extrapolation misses on Hertz's
+# contact.
+_LEAST_EDGE_ERROR = 0.5
 
 
 @dataclass(frozen=True)
@@ -73,11 +74,21 @@ class Footprint:
 
 @dataclass(frozen=True)
 class FootprintErrors:
-    """Error estimates of the finest footprint from its changes on the nested grids."""
+    """Error estimates of the finest footprint from its changes on the nested grids.
+
+    Attributes
+    ----------
+    edge, area, peak : float
+        Of a peak that is not resolved, at least itself and what the leading edge may hide.
+    least : float
+        Least error of an edge: a part of a cell.
+    peak_resolved : bool
+    """
 
     edge: float
     area: float
     peak: float
+    least: float
     peak_resolved: bool
 
     @classmethod
@@ -87,7 +98,7 @@ class FootprintErrors:
         last = footprints[-1]
 
         def error(name: str) -> float:
-            return settled(np.array([getattr(one, name) for one in footprints])).error
+            return settled(np.array([getattr(one, name) for one in footprints]), SLOW_FADING).error
 
         shift, cell = stages[-1].operator.shift, max(stages[-1].window.spacing, stages[-1].window.width)
         least = cell * max(_LEAST_EDGE_ERROR, 2.0 * shift)
@@ -96,14 +107,17 @@ class FootprintErrors:
         peak = error("peak")
         # A layer at the leading edge that is thinner than a cell may hide a pressure that no grid so far has seen.
         deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
-        seen = shift == 0.0 and _hidden_peak(stages[-1]) < last.peak
+        hidden = _hidden_peak(stages[-1])
+        seen = shift == 0.0 and hidden < last.peak
+        resolved = deep and still and seen
         # The edge lies between the last loaded cell's centre and the next one's, wherever a coarser grid had it.
         most = cell if seen else math.inf
         return cls(
             edge=max(least, min(most, max(error(name) for name in sides))),
             area=max(least * rim, error("area")),
-            peak=peak,
-            peak_resolved=deep and still and seen,
+            peak=peak if resolved else max(peak, hidden, last.peak),
+            least=least,
+            peak_resolved=resolved,
         )
 
 

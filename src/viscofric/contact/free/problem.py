@@ -33,8 +33,8 @@ class Shape(Protocol):
     """An indenter, in these units."""
 
     @property
-    def has_walls(self) -> bool:
-        """Whether the height jumps to infinity, so that the pressure's lean misses a part of the friction."""
+    def has_tip(self) -> bool:
+        """Whether the slope jumps at the lowest point."""
 
     def height(self, x: Array, y: Array) -> Array:
         """Height above the lowest point."""
@@ -142,14 +142,17 @@ class Stage:
     def balanced_friction(self) -> Estimate:
         """Friction coefficient from the dissipated energy, with what cells leave out of it.
 
-        Its error is how far that is uncertain, from the wave that is taken for the first one left out.  An indenter
-        with walls has no curvature to balance.
+        Its error is how far that is uncertain, from the wave that is taken for the first one left out.
         """
-        if self.problem.shape.has_walls:
-            return Estimate(self.energy_friction, 0.0)
         force = self._dissipated[1]
         lags = [lag(self.operator.material, self.window.spacing, cut) for cut in CUTS]
         return Estimate(force + lags[1] * self.opening, (lags[0] - lags[2]) * self.opening)
+
+    @cached_property
+    def centre_of_pressure(self) -> float:
+        """Distance from the axis to where the resultant load acts, along x."""
+        pressure = self.result.pressure
+        return float(self.window.x @ pressure.sum(axis=1)) / float(pressure.sum())
 
     @cached_property
     def opening(self) -> float:
@@ -183,6 +186,13 @@ class Stage:
             return 0.0
         edge = self.problem.shape.height(np.array([self.footprint.front]), np.zeros(1))
         return self.result.indentation - float(edge[0])
+
+    @property
+    def level_slope(self) -> float:
+        """How the level changes with the place of the leading edge."""
+        if self.problem.geometry.has_far_field:
+            return 0.0
+        return abs(float(self.problem.shape.slope(np.array([self.footprint.front]), np.zeros(1))[0]))
 
     @property
     def indentation(self) -> float:

@@ -125,9 +125,9 @@ class ScaledIndenter:
     toward: tuple[float, float] = (1.0, 0.0)
 
     @property
-    def has_walls(self) -> bool:
-        """Whether the height jumps to infinity."""
-        return self.indenter.has_walls
+    def has_tip(self) -> bool:
+        """Whether the slope jumps at the lowest point."""
+        return self.indenter.has_tip
 
     def height(self, x: Array, y: Array) -> Array:
         """Height above the lowest point."""

@@ -32,7 +32,10 @@ class Indenter(ABC):
     noun : str
         What it is called in messages.
     has_walls : bool
-        Whether its height jumps to infinity somewhere, so that part of the friction sits on edges.
+        Whether its height jumps to infinity somewhere: a sharp edge, with which it cannot slide over a solid with a
+        memory.
+    has_tip : bool
+        Whether its slope jumps at the lowest point.
     reach : float
         Half the largest width that a contact can have, m.
     """
@@ -40,6 +43,7 @@ class Indenter(ABC):
     geometry: ClassVar[Geometry] = POINT
     noun: ClassVar[str]
     has_walls: ClassVar[bool] = False
+    has_tip: ClassVar[bool] = False
 
     @abstractmethod
     def height(self, x: Array, y: Array) -> Array:
@@ -100,6 +104,16 @@ def insist_on_indenter(given: object) -> None:
     """Raise `InputError` where something else is given."""
     if not isinstance(given, Indenter):
         raise InputError(f"indenter = {brief(given)}: must be an indenter, such as Ball(radius='10 mm').")
+
+
+def insist_on_round_edges(indenter: Indenter) -> None:
+    """Raise `InputError` where an indenter that is to slide has a sharp edge."""
+    if indenter.has_walls:
+        raise InputError(
+            f"indenter: a {indenter.noun} has a sharp edge, whose friction in motion is decided by how round it really "
+            "is, at any speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the "
+            "solid is elastic."
+        )
 
 
 def _too_wide(ratio: float, noun: str) -> str | None:

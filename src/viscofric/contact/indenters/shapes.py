@@ -94,6 +94,7 @@ class Cone(Indenter):
     """
 
     noun: ClassVar[str] = "cone"
+    has_tip: ClassVar[bool] = True
     angle: Quantity
 
     def __post_init__(self) -> None:
@@ -126,10 +127,11 @@ class Cone(Indenter):
 
 @dataclass(frozen=True)
 class FlatPunch(Indenter):
-    """A flat circular face with a sharp edge.
+    """A flat circular face with a sharp edge, for the elastic limits: a speed of zero or infinity.
 
-    Its pressure is infinite at the edge, so that all that a grid gives of it settles slowly; all its friction sits on
-    the edge, where only the dissipated energy can tell it.
+    Its pressure is infinite at the edge, so that all that a grid gives of it settles slowly.  Its friction in motion is
+    refused: waves of all lengths reach a sharp edge, so that the glass answers there at any speed, and friction does
+    not vanish with the speed.  What it is, the radius of the real edge decides: give the rounded face as a `HeightMap`.
 
     Parameters
     ----------

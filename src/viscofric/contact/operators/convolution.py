@@ -245,11 +245,10 @@ class ConvolutionOperator(ABC):
         overlaps = self.overlaps(pressure) if overlaps is None else overlaps
         return -self.window.cell_area * float(np.vdot(influence, overlaps))
 
-    def dissipated_force_gradient(self, pressure: Array, *, bent: bool = False) -> Array:
-        """Change of `dissipated_force`, or of `bent_dissipated_force`, with the pressure of each cell, (nx, ny)."""
+    def bent_dissipated_force_gradient(self, pressure: Array) -> Array:
+        """Change of `bent_dissipated_force` with the pressure of each cell, (nx, ny)."""
         # The force is a quadratic form, which has a symmetric matrix: that of the influence and its mirror image.
-        influence = self._bent_dissipation if bent else self._dissipation
-        symmetric = self._spectrum(influence + influence[::-1])
+        symmetric = self._spectrum(self._bent_dissipation + self._bent_dissipation[::-1])
         slope = self._convolve(symmetric, self.backend.asarray(pressure))
         return -self.window.cell_area * self.backend.to_numpy(slope)
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
+from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.errors import InputError, brief
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
@@ -178,8 +178,7 @@ def identify_material(
 def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float) -> None:
     insist_on_curves(curves, "curves")
     insist_on_indenter(indenter)
-    if indenter.has_walls:
-        raise InputError(f"indenter: friction of a {indenter.noun} sits on its edges and identifies no material.")
+    insist_on_round_edges(indenter)
     if not 0.0 <= to_si(poisson_ratio, "dimensionless", "poisson_ratio") <= 0.5:
         raise InputError(f"poisson_ratio = {poisson_ratio:g}: must lie between 0 and 0.5.")
 
