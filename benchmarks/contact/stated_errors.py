@@ -166,8 +166,8 @@ def summary(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
                 "within": float(np.mean(apart <= error + left)),
                 "strict": float(np.mean(apart <= error)),
                 "far": int(np.sum(apart > 1.5 * error + left)),
-                "stated": float(np.median(error / size)),
-                "true": float(np.median(apart / size)),
+                "stated": float(np.median(error[size > 0.0] / size[size > 0.0])),
+                "true": float(np.median(apart[size > 0.0] / size[size > 0.0])),
                 "worst": float(np.max(np.maximum(0.0, apart - left) / error)),
             }
         )

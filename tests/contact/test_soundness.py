@@ -25,6 +25,7 @@ from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
 from viscofric.contact.operators.line import LineOperator
 from viscofric.contact.reference import hunter_line
+from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
     import viscofric as vf
@@ -126,6 +127,13 @@ def test_a_peak_that_is_not_resolved_is_known_to_its_own_size_at_best() -> None:
     hertz = 1.5 * LOAD / (math.pi * HERTZ_RADIUS**2)
     missed = 0.77 * math.sqrt(1000.0 * 0.3) * hertz - solution.max_pressure  # as of the line contact, see below
     assert solution.max_pressure < missed <= solution.diagnostics.max_pressure_error
+
+
+def test_an_accuracy_out_of_reach_is_refused_before_the_fine_grids() -> None:
+    """What cells leave out at the edges is known to 1.9e-4 at best on 2048 cells, which 256 foretell."""
+    with pytest.raises(ConvergenceError, match="2048 cells will not be enough") as refused:
+        standard_linear_solid(10.0, 1e-3).solve(accuracy=1e-4)
+    assert "on a grid of 256 cells" in str(refused.value) or "on a grid of 128 cells" in str(refused.value)
 
 
 # --- orders of convergence ------------------------------------------------------------------------

@@ -28,6 +28,7 @@ SLOW_FADING = 0.5
 _SHARES = (0.0, 0.5)
 _SHIFTED_SHARES = (0.5, 0.1)
 _UNEXPLAINED_SHARE, _LEAN_TRUST = 0.5, 3.0
+_FALL_OF_LEAN = 5.0
 
 
 class Estimate(NamedTuple):
@@ -78,6 +79,20 @@ def _uncertainty(stages: list[Stage]) -> float:
     last = stages[-1]
     most = max(stage.opening * last.window.spacing / stage.window.spacing for stage in stages[-FEWEST_GRIDS:])
     return last.balanced_friction.error * most / last.opening if last.opening > 0.0 else 0.0
+
+
+def least_error(stages: list[Stage], halvings: int) -> float:
+    """Relative error that the friction has at the least after so many further halvings of the cells.
+
+    That of the balanced energy is no less than what is uncertain of what cells leave out, which is known beforehand:
+    the gap beside the contact opens in proportion to the cell.  That of the lean falls with the square of the cell, or
+    a little faster by chance.
+    """
+    last = stages[-1]
+    uncertain = last.left_out_range(last.window.spacing / 2.0**halvings) / 2.0**halvings
+    lean = settled(np.array([stage.pressure_friction for stage in stages])).error / _FALL_OF_LEAN**halvings
+    scale = max(abs(last.balanced_friction.value), FRICTION_FLOOR)
+    return last.problem.geometry.scatter * min(uncertain, lean) / scale
 
 
 def settled(values: Array, fading: float = 0.25) -> Estimate:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.free.estimates import FEWEST_GRIDS, friction_estimate
+from viscofric.contact.free.estimates import FEWEST_GRIDS, friction_estimate, least_error
 from viscofric.contact.free.given_grid import GivenGrid
 from viscofric.contact.free.problem import Problem, Stage
 from viscofric.contact.free.proximal import proximal_points
@@ -84,7 +84,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
         coarse = stages[-1]
         window = coarse.window.refined()
         if not halvings:
-            goal.allow(window)
+            goal.allow(window, stages)
         try:
             stage = _solve_in_window(window, coarse)
         except ConvergenceError as failure:
@@ -127,12 +127,13 @@ class _Goal:
     finest: int
     errors: list[float] = field(default_factory=list)
 
-    def allow(self, window: Grid) -> None:
+    def allow(self, window: Grid, stages: list[Stage]) -> None:
         """Raise ConvergenceError where a grid is too fine, or it and the finer ones would not be enough either."""
         cells = max(window.shape)
         if cells > self.finest:
             raise self.missed(f"the finest grid allowed ({self.finest} cells)")
-        if self.errors and self._hoped_for(1 + int(math.log2(self.finest / cells))) > self.accuracy:
+        halvings = 1 + int(math.log2(self.finest / cells))
+        if self.errors and max(self._hoped_for(halvings), least_error(stages, halvings)) > self.accuracy:
             raise self.missed(f"a grid of {cells // 2} cells, and {self.finest} cells will not be enough")
 
     def missed(self, where: str) -> ConvergenceError:

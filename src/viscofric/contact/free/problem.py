@@ -145,8 +145,14 @@ class Stage:
         Its error is how far that is uncertain, from the wave that is taken for the first one left out.
         """
         force = self._dissipated[1]
-        lags = [lag(self.operator.material, self.window.spacing, cut) for cut in CUTS]
-        return Estimate(force + lags[1] * self.opening, (lags[0] - lags[2]) * self.opening)
+        spacing = self.window.spacing
+        left_out = lag(self.operator.material, spacing, CUTS[1]) * self.opening
+        return Estimate(force + left_out, self.left_out_range(spacing))
+
+    def left_out_range(self, spacing: float) -> float:
+        """How uncertain is what cells leave out of the friction coefficient, were those left out as short as given."""
+        longest, shortest = (lag(self.operator.material, spacing, cut) for cut in (CUTS[0], CUTS[2]))
+        return (longest - shortest) * self.opening
 
     @cached_property
     def centre_of_pressure(self) -> float:
