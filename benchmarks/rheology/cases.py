@@ -7,7 +7,7 @@ import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,7 +15,7 @@ import viscofric as vf
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "rheology"))
-from planted import Planted, planted_sweeps, synthetic_polymer  # noqa: E402
+from planted import FREQUENCIES, PROGRAMME, Planted, planted_sweeps, synthetic_polymer  # noqa: E402
 
 if TYPE_CHECKING:
     from viscofric.data import IsothermalSweeps, MasterCurve
@@ -38,8 +38,67 @@ class Case:
         return float(temperatures[np.argmin(np.abs(temperatures - REFERENCE))])
 
 
+def synthetic_soft_rubber() -> vf.Material:
+    """Return an invented soft rubber: two decades of modulus, a long tail to low frequencies, WLF about 20 °C."""
+    tau = np.exp(np.arange(-26.0, 12.0))
+    weight = (tau / 1e-3) ** 0.25 / (1.0 + (tau / 1e-3) ** 0.6)
+    C = (1.0 / 2e6 - 1.0 / 3e8) * weight / weight.sum()
+    shift = vf.WLF(C1=7.0, C2=130.0, reference="20 degC")
+    return vf.Material(vf.RetardationSpectrum(2e6, 3e8, C, tau), shift, name="invented soft rubber (synthetic)")
+
+
 #: Rubbers whose sweeps are planted.
-MATERIALS = {"synthetic fluoroelastomer": vf.synthetic_fluoroelastomer, "synthetic polymer": synthetic_polymer}
+MATERIALS = {
+    "synthetic fluoroelastomer": vf.synthetic_fluoroelastomer,
+    "synthetic polymer": synthetic_polymer,
+    "synthetic soft rubber": synthetic_soft_rubber,
+}
+#: Temperatures (°C) and frequencies (Hz) at which sweeps with offsets are planted, and the reference.
+PROGRAMMES = {
+    "synthetic fluoroelastomer": (PROGRAMME, FREQUENCIES, "30 degC"),
+    "synthetic polymer": (np.arange(-25.0, 101.0, 5.0), np.logspace(-2, 2, 21), "25 degC"),
+    "synthetic soft rubber": (np.arange(-30.0, 91.0, 10.0), np.logspace(-2, 2, 21), "20 degC"),
+}
+
+
+def offset_problems() -> list[dict[str, Any]]:
+    """Return problems of sweeps with noise of their points and offsets of whole isotherms."""
+    found = []
+    for material in PROGRAMMES:
+        for noise, offset, shared in (
+            (0.005, 0.0, False),
+            (0.02, 0.0, False),
+            (0.005, 0.01, False),
+            (0.02, 0.01, False),
+            (0.01, 0.02, False),
+            (0.01, 0.02, True),
+        ):
+            found.append({"material": material, "noise": noise, "offset": offset, "shared": shared})
+        found.append({"material": material, "noise": 0.005, "offset": 0.01, "vertical": "free", "rising": True})
+        found.append({"material": material, "noise": 0.005, "offset": 0.0, "rising": True})
+    for one in found:
+        how = "shared " if one.get("shared") else ""
+        b = f", b = ρT {'fitted' if 'vertical' in one else 'left out'}" if one.get("rising") else ""
+        short = one["material"].removeprefix("synthetic ")
+        one["title"] = f"{short}: {one['noise']:.1%}, {how}{one['offset']:.0%}{b}"
+    return found
+
+
+def offset_case(problem: dict[str, Any], seed: int) -> tuple[Planted, str]:
+    """Return planted sweeps of such a problem, and the reference."""
+    celsius, frequencies, reference = PROGRAMMES[problem["material"]]
+    shift = {"log10_b": vf.DensityShift(reference).log10} if problem.get("rising") else {}
+    planted = planted_sweeps(
+        seed,
+        problem["noise"],
+        material=MATERIALS[problem["material"]](),
+        celsius=celsius,
+        frequencies=frequencies,
+        offset=problem["offset"],
+        shared=problem.get("shared", False),
+        **shift,
+    )
+    return planted, reference
 
 
 def planted_case(seed: int = 0, material: str = "synthetic fluoroelastomer") -> Case:

@@ -90,6 +90,64 @@ def coverage(material: str, seeds: int, samples: int = 200) -> dict[str, Any]:
     return row | {"alpha": _mean(alpha), "storage": _mean(storage), "loss": _mean(loss)}
 
 
+def with_offsets(problem: dict[str, Any], seeds: int, samples: int = 100) -> dict[str, Any]:
+    """Count the same for a problem of `cases.OFFSET_PROBLEMS`; tan δ and friction at both ends of the temperatures.
+
+    Friction is that of a ball at the second and the last but one temperature, in every fourth sweep only.
+    """
+    from cases import offset_case
+
+    from viscofric.rheology.uncertainty.sampling import sample_materials
+
+    start = time.process_time()
+    kinds = ("alpha", "storage", "loss", "tangent", "friction")
+    inside: dict[str, list[float]] = {kind: [] for kind in kinds}
+    widths: dict[str, list[float]] = {"alpha_error": [], "loss_width": []}
+    doubtful = 0
+    for seed in range(seeds):
+        planted, reference = offset_case(problem, seed)
+        fit = vf.superpose(planted.sweeps, reference, vertical=problem.get("vertical"))
+        factors, curve = fit.shift_factors, fit.master_curve
+        known = factors.standard_errors > 1e-9
+        away = np.abs(factors.log10_values - planted.log10_alpha(factors.temperatures, reference))[known]
+        inside["alpha"].append(np.mean(away <= LEVEL_95 * factors.standard_errors[known]))
+        widths["alpha_error"].append(np.median(factors.standard_errors[known]))
+        doubtful += fit.check.verdict != "holds"
+        drawn = sample_materials(fit, samples=samples, seed=seed)
+        omega = np.geomspace(curve.angular_frequency[0], curve.angular_frequency[-1], 60)
+        band, modulus = drawn.modulus_band(omega), planted.material.complex_modulus(omega, reference)
+        inside["storage"].append(_inside(modulus.real, band.lower.real, band.upper.real))
+        inside["loss"].append(_inside(modulus.imag, band.lower.imag, band.upper.imag))
+        widths["loss_width"].append(np.median(0.5 * np.log(band.upper.imag / band.lower.imag)))
+        for place in (1, -2):
+            kelvin = float(factors.temperatures[place])
+            rates = fit.isotherms[place].angular_frequency[[0, -1]]
+            limits = drawn.band(lambda one, at=(rates, kelvin): _tangent(one.complex_modulus(*at)))
+            true = _tangent(planted.complex_modulus(rates, kelvin))
+            inside["tangent"].append(_inside(true, limits.lower, limits.upper))
+            if seed % 4 == 0:
+                inside["friction"].append(_friction_inside(fit, drawn, planted, kelvin))
+    row = {"tool": problem["title"], "seeds": seeds, "seconds": (time.process_time() - start) / max(seeds, 1)}
+    row |= {kind: _mean(shares) for kind, shares in (inside | widths).items()}
+    return row | {"doubtful": doubtful}
+
+
+def _tangent(modulus: Any) -> Any:
+    return modulus.imag / modulus.real
+
+
+def _friction_inside(fit: Any, drawn: Any, planted: Any, kelvin: float) -> float:
+    """Say whether planted friction of a ball, 1 mm/s and 0.1 m/s, lies in its band."""
+    ball, problem = vf.Ball("10 mm"), {"load": 5.0, "accuracy": 1e-2}
+    found = vf.Material(vf.fit_retardation_spectrum(fit), fit.shift_factors, vertical_shift=fit.vertical_shift)
+    curves = vf.predict_friction(found, ball, speeds=[1e-3, 0.1], temperatures=[kelvin], samples=drawn, **problem)
+    b = 10.0 ** planted.log10_b(kelvin)  # E/b at the same load is E at the load over b
+    true = vf.predict_friction(
+        planted.material, ball, speeds=[1e-3, 0.1], temperatures=[kelvin], **problem | {"load": problem["load"] / b}
+    )
+    return _inside(true.viscoelastic, curves.viscoelastic_lower, curves.viscoelastic_upper)
+
+
 def _inside(true: Any, lower: Any, upper: Any) -> float:
     return float(np.mean((true >= lower) & (true <= upper)))
 

@@ -1,6 +1,7 @@
 """viscofric's rheology beside its peers, on the same data and in the same run.
 
-Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--json FILE] [--environment FOLDER] [--limit SECONDS]
+Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--json FILE] [--environment FOLDER]
+       [--limit SECONDS]
 
 Shifting of measured and of planted sweeps, spectra of the master curve, honesty of the stated 95 % bands over many
 planted sweeps, exactness of the conversion of spectra.  README.md beside this file says how each is measured.
@@ -49,6 +50,18 @@ COVERAGE = (
     ("E'(ω)", "storage", ".1%"),
     ("E''(ω)", "loss", ".1%"),
 )
+OFFSETS = (
+    ("CPU s", "seconds", ".2f"),
+    ("seeds", "seeds", "d"),
+    ("α(T)", "alpha", ".1%"),
+    ("± α", "alpha_error", ".4f"),
+    ("E'(ω)", "storage", ".1%"),
+    ("E''(ω)", "loss", ".1%"),
+    ("± E''", "loss_width", ".2%"),
+    ("tan δ ends", "tangent", ".1%"),
+    ("μ ends", "friction", ".1%"),
+    ("doubtful", "doubtful", "d"),
+)
 ROUND_TRIP = (("CPU s", "seconds", ".4f"), ("modes", "modes", "d"), ("error", "error", ".1e"))
 
 
@@ -76,13 +89,23 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
         tables["planted truth within the stated 95 % bands"] = [
             own.coverage(material, options.seeds) for material in cases.MATERIALS
         ]
+    if options.offsets:
+        tables["offsets of isotherms: planted truth within the stated 95 % bands"] = [
+            own.with_offsets(problem, options.offsets) for problem in cases.offset_problems()
+        ]
     tables["retardation spectrum to Prony series and back"] = [own.round_trip()]
     return {"tables": tables, "left_out": left_out}
 
 
 def columns_of(title: str) -> tuple[tuple[str, str, str], ...]:
     """Return the columns of a table."""
-    kinds = {"shifting": SHIFTING, "spectrum": SPECTRUM, "planted": COVERAGE, "retardation": ROUND_TRIP}
+    kinds = {
+        "shifting": SHIFTING,
+        "spectrum": SPECTRUM,
+        "planted": COVERAGE,
+        "offsets": OFFSETS,
+        "retardation": ROUND_TRIP,
+    }
     return next(columns for start, columns in kinds.items() if title.startswith(start))
 
 
@@ -112,6 +135,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--peers", action="store_true", help="run the peers too (minutes)")
     parser.add_argument("--seeds", type=int, default=20, help="planted sweeps for the bands; 0 leaves them out")
+    parser.add_argument("--offsets", type=int, default=0, help="planted sweeps with offsets of isotherms (minutes)")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--environment", type=Path, default=HERE / ".peers", help="the peers' environment")
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for each answer of a peer")

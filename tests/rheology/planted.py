@@ -69,8 +69,10 @@ def planted_sweeps(
     celsius=PROGRAMME,
     frequencies=FREQUENCIES,
     log10_b: Callable[[float], float] = no_vertical_shift,
+    offset: float = 0.0,
+    shared: bool = False,
 ) -> Planted:
-    """Make sweeps with independent multiplicative noise on E' and on E''.
+    """Make sweeps with independent multiplicative noise on E' and on E'', and with offsets of whole isotherms.
 
     Parameters
     ----------
@@ -86,13 +88,21 @@ def planted_sweeps(
         Hz.
     log10_b : callable
         Vertical shift of a temperature in K.
+    offset : float
+        Relative standard deviation of the factors that all points of an isotherm have in common.
+    shared : bool
+        Whether E' and E'' have the same factor, as after clamping anew.
     """
     material = material or vf.synthetic_fluoroelastomer()
     random = np.random.default_rng(seed)
+    levels = np.random.default_rng([seed, 1])
     omega = 2.0 * np.pi * np.asarray(frequencies, dtype=float)
     isotherms = []
     for temperature in np.asarray(celsius, dtype=float) + 273.15:
         modulus = 10.0 ** log10_b(temperature) * material.complex_modulus(omega, temperature)
         scatter = 1.0 + noise * random.standard_normal((2, omega.size))
+        level = np.exp(offset * levels.standard_normal(2))
+        scatter[0] *= level[0]
+        scatter[1] *= level[0 if shared else 1]
         isotherms.append(Isotherm(temperature, omega, scatter[0] * modulus.real, scatter[1] * modulus.imag))
     return Planted(IsothermalSweeps(tuple(isotherms)), material, log10_b)

@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from rheology.planted import planted_sweeps, synthetic_polymer
 from viscofric.data import Isotherm, IsothermalSweeps
+from viscofric.notes import codes
 from viscofric.rheology.superposition.consistency import check_superposition
-from viscofric.rheology.superposition.van_gurp_palmen import neighbour_distances
+from viscofric.rheology.superposition.van_gurp_palmen import NeighbourDistance, drift, neighbour_distances
 
 RUBBER = vf.synthetic_fluoroelastomer()
+POLYMER = synthetic_polymer()
 OMEGA = 2 * np.pi * np.logspace(-1, 1, 17)
 CELSIUS = np.arange(0.0, 151.0, 10.0)
 
@@ -88,6 +91,76 @@ def test_a_change_of_modulus_alone_is_mended_by_a_vertical_shift():
     assert mended.between < 0.3 * without.between
 
 
+def entropic(omega, temperature):
+    """Let the modulus of a polymer follow temperature, as an ideal rubber's does."""
+    return POLYMER.complex_modulus(omega, temperature) * temperature / 303.15
+
+
+def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
+    """No pair is farther apart than sweeps repeat, but all to one side: a vertical shift was left out."""
+    measured = sweeps(entropic, 0.005, celsius=np.arange(-25.0, 101.0, 5.0))
+    fit = vf.superpose(measured, "30 degC")
+    check = check_superposition(fit)
+    assert check.figure_of_merit < 1.0
+    assert max(abs(one.distance) for one in check.neighbours) < 0.02
+    assert (check.verdict, check.holds, check.roughly) == ("doubtful", False, False)
+    assert codes(check.sentences) == {"superposition-doubtful"}
+    assert abs(check.drift.distance) > 5.0 * check.drift.standard_error
+    # The errors of α hold what the vertical shift would change: the two models do not contradict each other, …
+    mended = vf.superpose(measured, "30 degC", vertical="free")
+    assert mended.check.verdict == "holds"
+    assert mended.check.drift is None
+    assert mended.check.figure_of_merit < 0.5 * check.figure_of_merit
+    away = np.abs(mended.shift_factors.log10_values - fit.shift_factors.log10_values)
+    known = fit.shift_factors.standard_errors > 1e-9
+    assert np.all(away[known] < 1.96 * fit.shift_factors.standard_errors[known])
+    # … and the truth contradicts neither.
+    truth = POLYMER.shift.at_reference("30 degC").log10(fit.shift_factors.temperatures)
+    assert (
+        np.mean(np.abs(fit.shift_factors.log10_values - truth) < 1.96 * fit.shift_factors.standard_errors + 1e-9) > 0.9
+    )
+
+
+def test_friction_beside_a_free_vertical_shift_lies_within_the_band_without_it():
+    """The bands of two models of the same sweeps overlap, and both hold the planted friction."""
+    measured = sweeps(entropic, 0.005, celsius=np.arange(-25.0, 101.0, 5.0))
+    bands = []
+    for vertical in (None, "free"):
+        fit = vf.superpose(measured, "30 degC", vertical=vertical)
+        drawn = vf.sample_materials(fit, samples=60)
+        # tan δ of a millimetre's contact at −10 °C and 1 m/s: friction is about proportional to it.
+        bands.append(
+            drawn.band(lambda one: np.divide(*(part(one.complex_modulus(1e3, 263.15)) for part in (np.imag, np.real))))
+        )
+    plain, free = bands
+    assert max(plain.lower, free.lower) < min(plain.upper, free.upper)
+
+
+def test_isotherms_that_are_each_off_do_not_pass_for_a_drift():
+    for seed in range(3):
+        for shared in (False, True):
+            planted = planted_sweeps(seed, 0.005, offset=0.02, shared=shared, celsius=np.arange(0.0, 161.0, 10.0))
+            assert vf.superpose(planted.sweeps, "30 degC").check.drift is None
+
+
+def pair(place, distance):
+    return NeighbourDistance(270.0 + 10.0 * place, 280.0 + 10.0 * place, distance, 0.001, 20)
+
+
+def test_a_drift_is_what_adds_up():
+    steady = [pair(place, -0.02) for place in range(5)]
+    found = drift(steady)
+    assert (found.colder, found.warmer, found.neighbours) == (270.0, 320.0, 5)
+    assert found.distance == pytest.approx(-0.1)
+    assert found.standard_error == pytest.approx(0.001 * np.sqrt(5.0))
+    # One after the other to either side, one bad sweep at an end, or noise as large: none.
+    assert drift([pair(place, 0.04 * (-1) ** place) for place in range(6)]) is None
+    assert drift([pair(0, 0.1), *(pair(place, 0.001) for place in range(1, 6))]) is None
+    assert drift(steady, offset=0.02) is None
+    # A gap between temperatures ends a run.
+    assert drift([pair(0, -0.02), pair(1, -0.02), pair(3, -0.02), pair(4, -0.02)]) is None
+
+
 def test_distance_tells_which_isotherm_is_more_lossy():
     pair = sweeps(RUBBER.complex_modulus, 0.0, celsius=np.array([80.0, 90.0])).isotherms
     same = neighbour_distances(pair, np.zeros(2))[0]
@@ -156,7 +229,7 @@ def test_the_adhesive_fails_by_a_little(real_data):
     check = check_superposition(of_file(real_data, "adhesive_ems_ca.csv", "25 degC"))
     assert not check.holds
     assert check.figure_of_merit < 2.0
-    cold = [pair.distance for pair in check.neighbours if 253.0 < pair.colder < 293.0]
+    cold = [one.distance for one in check.neighbours if 253.0 < one.colder < 293.0]
     assert max(cold) < -0.015
 
 

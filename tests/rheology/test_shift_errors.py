@@ -9,11 +9,13 @@ import pytest
 from scipy.stats import linregress
 
 import viscofric as vf
-from rheology.planted import planted_sweeps
+from rheology.planted import planted_sweeps, synthetic_polymer
 from viscofric.data import Isotherm, IsothermalSweeps
+from viscofric.notes import codes
+from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import LogSweep, join, join_at
-from viscofric.rheology.superposition.plateau import BEND, continued
+from viscofric.rheology.superposition.plateau import BEND, continued, continued_covariance
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
 
 STEP = 0.5  # decades of α between neighbours of the power law
@@ -48,17 +50,30 @@ def exact_covariance(isotherms):
     return (NOISE / np.log(10.0)) ** 2 * inverse[: isotherms - 1, : isotherms - 1]
 
 
+def from_points_alone(sweeps):
+    """Return the standard errors of log10 α about the coldest isotherm that the scatter of the points makes."""
+    logs = [LogSweep.of(one) for one in sweeps.isotherms]
+    weights = np.eye(len(logs))[0]
+    gauge = Gauge(1.0 / np.array([one.temperature for one in sweeps.isotherms]), weights, weights, {})
+    found, _ = fitted(logs, [join(colder, warmer) for colder, warmer in pairwise(logs)], gauge)
+    return np.sqrt(np.diag(found.covariance))
+
+
 def test_few_points_leave_as_many_degrees_of_freedom_as_there_are_beyond_shifts_and_curves():
     """Eight sweeps of three points: 48 values less 6 coefficients less 7 shifts are 35, not 42."""
     isotherms = 8
     exact = np.diag(exact_covariance(isotherms))
-    ratios = []
+    ratios, with_offsets = [], []
     for seed in range(40):
-        factors = vf.superpose(power_law_sweeps(seed, isotherms), "0 degC").shift_factors
-        ratios.append(np.mean(factors.standard_errors[1:] ** 2 / exact))
+        sweeps = power_law_sweeps(seed, isotherms)
+        ratios.append(np.mean(from_points_alone(sweeps)[1:] ** 2 / exact))
+        factors = vf.superpose(sweeps, "0 degC").shift_factors
+        with_offsets.append(np.mean(factors.standard_errors[1:] ** 2 / exact))
     # A variance from 35 degrees of freedom is known to √(2/35) = 24 %, the mean of 40 to 4 %; three of that.  Shifts
     # left uncounted make 35/42 = 0.83 of it.
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.12)
+    # Three points a sweep do not exclude offsets as large as the noise of a mean, a third of the variance of a point.
+    assert 1.0 < np.mean(with_offsets) < 4.0 / 3.0
 
 
 def along_sweeps(random, size, points, alike):
@@ -92,6 +107,65 @@ def test_errors_alike_along_a_sweep_widen_the_standard_errors():
     assert np.std(scores) == pytest.approx(1.0, abs=0.3)
 
 
+@pytest.mark.parametrize("shared", [False, True], ids=["E' and E'' apart", "shared"])
+def test_offsets_of_whole_isotherms_are_found_and_carried_into_the_errors(shared):
+    """Isotherms off by 2 %, points by 1 %: the errors of α are those of the offsets, several times those of points."""
+    sizes, scores, errors = [], [], []
+    for seed in range(4):
+        planted = planted_sweeps(seed, NOISE, offset=0.02, shared=shared, celsius=np.arange(0.0, 161.0, 10.0))
+        fit = vf.superpose(planted.sweeps, "30 degC")
+        factors = fit.shift_factors
+        known = factors.standard_errors > 1e-9
+        away = factors.log10_values - planted.log10_alpha(factors.temperatures, "30 degC")
+        scores.append(away[known] / factors.standard_errors[known])
+        sizes.append(fit.offsets.standard_deviations * np.log(10.0))
+        errors.append(np.median(factors.standard_errors[known]))
+    # 17 isotherms less their shifts leave some 12 values of each modulus: a size known to 20 %, the mean of 4 to 10 %.
+    assert np.mean(sizes, axis=0) == pytest.approx([0.02, 0.02], rel=0.3)
+    # 64 scores, a third of them independent: their spread is known to 15 %, two of that.  Points alone: above 1.8.
+    assert np.std(scores) == pytest.approx(1.0, abs=0.35)
+    # Offsets of 2 % against a mean of 17 points of 1 %: the errors are up to √(1 + (0.02/0.01)² 17) = 8 times as large.
+    calm = planted_sweeps(0, NOISE, celsius=np.arange(0.0, 161.0, 10.0)).sweeps
+    points = vf.superpose(calm, "30 degC").shift_factors.standard_errors
+    assert 2.0 < np.mean(errors) / np.median(points) < 8.0
+
+
+def test_sweeps_without_offsets_keep_the_errors_of_their_points():
+    ratios = []
+    for seed in range(6):
+        sweeps = planted_sweeps(seed, NOISE, celsius=np.arange(0.0, 91.0, 10.0)).sweeps
+        errors = vf.superpose(sweeps, "0 degC").shift_factors.standard_errors[1:]
+        ratios.append(np.median(errors / from_points_alone(sweeps)[1:]))
+    # What ten isotherms cannot exclude: a few tenths of a per cent, as large as the noise of a mean of 17 points.
+    assert 0.95 < np.mean(ratios) < 1.25
+
+
+def test_a_step_that_is_not_fixed_has_an_error_of_its_own_size(real_data):
+    """The vendor's factors of an adhesive: E' alone asks for its coldest step, 2.9 decades, E'' for half of it."""
+    sweeps = vf.read_dma(real_data / "dma" / "adhesive_ems_ca.csv", deformation="tension")
+    vendor = vf.read_shift_factors(real_data / "dma" / "adhesive_ems_ca__vendor_shift.csv")
+    for vertical in (None, "free"):
+        fit = vf.superpose(sweeps, "25 degC", vertical=vertical)
+        table = fit.shift_factors
+        away = np.diff(table.log10_values - vendor.log10_values)[0]
+        steps = np.diff(np.eye(len(table.temperatures)), axis=0)
+        error = np.sqrt(steps[0] @ table.covariance @ steps[0])
+        assert abs(away) < 2.0 * error  # 13.6 of them with the curvature at the best joint overlap
+        assert fit.unidentified[0] == pytest.approx((223.17, 230.66), abs=0.01)
+        assert "alpha-not-identified" in codes(fit.notes)
+        assert not fit.check.holds
+
+
+def test_profiles_agree_with_the_curvature_where_the_likelihood_is_a_parabola():
+    polymer = {"celsius": np.arange(-25.0, 61.0, 5.0), "frequencies": np.logspace(-2, 2, 21)}
+    sweeps = planted_sweeps(0, NOISE, material=synthetic_polymer(), **polymer).sweeps
+    about = vf.superpose(sweeps, "-25 degC")
+    ratio = about.shift_factors.standard_errors[1:] / from_points_alone(sweeps)[1:]
+    # Four decades a sweep fix every step to 0.003 decades; offsets that are not excluded add some per cent.
+    assert np.all((ratio > 0.9) & (ratio < 1.3))
+    assert about.unidentified == ()
+
+
 def plateau_gauge(size, reference):
     """Isotherms at equal steps in 1/T, α = 1 at one of them."""
     inverse = 1.0 / 300.0 - 1e-4 * np.arange(size)
@@ -104,11 +178,13 @@ def test_errors_grow_over_a_plateau_as_a_rate_that_wanders(hot):
     """The rate of change errs by BEND more in every step, also in the first: shifts by BEND √1, √5 = √(1 + 4), √14."""
     told = -1.5 * np.arange(4.0)
     if hot:
-        values, covariance = continued(told, np.zeros((4, 4)), plateau_gauge(7, 1), 0, 4)
+        place = plateau_gauge(7, 1), 0, 4
+        values, covariance = continued(told, *place), continued_covariance(np.zeros((4, 4)), *place)
         beyond, expected = slice(4, 7), -1.5 * np.arange(4.0, 7.0)
         shift = values - values[0]
     else:
-        values, covariance = continued(told, np.zeros((4, 4)), plateau_gauge(7, 5), 3, 7)
+        place = plateau_gauge(7, 5), 3, 7
+        values, covariance = continued(told, *place), continued_covariance(np.zeros((4, 4)), *place)
         values, covariance = values[::-1], covariance[::-1, ::-1]
         beyond, expected = slice(4, 7), 1.5 * np.arange(4.0, 7.0)
         shift = values - values[0]

@@ -204,7 +204,8 @@ def test_rubber_of_a_real_instrument(real_data: Path, tmp_path: Path) -> None:
     workspace = workspace_with(tmp_path, real_data / "instruments" / "eplexor" / "freq_Eplexor_raw.xls")
     material = {"dma": "freq_Eplexor_raw.xls", "reference_temperature": "20 degC", "shift": "best"}
     found = done("rubber", workspace, material, uncertainty=DRAWS)
-    assert found["check"]["verdict"] in ("holds", "roughly")
+    # Its neighbours all lie to one side, by 0.01 to 0.04 decades: within reproducibility each, but not together.
+    assert found["check"]["verdict"] == "doubtful"
     assert len(found["shift"]["factors"]["temperature"]) >= 15
     assert found["band"]["draws"] == 40
 

@@ -79,7 +79,8 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
     if whole is not None:
         words = " ".join(sentences(whole.attrs, "sentences"))
         holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
-        yield Check("Superposition", "passed" if holds else "look at this" if roughly else "failed", words)
+        fails = whole.attrs.get("verdict", "roughly" if roughly else "fails") == "fails"
+        yield Check("Superposition", "passed" if holds else "failed" if fails else "look at this", words)
         if whole.attrs.get("causality"):
             belong = number(whole.attrs, "consistent") == 1.0
             yield Check.of("Storage against loss modulus", belong, str(whole.attrs["causality"]))

@@ -154,6 +154,7 @@ def _superposition(fit: Superposition) -> xarray.Dataset:
     return dataset(
         "isotherm",
         {"temperature": fit.shift_factors.temperatures},
+        verdict=check.verdict,
         holds=int(check.holds),
         roughly=int(check.roughly),
         figure_of_merit=check.figure_of_merit,

@@ -71,7 +71,7 @@ class Smoother:
         from scipy.interpolate import BSpline
 
         knots, degree = _knots(frequency)
-        penalty = _penalty(knots, degree)
+        penalty = penalty_of(knots, degree)
         basis = BSpline.design_matrix(frequency, knots, degree).toarray()
         root = _roots(frequency, weights)
         smoothing, scatter = _restricted_likelihood(basis * root, penalty, moduli * root)
@@ -173,7 +173,7 @@ def _knots(frequency: Array) -> tuple[Array, int]:
     return np.concatenate([frequency[0] * ends, inner[1:], frequency[-1] * ends]), degree
 
 
-def _penalty(knots: Array, degree: int) -> Array:
+def penalty_of(knots: Array, degree: int) -> Array:
     """Integrate products of third derivatives, which are step functions for cubics."""
     from scipy.interpolate import BSpline
 

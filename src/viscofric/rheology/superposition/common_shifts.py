@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets, Offsets, estimated
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, parted
-from viscofric.rheology.superposition.plateau import continued, told
+from viscofric.rheology.superposition.plateau import continued, continued_covariance, told
 from viscofric.rheology.superposition.shift_problem import ShiftProblem, State
+from viscofric.rheology.superposition.step_profiles import StepProfiles
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+OFFSET_PASSES = 3  # each with the curves smoothed anew beside the offsets that were found
 LARGEST_STEP = 0.3  # decades, in one iteration
 PASSES = 8  # each with knots and smoothing chosen anew
 CONVERGED = 1e-5  # decades
@@ -41,7 +44,7 @@ class CommonShifts:
 
     The cross covariance has log10 α in its rows and log10 b in its columns.  `parted` are the places of neighbours
     that were joined pair by pair because a common curve moved them past each other; `freedom` are the degrees of
-    freedom that the scatter of the points was found from.
+    freedom that the scatter of the points was found from; `offsets` are those of whole isotherms, where sought.
     """
 
     values: Array
@@ -51,6 +54,7 @@ class CommonShifts:
     cross_covariance: Array
     parted: tuple[int, ...] = ()
     freedom: float = np.inf
+    offsets: IsothermOffsets | None = None
 
 
 def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
@@ -80,28 +84,47 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
     CommonShifts
         E' and E'' count equally; the covariance is found from the scatter that is left in each.
     """
-    found, signal = _fitted_together(sweeps, joins, gauge)
+    joins, apart, signal = _torn_apart(sweeps, joins, gauge)
     inside = told(signal, gauge)
     if inside is None:
-        return found
+        found, _ = fitted(sweeps, joins, gauge, apart, with_offsets=True)
+        return replace(found, parted=tuple(sorted(apart)))
     first, last = inside
-    part, _ = _fitted_together(sweeps[first:last], joins[first : last - 1], gauge.within(first, last))
-    values, covariance = continued(part.values, part.covariance, gauge, first, last)
-    parted_pairs = tuple(place + first for place in part.parted)
-    return CommonShifts(
-        values, covariance, found.vertical, found.vertical_covariance, found.cross_covariance, parted_pairs
+    part, within = sweeps[first:last], gauge.within(first, last)
+    joins, apart, _ = _torn_apart(part, joins[first : last - 1], within)
+    found, _ = fitted(part, joins, within, apart, with_offsets=True)
+    nothing = np.zeros(len(sweeps))
+    return replace(
+        found,
+        values=continued(found.values, gauge, first, last),
+        covariance=continued_covariance(found.covariance, gauge, first, last),
+        vertical=nothing,
+        vertical_covariance=np.diag(nothing),
+        cross_covariance=np.diag(nothing),
+        parted=tuple(sorted(place + first for place in apart)),
+        offsets=None if found.offsets is None else found.offsets.continued(gauge, first, last),
     )
 
 
-def _fitted_together(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[CommonShifts, Array]:
-    """Fit all isotherms; those that are moved past each other are joined pair by pair instead."""
+def _torn_apart(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[list[Join], set[int], Array]:
+    """Fit all isotherms; find those that are moved past each other and are to be joined pair by pair instead.
+
+    Returns
+    -------
+    joins : list of Join
+        With the uncertainty that such pairs have.
+    apart : set of int
+        Their places.
+    signal : (n,) array
+        As `fitted` returns it.
+    """
     apart: set[int] = set()
+    held = {place for place in gauge.held if place + 1 in gauge.held}
     while True:
         found, signal = fitted(sweeps, joins, gauge, apart)
-        held = {place for place in gauge.held if place + 1 in gauge.held}
         more = set(parted(sweeps, found.values)) - apart - held
         if not more:
-            return replace(found, parted=tuple(sorted(apart))), signal
+            return joins, apart, signal
         apart |= more
         joins = [
             replace(one, uncertainty=max(one.uncertainty, PAIR_UNCERTAINTY)) if place in more else one
@@ -110,7 +133,7 @@ def _fitted_together(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) ->
 
 
 def fitted(
-    sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, apart: Iterable[int] = ()
+    sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, apart: Iterable[int] = (), *, with_offsets: bool = False
 ) -> tuple[CommonShifts, Array]:
     """Fit all isotherms as they are, of moduli or of any other quantities.
 
@@ -120,6 +143,8 @@ def fitted(
         As for `common_shifts`.
     apart : iterable of int
         Places of neighbours that get curves of their own on each side.
+    with_offsets : bool
+        Whether the errors hold offsets of whole isotherms, and what profiles of the steps show; of two moduli only.
 
     Returns
     -------
@@ -137,12 +162,34 @@ def fitted(
         parameters = _descend(problem, parameters, smoothers, noise)
         if np.max(np.abs(parameters - before)) < 10 * CONVERGED:
             break
-    covariance, freedom = _covariance(problem, problem.state(parameters, smoothers, noise))
-    values, vertical = problem.split(parameters)
+    offsets, expected = None, np.zeros(sweeps[0].moduli.shape[1] * problem.size)
+    for _ in range(OFFSET_PASSES if with_offsets else 0):
+        offsets, gradient = _offsets(problem, parameters, smoothers, expected)
+        expected = offsets.expected
+        smoothers = problem.smoothers(parameters, expected)
+        noise = _noise(problem, smoothers)
+        parameters = _descend(problem, parameters, smoothers, noise)
+    covariance, freedom, inverse = _covariance(problem, problem.state(parameters, smoothers, noise, expected))
     size = problem.size
+    both = np.zeros((2 * size, 2 * size))
+    if offsets is not None:
+        gain = inverse @ gradient / noise**2
+        spread = np.kron(offsets.covariance, np.eye(size))
+        both[: len(gain)] = gain @ spread
+        profiles = StepProfiles(problem, smoothers, sweeps, spread + np.kron(np.ones((2, 2)), problem.vertical_prior()))
+        covariance = profiles.widened(parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
+    values, vertical = problem.split(parameters)
     nothing = np.zeros((size, size))
     spread, cross = (covariance[size:, size:], covariance[:size, size:]) if gauge.free_vertical else (nothing, nothing)
-    found = CommonShifts(values, covariance[:size, :size], vertical, spread, cross, freedom=freedom)
+    found = CommonShifts(
+        values,
+        covariance[:size, :size],
+        vertical,
+        spread,
+        cross,
+        freedom=freedom,
+        offsets=None if offsets is None else IsothermOffsets(offsets.covariance, both),
+    )
     return found, problem.signal(parameters, smoothers)
 
 
@@ -171,7 +218,7 @@ def _descend(problem: ShiftProblem, parameters: Array, smoothers: list[Smoother]
     return parameters
 
 
-def _covariance(problem: ShiftProblem, state: State) -> tuple[Array, float]:
+def _covariance(problem: ShiftProblem, state: State) -> tuple[Array, float, Array]:
     """Return the covariance of the shifts, the curvature of what is minimised around real scatter, and its freedom.
 
     The exact second derivatives are taken, not those of Gauss and Newton: these count the noise in the slope of
@@ -190,4 +237,18 @@ def _covariance(problem: ShiftProblem, state: State) -> tuple[Array, float]:
     taken = float(np.trace(inverse @ (normal - prior)))
     left = max(state.freedom - taken, 1.0)
     score = state.freedom / left * score
-    return np.asarray(ways @ inverse @ (score + prior) @ inverse @ ways.T), left
+    return np.asarray(ways @ inverse @ (score + prior) @ inverse @ ways.T), left, np.asarray(ways @ inverse @ ways.T)
+
+
+def _offsets(
+    problem: ShiftProblem, parameters: Array, smoothers: list[Smoother], expected: Array
+) -> tuple[Offsets, Array]:
+    """Find the variance of offsets of whole isotherms, and what each adds to the gradient that shifts follow."""
+    information, score, gradient = problem.with_offsets(parameters, smoothers, expected)
+    ways = problem.ways
+    turned = np.eye(len(score))[:, len(ways) - ways.shape[1] :]
+    turned[: len(ways), : ways.shape[1]] = ways
+    prior = ways.T @ problem.prior.T @ problem.prior @ ways
+    return estimated(
+        turned.T @ information @ turned, turned.T @ score, prior, tied=problem.gauge.free_vertical
+    ), gradient

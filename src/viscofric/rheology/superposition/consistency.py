@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.notes import Note
+from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
+from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep
 from viscofric.rheology.superposition.own_shifts import OwnShifts, own_shifts
-from viscofric.rheology.superposition.van_gurp_palmen import NeighbourDistance, neighbour_distances
+from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius
 
@@ -20,6 +23,7 @@ if TYPE_CHECKING:
 
     from viscofric.rheology.superposition.superpose import Superposition
 
+    Verdict = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
     Array = NDArray[np.float64]
 
 #: Two sweeps of one sample agree no better than this, noise apart: the moduli of one analyser, clamp and sample
@@ -89,7 +93,14 @@ class SuperpositionCheck:
         δ against |E*|; tan δ against |E*|; E'' against E'; tan δ against E'.  Moduli are divided by the vertical
         shift.
     sentences : tuple of str
-        The verdict in plain words.
+        The verdict in plain words; the first is a `Note` whose code is ``"superposition-"`` and the verdict.
+    verdict : str
+        ``"holds"``; ``"other factors"``: it does, but the shift factors do not join the isotherms; ``"not
+        identified"``: the sweeps do not fix every step of α (`Superposition.unidentified`); ``"doubtful"``: neighbours
+        lie within reproducibility, but isotherms drift to one side (`drift`); ``"roughly"`` or ``"fails"``: they lie
+        farther apart; ``"untested"``.
+    drift : Drift or None
+        The largest run of isotherms that move to one side of each other by more than their errors.
 
     Notes
     -----
@@ -108,20 +119,24 @@ class SuperpositionCheck:
     cole_cole: Diagram
     wicket: Diagram
     sentences: tuple[str, ...]
+    verdict: Verdict
+    drift: Drift | None = None
 
     def __repr__(self) -> str:
-        verdict = "holds" if self.holds else "holds only roughly" if self.roughly else "does not hold"
-        return f"SuperpositionCheck({verdict}, figure of merit {self.figure_of_merit:.2g})"
+        return f"SuperpositionCheck({self.verdict}, figure of merit {self.figure_of_merit:.2g})"
 
     @property
     def roughly(self) -> bool:
         """Whether superposition holds only roughly: the figure of merit is above 1, and not above 2."""
-        return LARGEST_FIGURE < self.figure_of_merit <= ROUGH_FIGURE
+        return self.verdict == "roughly"
 
     @property
     def holds(self) -> bool:
-        """Whether superposition holds within noise and the reproducibility of measurements."""
-        return self.figure_of_merit <= LARGEST_FIGURE
+        """Whether superposition holds within noise and the reproducibility of measurements, wherever it was tested.
+
+        False where isotherms drift to one side, or where sweeps do not fix a step of α.
+        """
+        return self.verdict in ("holds", "other factors")
 
     @property
     def consistent(self) -> bool:
@@ -147,7 +162,9 @@ def check_superposition(fit: Superposition) -> SuperpositionCheck:
     Isotherms that superpose lie on one curve of tan δ against |E*|, whatever their shifts (H. C. Booij, J. H. M.
     Palmen, Theoretical and Applied Rheology, 1992, 321; M. van Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5).  Each is
     compared with its neighbour, at right angles to that curve, so that plateaus, where it runs steeply, count as
-    well; the noise is the scatter of each isotherm about its own smooth curve.
+    well; the noise is the scatter of each isotherm about its own smooth curve.  Distances within reproducibility that
+    add up over a run of isotherms are no errors of single isotherms: a vertical shift is missing, or superposition
+    fails slowly (`Drift`).
 
     Examples
     --------
@@ -175,8 +192,12 @@ def check_superposition(fit: Superposition) -> SuperpositionCheck:
         causal_sentence = causality.sentence
     except InputError as reason:
         causality, causal_sentence = None, f"E' was not tested against E'': {reason}"
+    drifting = drift(neighbours, 0.0 if fit.offsets is None else fit.offsets.largest)
+    verdict = _verdict(fit, neighbours, figure, drifting, own)
+    headline, *others = _words(verdict, fit, neighbours, figure, ratio, own, drifting)
     sentences = (
-        *_verdict(neighbours, figure, ratio, vertical is not None, own),
+        Note(f"superposition-{verdict.replace(' ', '-')}", headline),
+        *others,
         *_overlap(figure, fit.quality.joint),
         *_gaps(fit),
         causal_sentence,
@@ -195,6 +216,8 @@ def check_superposition(fit: Superposition) -> SuperpositionCheck:
         Diagram(storage, loss, temperature, "E'", "E''"),
         Diagram(storage, tangent, temperature, "E'", "tan δ"),
         sentences,
+        verdict,
+        drifting,
     )
 
 
@@ -216,11 +239,36 @@ def _points(fit: Superposition, log10_b: Array) -> tuple[Array, Array, Array]:
 
 
 def _verdict(
-    neighbours: tuple[NeighbourDistance, ...], figure: float, ratio: Array, vertical: bool, own: OwnShifts
+    fit: Superposition,
+    neighbours: tuple[NeighbourDistance, ...],
+    figure: float,
+    drifting: Drift | None,
+    own: OwnShifts,
+) -> Verdict:
+    """Return the verdict in a word: the worst that was found."""
+    if not neighbours:
+        return "untested"
+    if figure > LARGEST_FIGURE:
+        return "fails" if figure > ROUGH_FIGURE else "roughly"
+    if drifting is not None:
+        return "doubtful"
+    if fit.unidentified:
+        return "not identified"
+    return "other factors" if own.wrong else "holds"
+
+
+def _words(
+    verdict: Verdict,
+    fit: Superposition,
+    neighbours: tuple[NeighbourDistance, ...],
+    figure: float,
+    ratio: Array,
+    own: OwnShifts,
+    drifting: Drift | None,
 ) -> tuple[str, ...]:
     """Say whether superposition holds, and whether it does with these shift factors."""
     wrong = (f"The shift factors do not join the isotherms: {own.clause}.",) if own.wrong else ()
-    if not neighbours:
+    if verdict == "untested":
         sentence = (
             "Superposition was not tested: no two neighbouring isotherms come to lie beside each other in tan δ "
             "against |E*|."
@@ -230,21 +278,42 @@ def _verdict(
     between, noise = _rms(distance), _median(np.array([pair.standard_error for pair in neighbours]))
     apart = f"neighbouring isotherms lie {_decades(between)} apart (rms) in tan δ against |E*|"
     merit = f"figure of merit {figure:.2g}, up to {LARGEST_FIGURE:g} counts as sound"
-    if figure <= LARGEST_FIGURE:
-        beyond = (
-            "" if between <= LEVEL_95 * noise else f"; the noise is {noise:.1g} decades, so that some of it is real"
+    free = isinstance(fit.vertical_shift, VerticalShiftFactors)
+    drifts = () if drifting is None else (f"{_drift(drifting)}.",)
+    if verdict in ("roughly", "fails"):
+        worst = [neighbours[place] for place in np.argsort(-ratio)[:_NAMED] if ratio[place] > LARGEST_FIGURE]
+        where = ", ".join(f"{celsius(pair.colder):z.0f} and {celsius(pair.warmer):z.0f} °C" for pair in worst)
+        cure = "" if fit.vertical_shift else "; a free vertical shift may mend what is a change of modulus alone"
+        how = "does not hold" if verdict == "fails" else "holds only roughly"
+        sentence = (
+            f"Superposition {how}: {apart} ({merit}, above {ROUGH_FIGURE:g} as failed), whatever the shift factors, "
+            f"most of all between {where}{cure}."
         )
-        if own.wrong:
-            apart = f"{apart}, whatever the shift factors"
-            return (f"Superposition holds, but not with these shift factors: {own.clause}; {apart} ({merit}{beyond}).",)
-        return (f"Superposition holds: {apart} ({merit}{beyond}).",)
-    worst = [neighbours[place] for place in np.argsort(-ratio)[:_NAMED] if ratio[place] > LARGEST_FIGURE]
-    where = ", ".join(f"{celsius(pair.colder):z.0f} and {celsius(pair.warmer):z.0f} °C" for pair in worst)
-    cure = "" if vertical else "; a free vertical shift may mend what is a change of modulus alone"
-    how = "does not hold" if figure > ROUGH_FIGURE else "holds only roughly"
-    merit = f"{merit}, above {ROUGH_FIGURE:g} as failed"
-    sentence = f"Superposition {how}: {apart} ({merit}), whatever the shift factors, most of all between {where}{cure}."
-    return sentence, *wrong
+        return sentence, *drifts, *wrong
+    if drifting is not None:
+        cure = "Superpose fewer temperatures" if free else 'Superpose with vertical="free", or fewer temperatures'
+        sentence = f"Superposition is doubtful: {_drift(drifting)}, although {apart} ({merit}). {cure}."
+        return sentence, *wrong
+    beyond = "" if between <= LEVEL_95 * noise else f"; the noise is {noise:.1g} decades, so that some of it is real"
+    if verdict == "not identified":
+        where = ranges(fit.unidentified)
+        sentence = (
+            f"Superposition is tested only in part: α is not identified from {where}, where the sweeps join about as "
+            f"well over a wide range of shifts; elsewhere {apart} ({merit}{beyond})."
+        )
+        return sentence, *wrong
+    if own.wrong:
+        apart = f"{apart}, whatever the shift factors"
+        return (f"Superposition holds, but not with these shift factors: {own.clause}; {apart} ({merit}{beyond}).",)
+    return (f"Superposition holds: {apart} ({merit}{beyond}).",)
+
+
+def _drift(found: Drift) -> str:
+    return (
+        f"from {celsius(found.colder):z.0f} to {celsius(found.warmer):z.0f} °C isotherms move steadily to one side in "
+        f"tan δ against |E*|, by {_decades(abs(found.distance))} ± {found.standard_error:.1g} over "
+        f"{found.neighbours} neighbours"
+    )
 
 
 def _overlap(figure: float, misfit: float) -> tuple[str, ...]:

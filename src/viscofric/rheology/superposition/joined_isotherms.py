@@ -13,6 +13,8 @@ from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, j
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from viscofric.data import Isotherm
@@ -67,6 +69,17 @@ class JoinedIsotherms:
 def shown(kelvin: float) -> str:
     """Write a temperature as users read it."""
     return f"{celsius(kelvin):z.1f} °C"
+
+
+def ranges(steps: Iterable[tuple[float, float]]) -> str:
+    """Write steps from a colder to a warmer temperature, ascending, as ranges: neighbouring ones as one."""
+    runs: list[list[float]] = []
+    for colder, warmer in steps:
+        if runs and runs[-1][1] == colder:
+            runs[-1][1] = warmer
+        else:
+            runs.append([colder, warmer])
+    return ", ".join(f"{shown(colder)} to {shown(warmer)}" for colder, warmer in runs)
 
 
 def usable(isotherms: tuple[Isotherm, ...]) -> None:

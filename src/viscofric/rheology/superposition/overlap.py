@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,9 @@ COMMON_MODULI = 0.25
 #: … and where they are joined pair by pair, E' and E'' ask for steps that differ by about so much.
 PAIR_UNCERTAINTY = 0.5  # decades
 SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
+LEVEL_95 = 1.959963984540054
+#: Sides of an interval that differ by more than this are no parabola with noise.
+LOPSIDED = 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +77,9 @@ class Join:
     misfit : float
         Joint rms √((ΔE'² + ΔE''²)/2) of the log moduli where they overlap, decades.
     uncertainty : float
-        Standard error of the step if that misfit were noise; large on a plateau.
+        Standard error of the step if the misfit is one error of each modulus, alike along the overlap: half of the
+        interval of steps whose χ² is within 1.96² of the best, over 1.96; or, if that is more, the root mean square of
+        what it differs by from the steps that E' and E'' ask for, each by itself.
     """
 
     step: float
@@ -88,10 +93,7 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
     The colder one is compared at its own points, as in `OverlapQuality`.  Where the data cannot tell (a
     plateau), the smallest of the equally good steps is taken.
     """
-    span = min(np.ptp(colder.frequency), np.ptp(warmer.frequency))
-    margin = SMALLEST_OVERLAP * span
-    lowest = warmer.frequency[0] - colder.frequency[-1] + margin
-    highest = warmer.frequency[-1] - colder.frequency[0] - margin
+    lowest, highest = steps_that_overlap(colder, warmer)
     steps = np.linspace(lowest, highest, max(3, int((highest - lowest) / STEP)))
     frequency = colder.frequency + steps[:, None]
     inside = warmer.covers(frequency)
@@ -105,7 +107,41 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
         best = int(np.argmin(np.abs(steps - as_good[np.argmin(np.abs(as_good))])))
     if misfit[best] == np.inf:
         return Join(float(steps[best]), np.inf, np.inf)
-    return join_at(colder, warmer, float(steps[best]))
+    found = join_at(colder, warmer, float(steps[best]))
+    allowed = (found.misfit + SMALLEST_NOISE) ** 2 * (1.0 + LEVEL_95**2 / colder.moduli.shape[1])
+    half = allowed_half_width(steps - found.step, misfit**2, allowed)
+    squares = (
+        np.where(np.isfinite(misfit)[:, None], np.sum(differences**2, axis=1), np.inf) / np.maximum(count, 1)[:, None]
+    )
+    away = steps[np.argmin(squares, axis=0)] - found.step
+    return replace(found, uncertainty=max(found.uncertainty, half / LEVEL_95, float(np.sqrt(np.mean(away**2)))))
+
+
+def steps_that_overlap(colder: LogSweep, warmer: LogSweep) -> tuple[float, float]:
+    """Return the smallest and the largest step that leave two sweeps lying over each other."""
+    margin = SMALLEST_OVERLAP * float(min(np.ptp(colder.frequency), np.ptp(warmer.frequency)))
+    return (
+        float(warmer.frequency[0] - colder.frequency[-1]) + margin,
+        float(warmer.frequency[-1] - colder.frequency[0]) - margin,
+    )
+
+
+def allowed_half_width(moves: Array, rise: Array, threshold: float) -> float:
+    """Return half of the interval about zero of moves, ascending, whose rise is below a threshold.
+
+    It is the root mean square of the two sides where these are about alike, as noise makes them, and the wider side
+    where they are not.  Between moves the root of the rise is taken as straight, as it is for a parabola about zero.
+    """
+    allowed = np.flatnonzero(rise <= threshold)
+    ends = []
+    for last, beyond in ((allowed[0], allowed[0] - 1), (allowed[-1], allowed[-1] + 1)):
+        end = moves[last]
+        if 0 <= beyond < len(moves) and np.isfinite(rise[beyond]):
+            low, high = np.sqrt(max(rise[last], 0.0)), np.sqrt(rise[beyond])
+            end = end + (moves[beyond] - end) * (np.sqrt(threshold) - low) / (high - low)
+        ends.append(abs(float(end)))
+    narrow, wide = sorted(ends)
+    return wide if wide > LOPSIDED * narrow else float(np.hypot(narrow, wide) / np.sqrt(2.0))
 
 
 def join_at(colder: LogSweep, warmer: LogSweep, step: float) -> Join:

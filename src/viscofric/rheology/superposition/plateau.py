@@ -49,13 +49,13 @@ def told(signal: Array, gauge: Gauge) -> tuple[int, int] | None:
     return first, last
 
 
-def continued(values: Array, covariance: Array, gauge: Gauge, first: int, last: int) -> tuple[Array, Array]:
-    """Continue shifts over the plateaus at both ends, straight in 1/T, with an uncertainty that grows.
+def continued(values: Array, gauge: Gauge, first: int, last: int) -> Array:
+    """Continue shifts over the plateaus at both ends, straight in 1/T.
 
     Parameters
     ----------
-    values, covariance : (m,) and (m, m) array
-        log10 α from the first to before the last isotherm.
+    values : (m, …) array
+        log10 α from the first to before the last isotherm, or anything that is linear in them.
     gauge : Gauge
         Of all isotherms.
     first, last : int
@@ -63,28 +63,46 @@ def continued(values: Array, covariance: Array, gauge: Gauge, first: int, last: 
 
     Returns
     -------
-    values, covariance
-        Of all isotherms, zero at the reference.  From step to step the rate of change with 1/T may change by `BEND`.
+    (n, …) array
+        Of all isotherms, zero at the reference.
     """
     inverse = gauge.inverse_temperatures
     size = len(inverse)
     onto = np.zeros((size, last - first))
     onto[first:last] = np.eye(last - first)
-    spread = np.zeros((size, size))
-    typical = float(np.median(np.abs(np.diff(inverse))))
-    for end, before, places in (
-        (last - 1, last - 1 - TREND_STEPS, np.arange(last, size)),
-        (first, first + TREND_STEPS, np.arange(first - 1, -1, -1)),
-    ):
-        if not len(places):
-            continue
+    for end, before, places in _ends(size, first, last):
         further = (inverse[places] - inverse[end]) / (inverse[end] - inverse[before])
         onto[places, end - first] = 1.0 + further
         onto[places, before - first] = -further
+    return np.asarray(np.tensordot(_change(gauge) @ onto, values, axes=1))
+
+
+def continued_covariance(covariance: Array, gauge: Gauge, first: int, last: int) -> Array:
+    """Return the covariance (n, n) of continued shifts from that of the fitted ones (m, m).
+
+    It grows: from step to step the rate of change with 1/T may change by `BEND`.
+    """
+    inverse = gauge.inverse_temperatures
+    size = len(inverse)
+    spread = np.zeros((size, size))
+    typical = float(np.median(np.abs(np.diff(inverse))))
+    for end, _, places in _ends(size, first, last):
         reached = np.abs(inverse[places] - inverse[end]) / typical
         start = np.concatenate([[0.0], reached[:-1]])
         walk = BEND * np.maximum(reached[:, None] - start, 0.0)
         spread[np.ix_(places, places)] = walk @ walk.T
-    full, spread = onto @ values, spread + onto @ covariance @ onto.T
-    change = np.eye(size) - gauge.weights
-    return change @ full, change @ spread @ change.T
+    change = _change(gauge)
+    fitted = continued(continued(covariance, gauge, first, last).T, gauge, first, last)
+    return np.asarray(fitted + change @ spread @ change.T)
+
+
+def _ends(size: int, first: int, last: int) -> list[tuple[int, int, NDArray[np.intp]]]:
+    """Return for each end with a plateau: its last fitted isotherm, the one that the trend is from, and the plateau."""
+    hot = last - 1, last - 1 - TREND_STEPS, np.arange(last, size)
+    cold = first, first + TREND_STEPS, np.arange(first - 1, -1, -1)
+    return [end for end in (hot, cold) if len(end[2])]
+
+
+def _change(gauge: Gauge) -> Array:
+    """Return what brings shifts to zero at the reference."""
+    return np.asarray(np.eye(len(gauge.weights)) - gauge.weights)

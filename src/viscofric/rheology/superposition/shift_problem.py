@@ -55,6 +55,11 @@ class _Piece:
         )
 
     @property
+    def same(self) -> NDArray[np.bool_]:
+        """Whether each point and the next belong to one isotherm."""
+        return np.asarray(self.isotherm[1:] == self.isotherm[:-1])
+
+    @property
     def size(self) -> int:
         return self.last - self.first
 
@@ -69,6 +74,10 @@ class _Piece:
             self.moduli - vertical[inside][self.isotherm][:, None],
             self.weights,
         )
+
+    def own(self, values: Array) -> Array:
+        """Return to each point what its isotherm has, of all isotherms (N, …): (n, …)."""
+        return np.asarray(values[self.first : self.last][self.isotherm])
 
     def gathered(self, values: Array) -> Array:
         """Add up what points of the same isotherm have: (n, …) to (isotherms, …)."""
@@ -133,6 +142,14 @@ class ShiftProblem:
             wanted = np.concatenate([wanted, np.zeros(size - 1)])
         return rows, wanted
 
+    def vertical_prior(self) -> Array:
+        """Return the covariance (n, n) of vertical shifts before any point is seen, zero where none are sought."""
+        inner = self.ways[self.size :]
+        if not len(inner):
+            return np.zeros((self.size, self.size))
+        rows = self.prior @ self.ways
+        return np.asarray(inner @ np.linalg.pinv(rows.T @ rows) @ inner.T)
+
     def split(self, parameters: Array) -> tuple[Array, Array]:
         """Return horizontal and vertical shifts."""
         if self.gauge.free_vertical:
@@ -150,12 +167,68 @@ class ShiftProblem:
             ratios.append(squares.sum(axis=1) / noise.sum(axis=1))
         return np.concatenate(ratios)
 
-    def smoothers(self, parameters: Array) -> list[Smoother]:
-        """Choose knots and smoothing of every piece anew."""
-        return [Smoother.fitted(*piece.reduced(*self.split(parameters))) for piece in self.pieces]
+    def _of_isotherms(self, offsets: Array | None) -> Array:
+        """Return offsets (m n) as those of each isotherm (n, m), zeros if there are none."""
+        moduli = self.pieces[0].moduli.shape[1]
+        return np.zeros((self.size, moduli)) if offsets is None else offsets.reshape(moduli, self.size).T
 
-    def state(self, parameters: Array, smoothers: list[Smoother], noise: float) -> State:
-        """Draw the curves at these shifts and say how what is minimised changes with them."""
+    def smoothers(self, parameters: Array, offsets: Array | None = None) -> list[Smoother]:
+        """Choose knots and smoothing of every piece anew, of moduli less offsets (m n) of the isotherms if given."""
+        less = self._of_isotherms(offsets)
+        found = []
+        for piece in self.pieces:
+            frequency, moduli, weights = piece.reduced(*self.split(parameters))
+            found.append(Smoother.fitted(frequency, moduli - piece.own(less), weights))
+        return found
+
+    def with_offsets(self, parameters: Array, smoothers: list[Smoother], expected: Array) -> tuple[Array, Array, Array]:
+        """Say how p parameters and offsets of the m moduli of n isotherms act together, the curves being refitted.
+
+        Points beside the expected offsets (m n) count for fewer where they are alike.
+
+        Returns
+        -------
+        information : (p + m n, p + m n) array
+            Half of the second derivatives of the squares, in units of the scatter of each modulus.
+        score : (p + m n,) array
+            Half of the decrease of these squares.
+        gradient : (p, m n) array
+            What each offset adds to half of the decrease of the plain squares with the parameters, 1/decades.
+        """
+        count = len(self.start)
+        whole = count + len(expected)
+        information, score, gradient = np.zeros((whole, whole)), np.zeros(whole), np.zeros((count, len(expected)))
+        for piece, smoother in zip(self.pieces, smoothers, strict=True):
+            inside = np.arange(piece.first, piece.last)
+            shifts = np.concatenate([inside, inside + self.size]) if self.gauge.free_vertical else inside
+            frequency, moduli, weights = piece.reduced(*self.split(parameters))
+            curves = smoother.curves(frequency, moduli, weights)
+            less = piece.own(self._of_isotherms(expected))
+            scatters = smoother.scatter * np.sqrt(
+                [_inflation(one, piece.same) for one in smoother.curves(frequency, moduli - less, weights).residual.T]
+            )
+            belongs = np.eye(piece.size)[piece.isotherm]
+            level = belongs * curves.root
+            slopes = curves.slopes_of_basis() @ curves.coefficients
+            for modulus, scatter in enumerate(scatters):
+                moved = belongs * slopes[:, modulus : modulus + 1]
+                moved -= moved.mean(axis=1, keepdims=True)  # see `_Piece.reduced`
+                columns = np.concatenate([moved, level, level] if self.gauge.free_vertical else [moved, level], axis=1)
+                offsets = modulus * self.size + inside
+                places = np.concatenate([shifts, count + offsets])
+                onto = curves.basis.T @ columns
+                found = columns.T @ columns - onto.T @ curves.inverse[modulus] @ onto
+                information[np.ix_(places, places)] += found / scatter**2
+                score[places] += columns.T @ curves.residual[:, modulus] / scatter**2
+                gradient[np.ix_(shifts, offsets)] += found[: len(shifts), len(shifts) :]
+        return information, score, gradient
+
+    def state(self, parameters: Array, smoothers: list[Smoother], noise: float, offsets: Array | None = None) -> State:
+        """Draw the curves at these shifts and say how what is minimised changes with them.
+
+        With offsets (m n) of the isotherms given, `score` is that of the scatter which is left beside them.
+        """
+        less = self._of_isotherms(offsets)
         away = self.wanted - self.prior @ parameters
         cost, gradient = float(away @ away), self.prior.T @ away
         information = self.prior.T @ self.prior
@@ -165,7 +238,8 @@ class ShiftProblem:
             places = np.arange(piece.first, piece.last)
             if self.gauge.free_vertical:
                 places = np.concatenate([places, places + self.size])
-            found = _derivatives(piece, smoother, piece.reduced(*self.split(parameters)), self.gauge.free_vertical)
+            reduced = piece.reduced(*self.split(parameters))
+            found = _derivatives(piece, smoother, reduced, self.gauge.free_vertical, piece.own(less))
             square = np.ix_(places, places)
             cost += found.cost / noise**2
             gradient[places] += found.gradient / noise**2
@@ -176,12 +250,17 @@ class ShiftProblem:
         return State(cost, gradient, normal, curvature, score, freedom)
 
 
-def _derivatives(piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array, Array], free_vertical: bool) -> State:
+def _derivatives(
+    piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array, Array], free_vertical: bool, offsets: Array
+) -> State:
     """Return cost, gradient and curvature of one piece, the curves being refitted wherever the shifts go.
 
     With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y the moduli and s a shift, the cost is yᵀMy.  Both its derivatives are exact.
     """
     curves = smoother.curves(*reduced)
+    lifted = (
+        smoother.curves(reduced[0], reduced[1] - offsets, reduced[2]).residual if np.any(offsets) else curves.residual
+    )
     basis_slopes = curves.slopes_of_basis()
     slopes = basis_slopes @ curves.coefficients
     bends = curves.bends()
@@ -189,7 +268,6 @@ def _derivatives(piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array,
     count = 2 * piece.size if free_vertical else piece.size
     gradient, normal = np.zeros(count), np.zeros((count, count))
     curvature, score = np.zeros((count, count)), np.zeros((count, count))
-    same = piece.isotherm[1:] == piece.isotherm[:-1]
     for modulus in range(curves.residual.shape[1]):
         residual = curves.residual[:, modulus]
         moved = belongs * slopes[:, modulus : modulus + 1]
@@ -207,7 +285,7 @@ def _derivatives(piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array,
         second = square - bent @ inverse @ bent.T
         second[: piece.size, : piece.size] -= np.diag(piece.gathered(bends[:, modulus] * residual))
         curvature += second
-        score += smoother.scatter[modulus] ** 2 * _inflation(residual, same) * information
+        score += smoother.scatter[modulus] ** 2 * _inflation(lifted[:, modulus], piece.same) * information
     moves = np.eye(count)
     moves[: piece.size, : piece.size] -= 1.0 / piece.size  # see `_Piece.reduced`
     gradient, normal, curvature, score = (
@@ -219,8 +297,8 @@ def _derivatives(piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array,
     return State(curves.cost, gradient, normal, curvature, score, curves.freedom)
 
 
-def _inflation(residual: Array, same: Array) -> float:
-    """Return how much less n points tell whose residuals are alike: a misfit rather than noise."""
+def _inflation(residual: Array, same: NDArray[np.bool_]) -> float:
+    """Return how much less points tell whose residuals are alike."""
     squares = float(residual @ residual)
     alike = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0
     return (1.0 + alike) / (1.0 - alike) if alike > 0.0 else 1.0

@@ -26,6 +26,38 @@ if TYPE_CHECKING:
 _DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)
 #: Segments of the curve that distances are taken to; their length leaves an error below 1e-4 decades.
 _SEGMENTS = 40
+#: Isotherms drift apart if so many neighbours or more lie to the same side of each other on the whole …
+RUN = 3
+#: … by more than this in all, which two isotherms differ by that repeat to 0.02 decades …
+DRIFT = 0.045  # decades
+#: … and by more than so many standard errors.  A single distance counts for no more than this part of the above: one
+#: sweep that went wrong is no drift.
+SURE = 5.0
+LARGEST_PART = 2.0 / 3.0
+
+
+@dataclass(frozen=True)
+class Drift:
+    """A run of isotherms that move away from each other to one side, as no error of single isotherms makes them.
+
+    Parameters
+    ----------
+    colder, warmer : float
+        Ends of the run, K.
+    distance : float
+        Sum of the signed distances of neighbours, decades; above zero where tan δ falls with temperature at the same
+        |E*|.
+    standard_error : float
+        Of the sum, decades.
+    neighbours : int
+        Pairs of neighbours in the run.
+    """
+
+    colder: float
+    warmer: float
+    distance: float
+    standard_error: float
+    neighbours: int
 
 
 @dataclass(frozen=True)
@@ -115,6 +147,36 @@ def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[
                 NeighbourDistance(colder.temperature, warmer.temperature, float(distance), float(error), points)
             )
     return tuple(found)
+
+
+def drift(neighbours: Sequence[NeighbourDistance], offset: float = 0.0) -> Drift | None:
+    """Return the largest drift, or None where there is none.
+
+    Parameters
+    ----------
+    neighbours : sequence of NeighbourDistance
+        Of all isotherms.
+    offset : float
+        Standard deviation of what all points of an isotherm are wrong by, in log |E*| or log tan δ; decades.
+
+    Notes
+    -----
+    Errors of single isotherms cancel in the sum over a run, but for its two ends; what changes with temperature adds
+    up: a vertical shift that was left out, a second relaxation, a sample that changes.  All runs are looked at.
+    """
+    found = None
+    for first in range(len(neighbours)):
+        total, distance, variance = 0.0, 0.0, 2.0 * offset**2
+        for count, pair in enumerate(neighbours[first:], 1):
+            if count > 1 and pair.colder != neighbours[first + count - 2].warmer:
+                break
+            total += float(np.clip(pair.distance, -LARGEST_PART * DRIFT, LARGEST_PART * DRIFT))
+            distance += pair.distance
+            variance += pair.standard_error**2
+            largest = DRIFT if found is None else abs(found.distance)
+            if count >= RUN and abs(total) > DRIFT and abs(distance) > max(largest, SURE * np.sqrt(variance)):
+                found = Drift(neighbours[first].colder, pair.warmer, distance, float(np.sqrt(variance)), count)
+    return found
 
 
 def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:

@@ -86,14 +86,15 @@ def sample_materials(
     sample the isotherms are moved by errors of their shifts, all at once from their covariance; the moduli
     are those of the fitted spectrum with errors like its residuals (`Residuals`); and the spectrum is fitted
     anew.  Errors of the shifts and of the moduli about the curve are independent to first order, for in the
-    least squares that find both they belong to orthogonal spaces.
+    least squares that find both they belong to orthogonal spaces.  Offsets of whole isotherms
+    (`Superposition.offsets`) are drawn together with the errors of the shifts, which follow them.
 
     What the spectrum misses beyond noise, alike over neighbouring points, is not drawn either, for it has no
     distribution; `MaterialSamples.misfit` holds its size, by which the bands of E(ω) are widened.
 
-    Not drawn are errors common to a whole measurement (of the sample's dimensions, the temperature scale or the
-    clamping), and what a fit cannot follow: sparse modes ripple about the truth, so that their 95 % bands
-    of E'' held 90 % in planted tests; use the non-negative spectrum where the band matters.
+    Not drawn are errors common to a whole measurement (of the sample's dimensions or the temperature scale), and what
+    a fit cannot follow: sparse modes ripple about the truth, so that their 95 % bands of E'' held 90 % in planted
+    tests; use the non-negative spectrum where the band matters.
 
     Examples
     --------
@@ -113,14 +114,14 @@ def sample_materials(
     spectrum = fit_retardation_spectrum(curve) if spectrum is None else spectrum
     _insist_on_same_curve(spectrum, curve)
     random = np.random.default_rng(seed)
-    tables, verticals = _tables(random, fit, samples)
+    tables, verticals, offsets = _tables(random, fit, samples)
     moved = np.array([table.log10_values for table in tables]) - shifts.log10_values
     raised = np.zeros_like(moved)
     if isinstance(fit.vertical_shift, VerticalShiftFactors):
         drawn = [one.log10_values for one in verticals if isinstance(one, VerticalShiftFactors)]
         raised = np.array(drawn) - fit.vertical_shift.log10_values
     laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, shifts, moved, shifts.law(law))
-    fitted = _refitted(random, fit, spectrum, moved, raised)
+    fitted = _refitted(random, fit, spectrum, moved, offsets - raised[..., None])
     materials = []
     for modes, shift, vertical in zip(fitted, laws, verticals, strict=True):
         material = Material(as_spectrum(modes), shift, poisson_ratio, name)
@@ -169,7 +170,7 @@ def _misfit(curve: MasterCurve, shifts: ShiftFactors, spectrum: RetardationSpect
 
 
 def _refitted(
-    random: np.random.Generator, fit: Superposition, spectrum: RetardationSpectrum, moved: Array, raised: Array
+    random: np.random.Generator, fit: Superposition, spectrum: RetardationSpectrum, moved: Array, levels: Array
 ) -> list[Modes]:
     """Fit the spectrum to samples of the master curve.
 
@@ -177,8 +178,10 @@ def _refitted(
     ----------
     random, fit, spectrum
         As in `sample_materials`.
-    moved, raised : (samples, isotherms) array
-        Errors of log10 α and log10 b.
+    moved : (samples, isotherms) array
+        Errors of log10 α.
+    levels : (samples, isotherms, 2) array
+        Errors of log10 E' and log10 E'' that all points of an isotherm share.
     """
     curve, isotherm = fit.master_curve, _isotherm_of_points(fit.master_curve, fit.shift_factors)
     # By isotherm, frequencies ascending in each: errors are alike along isotherms.
@@ -190,10 +193,12 @@ def _refitted(
     away = misfit.residual(1.0 / modulus).reshape(2, -1).T
     fitted_shift = fit.shift_factors.standard_errors[isotherm] > 0.0
     leverage = _leverage(misfit, spectrum, np.where(fitted_shift, isotherm, -1)).reshape(2, -1).T
+    if fit.offsets is not None:
+        away = _without_offsets(away, isotherm, np.log(10.0) * fit.offsets.standard_deviations)
     residuals = Residuals(away, np.unique(isotherm, return_inverse=True)[1], leverage)
     frequencies = np.log(omega) + np.log(10.0) * moved[:, isotherm]
     refit = Refit(spectrum, float(np.exp(frequencies.min())), float(np.exp(frequencies.max())))
-    errors = residuals.draw(random, len(moved)) - np.log(10.0) * raised[:, isotherm, None]
+    errors = residuals.draw(random, len(moved)) + np.log(10.0) * levels[:, isotherm]
     fitted = []
     for frequency, error in zip(frequencies, errors, strict=True):
         moduli = np.exp(logarithms + error)
@@ -201,6 +206,18 @@ def _refitted(
         measured = moduli[ascending, 0] + 1j * moduli[ascending, 1]
         fitted.append(refit(ModulusMisfit(np.exp(frequency[ascending]), measured)))
     return fitted
+
+
+def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Array:
+    """Return residuals (N, 2) less the part of each isotherm's mean that is its offset, of standard deviation (2,).
+
+    Offsets are drawn by themselves; left in the residuals, they would pass for noise that is alike along isotherms.
+    """
+    number = np.unique(isotherm, return_inverse=True)[1]
+    count = np.bincount(number)[:, None]
+    mean = np.stack([np.bincount(number, weights=column) for column in residual.T], axis=1) / count
+    noise = np.mean((residual - mean[number]) ** 2, axis=0) / count
+    return np.asarray(residual - (mean * offset**2 / (offset**2 + noise + 1e-300))[number])
 
 
 def _leverage(misfit: ModulusMisfit, spectrum: RetardationSpectrum, isotherm: Integers) -> Array:
@@ -242,8 +259,11 @@ def _drawn(random: np.random.Generator, covariance: Array, samples: int) -> Arra
 
 def _tables(
     random: np.random.Generator, fit: Superposition, samples: int
-) -> tuple[list[ShiftFactors], Sequence[VerticalShift | None]]:
-    """Draw shift factors and, where they were measured, vertical shifts: both at once, for they err together."""
+) -> tuple[list[ShiftFactors], Sequence[VerticalShift | None], Array]:
+    """Draw shift factors, vertical shifts where they were measured, and offsets: all at once, for they err together.
+
+    Offsets are those of log10 E' and log10 E'', (samples, isotherms, 2).
+    """
     shifts, vertical = fit.shift_factors, fit.vertical_shift
     size = len(shifts.temperatures)
     covariance = shifts.covariance
@@ -251,12 +271,20 @@ def _tables(
         cross = fit.cross_covariance
         cross = np.zeros((size, size)) if cross is None else cross
         covariance = np.block([[shifts.covariance, cross], [cross.T, vertical.covariance]])
+    count = len(covariance)
+    if fit.offsets is not None:
+        shared = fit.offsets.with_shifts[:count]
+        covariance = np.block([[covariance, shared], [shared.T, np.kron(fit.offsets.covariance, np.eye(size))]])
     errors = _drawn(random, covariance, samples)
+    offsets = np.zeros((samples, size, 2))
+    if fit.offsets is not None:
+        offsets = np.swapaxes(errors[:, count:].reshape(samples, 2, size), 1, 2)
     tables = [ShiftFactors(shifts.temperatures, shifts.log10_values + row[:size], shifts.reference) for row in errors]
     if not isinstance(vertical, VerticalShiftFactors):
-        return tables, [vertical] * samples
-    rows = vertical.log10_values + errors[:, size:]
-    return tables, [VerticalShiftFactors(vertical.temperatures, row, vertical.reference) for row in rows]
+        return tables, [vertical] * samples, offsets
+    rows = vertical.log10_values + errors[:, size:count]
+    drawn = [VerticalShiftFactors(vertical.temperatures, row, vertical.reference) for row in rows]
+    return tables, drawn, offsets
 
 
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:

@@ -8,8 +8,6 @@ import numpy as np
 
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
-from viscofric.rheology.superposition.overlap import LogSweep
-from viscofric.rheology.superposition.own_shifts import own_shifts
 from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
@@ -19,6 +17,8 @@ if TYPE_CHECKING:
 _HEADLINES = {
     "holds": "Superposition holds",
     "other factors": "Superposition holds, but not with these shift factors",
+    "not identified": "Superposition is tested only in part",
+    "doubtful": "Superposition is doubtful",
     "roughly": "Superposition holds only roughly",
     "fails": "Superposition does not hold",
     "untested": "Whether superposition holds cannot be told",
@@ -35,14 +35,13 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``verdict``: "holds", "other factors", "roughly", "fails" or "untested"; ``headline`` and ``sentences``;
+        ``verdict`` (`SuperpositionCheck.verdict`), ``headline`` and ``sentences``;
         distances of ``neighbours`` in decades; ``diagrams`` in SI units and rad; ``kramers_kronig`` or None.
     """
     check = fit.check
-    verdict = _verdict(fit, check)
     return {
-        "verdict": verdict,
-        "headline": _HEADLINES[verdict],
+        "verdict": check.verdict,
+        "headline": _HEADLINES[check.verdict],
         "sentences": list(check.sentences),
         "figure_of_merit": plain(check.figure_of_merit),
         "neighbours": [
@@ -62,20 +61,6 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
         },
         "kramers_kronig": _kramers_kronig(check),
     }
-
-
-def _verdict(fit: Superposition, check: SuperpositionCheck) -> str:
-    if not check.neighbours:
-        return "untested"
-    if check.roughly:
-        return "roughly"
-    if not check.holds:
-        return "fails"
-    vertical = fit.vertical_shift
-    logs = [
-        LogSweep.of(one, 0.0 if vertical is None else float(vertical.log10(one.temperature))) for one in fit.isotherms
-    ]
-    return "other factors" if own_shifts(logs, fit.shift_factors.log10_values).wrong else "holds"
 
 
 def _by_temperature(diagram: Diagram) -> list[dict[str, Any]]:

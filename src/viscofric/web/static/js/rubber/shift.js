@@ -20,7 +20,15 @@ const VERTICALS = [
   ["free", "fitted"],
   ["density", "density times temperature"],
 ];
-const KIND = { holds: "good", "other factors": "warning", roughly: "warning", fails: "error", untested: "warning" };
+const KIND = {
+  holds: "good",
+  "other factors": "warning",
+  "not identified": "warning",
+  doubtful: "warning",
+  roughly: "warning",
+  fails: "error",
+  untested: "warning",
+};
 
 export function mount(section, app) {
   const { state, fields, figures } = app;

@@ -1,0 +1,127 @@
+"""Offsets of whole isotherms: how large they are, found from what no shift removes.
+
+A sample clamped anew, dimensions read again: E' and E'' of an isotherm are each too large or too small by one factor
+at all its frequencies.  More points do not average that out.  The variance follows from the misfit of neighbours that
+no shift removes, by restricted maximum likelihood (H. D. Patterson, R. Thompson, Biometrika 58 (1971) 545) with the
+shifts linearised.  Some twenty isotherms know a variance to a factor of two, so it is averaged over its likelihood.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.rheology.superposition.plateau import continued
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.rheology.superposition.gauge import Gauge
+
+    Array = NDArray[np.float64]
+
+#: Standard deviations that are tried, decades, 0.1 to 25 % …
+SIZES = np.logspace(-3.4, -1.0, 13)
+#: … and none, which beforehand is so many times as likely as all these together.
+NONE = 3.0
+#: Of offsets of log E' and log E'' the sum and the difference, over √2, each have a variance of their own.  Beforehand
+#: the two sizes are alike within a factor of 2: where the curves are power laws, a shift takes up the sum.
+TURN = np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)
+
+
+@dataclass(frozen=True, eq=False)
+class IsothermOffsets:
+    """Offsets of log E' and of log E'' that all points of an isotherm share, and how found shifts follow them.
+
+    Parameters
+    ----------
+    covariance : (2, 2) array
+        Of the offset of log E' and that of log E'' of one isotherm, decades²; isotherms are independent.
+    with_shifts : (2n, 2n) array
+        Covariance of errors of log10 α and then of log10 b of n isotherms (rows) with the offsets of log E' and then of
+        log E'' (columns), decades².
+    """
+
+    covariance: Array
+    with_shifts: Array
+
+    def __repr__(self) -> str:
+        storage, loss = self.standard_deviations
+        return f"IsothermOffsets({storage:.2g} decades in E', {loss:.2g} in E'')"
+
+    @property
+    def standard_deviations(self) -> Array:
+        """Of log E' and of log E'', (2,), decades."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
+
+    @property
+    def largest(self) -> float:
+        """Standard deviation of log E' or of log tan δ, whichever is larger, decades."""
+        tangent = np.array([-1.0, 1.0])
+        return float(np.sqrt(max(self.covariance[0, 0], tangent @ self.covariance @ tangent)))
+
+    def continued(self, gauge: Gauge, first: int, last: int) -> IsothermOffsets:
+        """Return those of all isotherms of a gauge, of which these are the ones from `first` to before `last`."""
+        size, part = len(gauge.weights), last - first
+        with_shifts = np.zeros((2, size, 2, size))
+        own = self.with_shifts.reshape(2, part, 2, part)
+        for row in range(2):
+            for column in range(2):
+                with_shifts[row, :, column, first:last] = continued(own[row, :, column], gauge, first, last)
+        return IsothermOffsets(self.covariance, with_shifts.reshape(2 * size, 2 * size))
+
+
+@dataclass(frozen=True, eq=False)
+class Offsets:
+    """What is known of offsets.
+
+    Parameters
+    ----------
+    covariance : (2, 2) array
+        Of those of log E' and log E'' of one isotherm, decades².
+    expected : (2n,) array
+        Mean of each of log E' and then of log E'', given the measurement; decades.
+    """
+
+    covariance: Array
+    expected: Array
+
+
+def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> Offsets:
+    """Find the variance of offsets.
+
+    Parameters
+    ----------
+    information : (p + 2n, p + 2n) array
+        Of p free shifts, of the offsets of log E' of n isotherms, and of those of log E'', the curves refitted
+        wherever these go; in units of the scatter of the points.
+    score : (p + 2n,) array
+        Half of the decrease of what is minimised with each.
+    prior : (p, p) array
+        Information on the shifts beside the points.
+    tied : bool
+        Whether offsets of E' and E'' are independent of each other.  They must be taken so where vertical shifts are
+        fitted, which take up whatever the two have in common.
+    """
+    free = len(prior)
+    size = (len(score) - free) // 2
+    turn = np.kron(TURN, np.eye(size))
+    gain = np.linalg.solve(information[:free, :free] + prior, information[:free, free:]).T
+    left = turn @ (information[free:, free:] - gain @ information[:free, free:]) @ turn.T
+    wish = turn @ (score[free:] - gain @ score[:free])
+    sums, differences = (grid.ravel() for grid in np.meshgrid(SIZES, SIZES))
+    ratio = np.log2(sums / differences)
+    before = np.exp(-0.5 * ratio**2) if not tied else np.where(ratio == 0.0, 1.0, 0.0)
+    before = np.concatenate([[NONE], before / before.sum()])
+    sums, differences = np.concatenate([[0.0], sums]), np.concatenate([[0.0], differences])
+    spread = np.repeat(np.stack([sums, differences], axis=1), size, axis=1)  # (tried, 2n)
+    root = np.linalg.cholesky(np.eye(2 * size) + spread[:, :, None] * left * spread[:, None, :])
+    whitened = np.linalg.solve(root, (spread * wish)[..., None])[..., 0]
+    likelihood = 0.5 * np.sum(whitened**2, axis=1) - np.sum(np.log(np.diagonal(root, axis1=1, axis2=2)), axis=1)
+    weight = before * np.exp(likelihood - likelihood.max())
+    weight /= weight.sum()
+    expected = spread * np.linalg.solve(np.swapaxes(root, 1, 2), whitened[..., None])[..., 0]
+    variances = weight @ np.stack([sums, differences], axis=1) ** 2
+    return Offsets(TURN.T @ np.diag(variances) @ TURN, turn.T @ (weight @ expected))
