@@ -40,7 +40,8 @@ def curves() -> vf.FrictionCurves:
     error = 0.01 * friction
     moved = friction + error * np.random.default_rng(4).standard_normal(friction.size)
     load, count = np.full(friction.size, 25.0), np.full(friction.size, 4)
-    found = vf.FrictionCurves(speed, kelvin, load, moved, error, 2.0 * error, count)
+    rubbing = {"coulomb": np.full(friction.size, 0.6), "slip": 0.01 * speed}
+    found = vf.FrictionCurves(speed, kelvin, load, moved, error, 2.0 * error, count, **rubbing)
     return found.select(np.arange(0, len(found), 2))
 
 
@@ -99,9 +100,19 @@ def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:
     assert sentence in results.warnings
 
 
+def test_coulomb_friction_on_thin_rubber_is_warned_of(results: StudyResults) -> None:
+    """With ν = ½ a half-space would not feel it; a layer of two contact radii does."""
+    checked = results.tree["assumptions"].to_dataset()
+    (row,) = np.flatnonzero(checked["assumption_name"].values == "uncoupled")
+    assert checked["holds"].values[row] == 0
+    assert 0.02 < checked["value"].values[row] < 0.1
+    assert checked["sentence"].values[row] in results.warnings
+
+
 def test_the_report_says_so(results: StudyResults) -> None:
     from viscofric.report.checks import all_checks
 
     told = {check.name: check.verdict for check in all_checks(results.tree)}
     assert told["Half-space"] == "look at this"
+    assert told["Shear leaves the pressure alone"] == "look at this"
     assert told["Shift factors from friction"] == "passed"

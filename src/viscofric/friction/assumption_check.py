@@ -12,7 +12,7 @@ class AssumptionCheck:
     Attributes
     ----------
     name : str
-        "half-space", "small contact", "linearity" or "one temperature".
+        "half-space", "small contact", "linearity", "uncoupled" or "one temperature".
     value : float or None
         What is judged, a pure number, at most; None where something needed was not given.
     limit : float

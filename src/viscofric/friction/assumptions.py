@@ -10,12 +10,13 @@ from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, verdict
 from viscofric.friction.contact_size import ContactSize
+from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.half_space import check_half_space
 from viscofric.friction.warming import Warming
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties
-from viscofric.units import Quantity, plain, to_si_array
+from viscofric.units import Quantity, plain, positive, to_si_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -69,6 +70,8 @@ def check_assumptions(
         - "small contact": contact radius over the radius of a ball or cylinder (of the paraboloid that is as deep, for
           other shapes), at most 0.3.
         - "linearity": representative strain 0.2 a/R, at most that of the limit above, 6 %.
+        - "uncoupled", where Coulomb friction is known: what its shear moves the surface by, normal to it, over what the
+          pressure does, at most 0.02.  It vanishes on a half-space of ν = ½ only.
         - "one temperature": relative change of friction by the heat that it makes itself, at most 5 %.
 
     Raises
@@ -84,8 +87,8 @@ def check_assumptions(
     of it under other shapes, or to 0.002 of friction (0.006 for other shapes) where that is more.  Broad spectra, and
     memory longer than the layer is thick, vτ > H, feel the base farther than the contact's size does.
 
-    Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction along its slope over log speed, fitted to
-    the curve at that temperature (one, that of the lowest speeds, where there are not two speeds).  ΔT is the flash
+    Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction by what the rubber's own, to first order
+    in the loss, changes by on that way, at every point by itself.  ΔT is the flash
     temperature of the Coulomb heat μ_c F v_slip, shared between the bodies, and the warming of the bulk by the
     viscoelastic loss (see `viscofric.friction.flash_temperature`), on a contact as small as it may be.
     That is an upper bound on what matters: the Coulomb heat warms a thin skin only.  Heat left from one turn of the
@@ -121,15 +124,18 @@ def check_assumptions(
     # By both bounds, as the widest of `check_half_space`.
     steepest = max(sizes, key=lambda size: size.largest * size.smallest * size.curvature**2)
     try:
-        warming = Warming.of(curves, material.shift, [size.smallest for size in sizes], rubber, counterbody)
+        warming = Warming.of(material, indenter, curves, [size.smallest for size in sizes], rubber, counterbody)
         isothermal = _one_temperature(curves, [size.where for size in sizes], warming, rubber, counterbody)
     except InputError as error:  # the shift factors end where their slope is asked for
         said = f"What warming changes in friction cannot be told: {error}"
         isothermal = AssumptionCheck("one temperature", None, CHANGE, None, said)
+    thick = None if thickness is None else positive(thickness, "m", "thickness")
+    coupled = check_coupling(curves, sizes, material.poisson_ratio, thick)
     return (
-        check_half_space(material, curves, sizes, thickness, CHANGE),
+        check_half_space(material, curves, sizes, thick, CHANGE),
         _small_contact(steepest, indenter.noun),
         _linearity(steepest),
+        *(() if coupled is None else (coupled,)),
         isothermal,
     )
 

@@ -12,6 +12,8 @@ from viscofric.friction.flash_temperature import (
     flash_temperature,
     shared_flash_temperature,
 )
+from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -19,11 +21,16 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.thermal import ThermalProperties
 
     Array: TypeAlias = NDArray[np.float64]
+
+# Loads whose logarithms differ by less are one, and parts of the way that are looked at: a maximum may lie on it.
+_SAME_LOAD, _STEPS = 0.05, np.linspace(0.0, 1.0, 5)
 
 
 class Warming(NamedTuple):
@@ -36,7 +43,7 @@ class Warming(NamedTuple):
     decades : (n,) array
         Shift of log10 of the speed by both.
     change : (n,) array
-        Relative change of friction by it.
+        Largest relative change of friction on the way, either way.
     """
 
     surface: Array
@@ -47,24 +54,26 @@ class Warming(NamedTuple):
     @classmethod
     def of(
         cls,
+        material: Material,
+        indenter: Indenter,
         curves: FrictionCurves,
-        shift: ShiftLaw,
         radii: Sequence[float],
         rubber: ThermalProperties,
         counterbody: ThermalProperties,
     ) -> Warming:
-        """Find it for contacts of given radii, m; see `check_assumptions`.
+        """Find it for contacts of given radii, m, on a material with a shift; see `check_assumptions`.
 
         Raises
         ------
         InputError
             If α is not known about a temperature.
         """
+        assert material.shift is not None
         surface, bulk = np.array([_rise(curves, row, one, rubber, counterbody) for row, one in enumerate(radii)]).T
         temperatures, place = np.unique(curves.temperature, return_inverse=True)
-        decades = (surface + bulk) * np.array([_decades_per_kelvin(shift, float(one)) for one in temperatures])[place]
-        slopes = np.array([_slope(curves, float(one)) for one in temperatures])[place]
-        return cls(surface, bulk, decades, 10.0 ** (decades * slopes) - 1.0)
+        per_kelvin = np.array([_decades_per_kelvin(material.shift, float(one)) for one in temperatures])
+        decades = (surface + bulk) * per_kelvin[place]
+        return cls(surface, bulk, decades, _change(material, indenter, curves, decades))
 
 
 def _rise(
@@ -105,10 +114,24 @@ def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
     return abs(known[last] - known[first]) / (last - first)
 
 
-def _slope(curves: FrictionCurves, kelvin: float) -> float:
-    """|d ln μ/d ln v| of the curve at a temperature, from a straight line; one where there is none."""
-    rows = (curves.temperature == kelvin) & (curves.viscoelastic > 0.0)
-    speed, friction = np.log(curves.speed[rows]), np.log(curves.viscoelastic[rows])
-    if speed.size < 2 or np.ptp(speed) == 0.0:
-        return 1.0
-    return abs(float(np.polyfit(speed, friction, 1)[0]))
+def _change(material: Material, indenter: Indenter, curves: FrictionCurves, decades: Array) -> Array:
+    """Largest relative change of friction as the speed falls by decades (n,), to first order in the loss.
+
+    It is that of the rubber at each point by itself: a slope through points would depend on which others there are.
+    """
+    change = np.zeros(len(curves))
+    same_load = np.round(np.log(curves.load) / _SAME_LOAD)
+    for kelvin, load in sorted(set(zip(curves.temperature.tolist(), same_load.tolist(), strict=True))):
+        rows = np.flatnonzero((curves.temperature == kelvin) & (same_load == load))
+        modes = material.modes_at(kelvin)
+        if not np.any(modes.C > 0.0):
+            continue
+        lossy = modes.C > 0.0
+        first = FirstOrder(
+            indenter, float(np.exp(_SAME_LOAD * load)), 1.0 - material.poisson_ratio**2, modes.tau[lossy]
+        )
+        compliances = np.log([1.0 / modes.E_inf, *modes.C[lossy]])
+        on_the_way = np.log(curves.speed[rows]) - LN10 * np.multiply.outer(_STEPS, decades[rows])
+        friction = first(compliances, on_the_way.ravel()).log_friction.reshape(on_the_way.shape)
+        change[rows] = np.expm1(np.abs(friction - friction[0]).max(axis=0))
+    return change

@@ -36,7 +36,12 @@ _LIKELY = 0.05
 # How far apart, in units of the accuracy, friction from the pressure and from the dissipation may be.
 _ENERGY_BALANCE = 5.0
 # What `viscofric.friction.assumptions` judges -> how the report calls it.
-_ASSUMPTIONS = {"half-space": "Half-space", "linearity": "Linear rubber", "one temperature": "Isothermal"}
+_ASSUMPTIONS = {
+    "half-space": "Half-space",
+    "linearity": "Linear rubber",
+    "uncoupled": "Shear leaves the pressure alone",
+    "one temperature": "Isothermal",
+}
 _VERDICTS: dict[int, Verdict] = {1: "passed", 0: "look at this", -1: "noted"}
 
 

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from viscofric.study.sweep import Case
 
 _OF_HALF_SPACES = "half-space"
+# What a run warns of; what else does not hold is told contact by contact, or is no fault.
+_WARNED_OF = (_OF_HALF_SPACES, "uncoupled")
 
 
 def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
@@ -31,9 +33,9 @@ def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
     return {"/assumptions": labels.assumption_data(found)} if found else {}
 
 
-def thickness_warnings(found: Sequence[AssumptionCheck]) -> list[str]:
-    """Tell of rubber that is no half-space; what else does not hold is told contact by contact, or is no fault."""
-    return [check.sentence for check in found if check.name == _OF_HALF_SPACES and check.holds is False]
+def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[str]:
+    """Tell of rubber that is no half-space, and of Coulomb friction that moves the surface as pressure does."""
+    return [check.sentence for check in found if check.name in _WARNED_OF and check.holds is False]
 
 
 def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> list[AssumptionCheck]:
@@ -69,7 +71,8 @@ def _checked(
 ) -> Iterable[AssumptionCheck]:
     """Check contacts of one rubber, shape and load."""
     reach = np.array([_reach(record) for record in records])
-    thickness, material = contacts.study.conditions.thickness, contacts.rubbers[case.material].material
+    material = contacts.rubbers[case.material].material
+    thickness = contacts.study.conditions.thickness if case.layer is None else case.layer.thickness
     checks = check_assumptions(material, case.indenter, curves, thickness=thickness, contact_radius=reach)
     return (check for check in checks if case.layer is None or check.name != _OF_HALF_SPACES)
 

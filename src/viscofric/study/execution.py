@@ -11,7 +11,7 @@ from viscofric.errors import StudyError
 from viscofric.files import file_path
 from viscofric.notes import Note
 from viscofric.study import labels
-from viscofric.study.assumptions import assumption_checks, assumptions, thickness_warnings
+from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.export import export_results
 from viscofric.study.measurement import Measurement, read_measurement
@@ -229,7 +229,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
                 *doubtful,
                 *said,
                 *doubts((asked, at_points, along), rubbers),
-                *thickness_warnings(checked),
+                *assumption_warnings(checked),
                 *_missed_accuracy(groups["/prediction"], study),
             ]
         ),

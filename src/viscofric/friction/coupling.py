@@ -1,0 +1,108 @@
+"""Whether Coulomb friction leaves the pressure alone: how far tangential and normal displacements are coupled.
+
+Under a wave of shear of unit amplitude the surface of a layer of thickness H on a bonded base moves up and down by X
+times what a wave of pressure moves a half-space's, where it moves the layer's by Θ (see `viscofric.contact.layers`).
+With Q = qH and κ = 3 − 4ν, by the same equations ::
+
+    X = [2κ(κ−1)/(κ+1) (cosh 2Q − 1) − 8Q²/(κ+1)] / [2κ cosh 2Q + 1 + κ² + 4Q²]
+
+which goes to (1−2ν)/(2(1−ν)) on the half-space (K. L. Johnson, Contact Mechanics (1985), section 7.2), and does not
+vanish with ν = ½ on a layer (N. Menga, G. Carbone, D. Dini, J. Mech. Phys. Solids 148 (2021) 104273).  The coupling of
+a contact is the mean of |X| over that of Θ, waves weighted as its pressure (Hertz's) slopes the surface.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.layers import Layer
+from viscofric.friction.assumption_check import AssumptionCheck, verdict
+from viscofric.notes import Note
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.friction.contact_size import ContactSize
+    from viscofric.friction.curves import FrictionCurves
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: Shear that changes the surface by a larger part of what pressure does is told: as much as of ν = 0.49 under μ_c = 1.
+LARGEST = 0.02
+# Waves times the contact's radius, from those that hold nothing of the pressure to those that hold nothing any more.
+_WAVES = np.exp(np.arange(-5.0, 5.0, 0.05))
+_DEEP = 20.0  # qH from which on a layer is a half-space to 1e-15
+
+
+def coupling(poisson_ratio: float, thickness: float | None = None) -> float:
+    """Return what Coulomb friction 1 moves a contact's surface by, over what its pressure does.
+
+    Parameters
+    ----------
+    poisson_ratio : float
+        Of the rubber.
+    thickness : float, optional
+        Of a layer on a bonded base over the contact's radius; a half-space without it.
+    """
+    kappa = 3.0 - 4.0 * poisson_ratio
+    if thickness is None:
+        return (kappa - 1.0) / (kappa + 1.0)
+    depth = np.minimum(_WAVES * thickness, _DEEP)
+    above = 2.0 * kappa * (kappa - 1.0) * (np.cosh(2.0 * depth) - 1.0) - 8.0 * depth**2
+    below = (kappa + 1.0) * (2.0 * kappa * np.cosh(2.0 * depth) + 1.0 + kappa**2 + 4.0 * depth**2)
+    pressure = 3.0 * (np.sin(_WAVES) - _WAVES * np.cos(_WAVES)) / _WAVES**3
+    weight = (_WAVES * pressure) ** 2  # q |p̂|² dq, in equal steps of ln q
+    yielding = Layer(thickness).yielding(_WAVES, poisson_ratio)
+    return float(weight @ np.abs(above / below)) / float(weight @ yielding)
+
+
+def check_coupling(
+    curves: FrictionCurves, sizes: Sequence[ContactSize], poisson_ratio: float, thickness: float | None
+) -> AssumptionCheck | None:
+    """Check it for points of friction curves whose Coulomb friction is known, and tell of the worst; None if none is.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    sizes : sequence of ContactSize
+        Of the contact at each point.
+    poisson_ratio : float
+        Of the rubber.
+    thickness : float or None
+        Of the rubber, m.
+    """
+    if curves.coulomb is None or not np.any(np.isfinite(curves.coulomb)):
+        return None
+    known = np.flatnonzero(np.isfinite(curves.coulomb))
+    rubbed = np.abs(curves.coulomb)
+    if thickness is None:
+        row = int(known[np.argmax(rubbed[known])])
+        low = high = float(rubbed[row]) * coupling(poisson_ratio)
+    else:
+        each = {
+            row: [
+                rubbed[row] * coupling(poisson_ratio, thickness / a) for a in (sizes[row].smallest, sizes[row].largest)
+            ]
+            for row in known.tolist()
+        }
+        row = max(each, key=lambda one: max(each[one]))
+        low, high = sorted(float(one) for one in each[row])
+    holds = verdict(low, high, LARGEST)
+    size = f"{high:.2g}" if f"{low:.2g}" == f"{high:.2g}" else f"{low:.2g} to {high:.2g}"
+    on = "a half-space" if thickness is None else f"a bonded layer of {1e3 * thickness:.3g} mm"
+    said = (
+        f"Coulomb friction of {rubbed[row]:.2g} moves the surface of {on} (ν = {poisson_ratio:g}) up and down by about "
+        f"{size} of what the pressure does ({sizes[row].where}), which contacts solved without shear leave out"
+    )
+    said += {
+        True: f"; up to {LARGEST:g} counts as none.",
+        None: f"; up to {LARGEST:g} counts as none, and which it is depends on the contact's size: solve the contact "
+        "and give contact_radius.",
+        False: f". More than {LARGEST:g} is doubtful: viscoelastic friction may change by a part of that order, and "
+        "with the sense of slip; slip less, rub less (PTFE, lubricant), or use thicker rubber.",
+    }[holds]
+    return AssumptionCheck("uncoupled", high, LARGEST, holds, Note("tangential-coupling", said))
