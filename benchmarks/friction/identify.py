@@ -1,12 +1,16 @@
 """Identification of planted rubbers from their friction: how near, how honest, how fast.
 
 Usage: python benchmarks/friction/identify.py [--seeds N] [--first SEED] [--material NAME] [--json FILE]
+       python benchmarks/friction/identify.py --few {replicates,errors} [--rubbers N] [--seeds N] [--json FILE]
 
 Nine temperatures from 30 to 90 °C, ten speeds from 20 to 200 mm/s, a ball of 9.525 mm under 25 N; friction is solved
 to 1e-4 with retardation times that the fit does not hold.  α(T) is found too; one modulus, |E| at 1 rad/s and 30 °C, is
 given to 0.1 %.  First without noise, then with 5 % of scatter in each of eight replicates: which part of the planted
 values lies within the 95 % intervals, and which measurements are refused.  CPU seconds are those of this process, which
 does all the work.
+
+With --few, 13 rubbers are drawn and measured at four temperatures and nine speeds only, as means of four replicates of
+3 %, whose number is told (replicates) or not (errors: a table of friction and its standard errors).
 """
 
 from __future__ import annotations
@@ -32,6 +36,24 @@ FREQUENCY = 1.0  # rad/s
 HEADINGS = ("CPU s", "steps", "decades", "|E| %", "E'' %", "α dec", "χ²/ν", "in |E|", "in E'", "in E''", "in α")
 
 
+#: Temperatures, speeds, scatter and replicates of few measurements.
+FEW_KELVIN, FEW_SPEEDS = np.array([30.0, 40.0, 52.0, 66.0]) + 273.15, np.geomspace(0.01, 0.5, 9)
+FEW_SCATTER, FEW_REPLICATES = 0.03, 4
+
+
+def drawn_rubber(number: int) -> vf.Material:
+    """Return a SYNTHETIC rubber, or polymer amidst its transition: a skew bell of compliances, anyhow wide and high."""
+    random = np.random.default_rng(1000 + number)
+    E0, ratio = 10.0 ** random.uniform(6.0, 6.8), 10.0 ** random.uniform(0.3, 2.5)
+    tau = 10.0 ** np.arange(-9.0, 2.0, 0.37)
+    away = np.log10(tau) - random.uniform(-6.0, -2.5)
+    fast, slow = random.uniform(0.8, 2.5, 2)
+    share = np.exp(-0.5 * (away / np.where(away > 0.0, slow, fast)) ** 2)
+    C = share / share.sum() * (1.0 - 1.0 / ratio) / E0
+    law = vf.WLF(C1=random.uniform(5.0, 12.0), C2=random.uniform(80.0, 180.0), reference="30 degC")
+    return vf.Material(vf.RetardationSpectrum(E0, E0 * ratio, C, tau), law)
+
+
 def lossy_polymer() -> vf.Material:
     """Return a SYNTHETIC polymer with its transition among the contacts' frequencies: friction has a maximum."""
     tau = 3e-7 * 2.2 ** np.arange(28)
@@ -44,22 +66,29 @@ def lossy_polymer() -> vf.Material:
 MATERIALS = {"fluoroelastomer": vf.synthetic_fluoroelastomer, "lossy polymer": lossy_polymer}
 
 
-def measured(exact: vf.FrictionCurves, seed: int | None) -> vf.FrictionCurves:
-    """Return the exact friction, or means of replicates that scatter about it."""
+def measured(
+    exact: vf.FrictionCurves,
+    seed: int | None,
+    scattering: float = SCATTER,
+    replicates: int = REPLICATES,
+    *,
+    told: bool = True,
+) -> vf.FrictionCurves:
+    """Return the exact friction, or means of replicates that scatter about it, whose number is told or not."""
     if seed is None:
         return exact
-    values = exact.viscoelastic * (
-        1.0 + SCATTER * np.random.default_rng(seed).standard_normal((REPLICATES, len(exact)))
-    )
+    random = np.random.default_rng(seed)
+    values = exact.viscoelastic * (1.0 + scattering * random.standard_normal((replicates, len(exact))))
     scatter = values.std(axis=0, ddof=1)
+    error = scatter / np.sqrt(replicates)
     return vf.FrictionCurves(
         exact.speed,
         exact.temperature,
         exact.load,
         values.mean(axis=0),
-        scatter / np.sqrt(REPLICATES),
-        scatter,
-        np.full(len(exact), REPLICATES),
+        error,
+        scatter if told else error,
+        np.full(len(exact), replicates if told else 1),
     )
 
 
@@ -98,8 +127,44 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--seeds", type=int, default=10, help="scattered measurements of each material")
     parser.add_argument("--first", type=int, default=0, help="seed of the first of them")
     parser.add_argument("--material", choices=MATERIALS, help="only this one")
+    parser.add_argument("--few", choices=("replicates", "errors"), help="drawn rubbers, few replicates")
+    parser.add_argument("--rubbers", type=int, default=13, help="how many are drawn")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
+    results = few(options) if options.few else many(options)
+    if options.json:
+        options.json.parent.mkdir(parents=True, exist_ok=True)
+        options.json.write_text(json.dumps(results, indent=1, ensure_ascii=False), encoding="utf-8")
+
+
+def few(options: argparse.Namespace) -> dict[str, Any]:
+    """Identify drawn rubbers from few replicates."""
+    print(f"{'':10}" + "".join(f"{heading:>9}" for heading in HEADINGS))
+    rows, refused = [], {}
+    for number in range(options.rubbers):
+        rubber = drawn_rubber(number)
+        exact = vf.predict_friction(
+            rubber, BALL, speeds=FEW_SPEEDS, temperatures=FEW_KELVIN, load="25 N", accuracy=1e-3
+        )
+        for seed in range(options.first, options.first + options.seeds):
+            name = f"{number}, {seed}"
+            told = options.few == "replicates"
+            curves = measured(exact, 1000 * number + seed, FEW_SCATTER, FEW_REPLICATES, told=told)
+            try:
+                rows.append(identified(rubber, curves))
+            except ViscofricError as error:
+                refused[name] = str(error)
+                print(f"{name}: {error}", flush=True)
+            else:
+                show(name, rows[-1])
+    mean = {key: float(np.mean([row[key] for row in rows])) for key in rows[0]} if rows else {}
+    if mean:
+        show("mean", mean)
+    return {"few": options.few, "scattered": rows, "refused": refused, "mean": mean}
+
+
+def many(options: argparse.Namespace) -> dict[str, Any]:
+    """Identify two rubbers from many replicates, over and over."""
     results: dict[str, Any] = {}
     for name in [options.material] if options.material else MATERIALS:
         material = MATERIALS[name]()
@@ -120,9 +185,7 @@ def main(arguments: list[str] | None = None) -> None:
         if mean:
             show("mean", mean)
         results[name] = {"no noise": exactly, "scattered": rows, "refused": refused, "mean": mean}
-    if options.json:
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(json.dumps(results, indent=1, ensure_ascii=False), encoding="utf-8")
+    return results
 
 
 def show(title: str, row: dict[str, Any]) -> None:

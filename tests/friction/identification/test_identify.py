@@ -21,6 +21,7 @@ from friction.identification.planted import (
 from friction.synthetic_curves import synthetic_curves
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.identification.solving import Contacts
+from viscofric.notes import codes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -144,7 +145,39 @@ def test_errors_that_are_too_small_are_enlarged_and_told() -> None:
     noisy = replace(curves, viscoelastic=scattered, viscoelastic_error=0.005 * scattered)
     found = vf.identify_material(noisy, anchor=planted_anchor(), shift=RUBBER.shift, **SETTINGS)
     assert 3.0 < found.error_scale < 10.0  # 0.03/0.0055, to the scatter of 18 points
-    assert "times larger than the standard errors" in str(found)
+    assert codes(found.notes) == {"errors-enlarged"}
+
+
+@pytest.mark.usefixtures("closed_form")
+@pytest.mark.parametrize(
+    ("friction", "expected"),
+    [
+        (lambda v: v**-2.0, {"too-steep", "not-one-rubber"}),  # the power lost would fall with the speed
+        (lambda v: v**2.0, {"not-one-rubber"}),  # one mode long past its time rises with the first power
+        (lambda v: 1.0 + 0.3 * np.sin(5.0 * np.log(v)), {"not-one-rubber"}),
+        (lambda v: np.ones_like(v), {"constant-friction"}),
+    ],
+)
+def test_nothing_is_identified_from_friction_that_no_rubber_makes(friction, expected: set[str]) -> None:  # type: ignore[no-untyped-def]
+    curves = closed_form_curves(*WARM)
+    made = 0.02 * friction(RUBBER.shift(curves.temperature) * curves.speed / 0.05)
+    curves = replace(curves, viscoelastic=made, viscoelastic_error=0.01 * made)
+    found = vf.identify_material(curves, anchor=planted_anchor(), shift=RUBBER.shift, **SETTINGS)
+    assert codes(found.notes) == expected
+    assert [one.decades for one in (found.identified, found.identified_storage, found.identified_loss)] == [0.0] * 3
+    told = codes(vf.shift_friction(curves, shift=RUBBER.shift).notes)
+    assert told == expected - {"not-one-rubber"}  # on one curve, but not of a rubber
+
+
+@pytest.mark.usefixtures("closed_form")
+def test_residuals_that_follow_each_other_are_told() -> None:
+    """A cold curve that lies 5 % above the warm ones, as after a change of sample: missed, but not by scatter."""
+    curves = closed_form_curves(*WARM)
+    made = curves.viscoelastic * np.where(curves.temperature == REFERENCE, 1.05, 1.0)
+    curves = replace(curves, viscoelastic=made, viscoelastic_error=0.004 * made)
+    found = vf.identify_material(curves, anchor=planted_anchor(), shift=RUBBER.shift, **SETTINGS)
+    assert codes(found.notes) == {"structured-residuals"}
+    assert found.identified.decades > 0.0
 
 
 @pytest.mark.usefixtures("closed_form")

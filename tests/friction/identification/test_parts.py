@@ -18,6 +18,7 @@ from viscofric.friction.identification.points import moderated_variances, usable
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
 from viscofric.friction.identification.shifts import Shifts
 from viscofric.friction.identification.smoothness import Smoothness
+from viscofric.notes import codes
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 SPECTRUM = RUBBER.modes_at()
@@ -93,6 +94,42 @@ def test_scatter_of_few_replicates_is_drawn_to_the_common_one() -> None:
     apart = moderated_variances(true * same, freedom)
     assert np.mean(np.log(apart / true) ** 2) < np.mean(np.log(same) ** 2)
     assert np.median(apart[200:]) / np.median(apart[:200]) > 10.0
+
+
+@pytest.mark.parametrize("said", ["replicates", "freedom", "nothing"])
+def test_means_weighed_by_errors_of_four_replicates_err_as_they_say(said: str) -> None:
+    """Weighed by its own error, a point whose four replicates happen to agree counts for too much.
+
+    The number of replicates is given, or seen in how their errors scatter.
+    """
+    speed, kelvin = np.tile(np.geomspace(0.01, 0.5, 9), 4), np.repeat([300.0, 310.0, 322.0, 336.0], 9)
+    random, held, noted = np.random.default_rng(7), [], []
+    for _ in range(300):
+        values = speed**-0.2 * (1.0 + 0.03 * random.standard_normal((4, 36)))
+        scatter = values.std(axis=0, ddof=1)
+        measured = curves_of(speed, kelvin, values.mean(axis=0), 0.5 * scatter, load=LOAD)
+        if said == "replicates":
+            measured = replace(measured, replicates=np.full(36, 4))
+        if said == "freedom":
+            measured = replace(measured, viscoelastic_freedom=np.full(36, 3.0))
+        points = usable_points(measured, BALL, None, 1e-4)
+        noted.append(codes(points.notes) == {"inferred-freedom"})
+        weight = points.error**-2.0
+        away = float(weight @ (points.log_friction + 0.2 * np.log(speed)) / weight.sum())
+        held.append(abs(away) < 1.96 * weight.sum() ** -0.5)
+    # 300 shares of 95 % scatter by 1.3 %; own errors as weights hold 77 %.
+    assert np.mean(held) == pytest.approx(0.95, abs=0.035)
+    assert np.mean(noted) == pytest.approx(1.0 if said == "nothing" else 0.0, abs=0.02)
+
+
+def test_errors_that_follow_the_friction_are_taken_as_they_are() -> None:
+    """Stated errors without scatter of their own, here of 1 % at slow and 3 % at fast speeds, are known."""
+    speed = np.tile(np.geomspace(0.01, 0.5, 9), 2)
+    stated = 0.01 * (speed / 0.01) ** 0.28
+    curves = curves_of(speed, np.repeat([300.0, 310.0], 9), speed**-0.2, stated * speed**-0.2, load=LOAD)
+    points = usable_points(curves, BALL, None, 1e-6)
+    np.testing.assert_allclose(points.error, stated, rtol=1e-6)
+    assert points.notes == ()
 
 
 def test_draws_follow_a_density_that_is_not_normal() -> None:

@@ -12,8 +12,10 @@ from viscofric.friction.identification.drawn_materials import MaterialOf, Poster
 from viscofric.friction.identification.fitting import Weighed, most_evident, weighed
 from viscofric.friction.identification.level_family import level_family
 from viscofric.friction.identification.origin import with_origin
-from viscofric.friction.identification.result import IdentifiedMaterial, LevelFit
+from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedBand, IdentifiedMaterial, LevelFit
 from viscofric.friction.identification.solving import Contacts, spectrum_of
+from viscofric.friction.plausible import implausible
+from viscofric.notes import Note, codes
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
@@ -29,6 +31,11 @@ if TYPE_CHECKING:
 
 #: Residuals this many standard deviations above their expectation enlarge the errors.
 DOUBTFUL = 3.0
+#: … and this many times as large as the errors, and larger than what counts as identified, they are no scatter but a
+#: model that fails: if they follow each other, and anyhow.
+MODEL_FAILS, MODEL_FAILS_ANYHOW = 3.0, 10.0
+#: Residuals follow each other from so many standard deviations of von Neumann's ratio on.
+FOLLOWING = 3.0
 #: What was given of the modulus contradicts the friction if it is missed by more standard errors.
 CONTRADICTED = 4.0
 #: Bands of moduli end so far beyond the contact's frequencies v/a at the latest: Hertz's pressure has waves up to 3/a.
@@ -77,8 +84,11 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     low, middle, high = _frequencies(best)
     drawn = material_of.samples(posterior.drawn, (low, high))
     expected = _expected(material_of, best, samples, random)
+    doubts = _doubts(outcome, error_scale, best, limit)
     bands = [
-        band(drawn, expected, part, middle, (low / BEYOND, high * BEYOND), limit, not outcome.anchored)
+        IdentifiedBand(middle, middle, limit, not outcome.anchored)
+        if codes(doubts) & NOTHING_IDENTIFIED
+        else band(drawn, expected, part, middle, (low / BEYOND, high * BEYOND), limit, not outcome.anchored)
         for part in ("magnitude", "storage", "loss")
     ]
     family: tuple[LevelFit, ...] = ()
@@ -100,7 +110,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         anchored=outcome.anchored,
         middle=middle,
         frequency_range=(low, high),
-        level_range=(float(np.quantile(levels_drawn, 0.025)), float(np.quantile(levels_drawn, 0.975))),
+        level_range=(float(_limits(levels_drawn)[0]), float(_limits(levels_drawn)[1])),
         family=family,
         friction=fitted,
         residuals=residuals,
@@ -110,7 +120,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         error_scale=error_scale,
         roughness=problem.smoothness.roughness,
         iterations=outcome.iterations,
-        notes=(*points.notes, *_doubts(error_scale, best), *told),
+        notes=(*points.notes, *doubts, *told),
     )
     return replace(found, material=with_origin(found, outcome.curves.source))
 
@@ -126,7 +136,7 @@ def _with_honest_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
     """Enlarge the errors of the points, if their residuals are larger than these, and fit again."""
     best = most_evident(fits)
     points = best.problem.observations.points
-    away = best.problem.measured(best.minimum.place)[0][: len(points)]
+    away = _residuals(best)
     freedom = max(_freedom(best), 1.0)
     ratio = float(away @ away) / freedom
     if ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / freedom):
@@ -136,14 +146,63 @@ def _with_honest_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
     return weighed(replace(best.problem, observations=larger), best.minimum.place), scale
 
 
-def _doubts(error_scale: float, best: Weighed) -> tuple[str, ...]:
+def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -> tuple[Note, ...]:
+    """Say what the residuals, and the friction itself, leave in doubt."""
+    points = outcome.start.observations.points
+    notes = list(implausible(points.at_one_load(outcome.curves)))
     if error_scale == 1.0:
-        return ()
-    sentence = (
-        f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction, which were "
-        "multiplied by that: they are too small, or one shifted material does not describe all of the points."
-    )
-    return (sentence,)
+        return tuple(notes)
+    scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"
+    away = _residuals(best)
+    follow = _follow_each_other(best, away)
+    missed = float(np.sqrt(np.mean((away * best.problem.observations.points.error) ** 2)))
+    if missed > limit and error_scale > (MODEL_FAILS if follow else MODEL_FAILS_ANYHOW):
+        notes.append(
+            Note(
+                "not-one-rubber",
+                f"{scaled}, and {100.0 * missed:.2g} % of it: no linear rubber of a smooth spectrum makes this "
+                "friction, and nothing is identified, however narrow the bands of the nearest one; check "
+                "the measurement, the load and the indenter.",
+            )
+        )
+    elif follow:
+        notes.append(
+            Note(
+                "structured-residuals",
+                f"{scaled}, which were multiplied by that, and follow each other along the speed: what is missed is no "
+                "scatter, and the bands are too narrow.",
+            )
+        )
+    else:
+        notes.append(
+            Note(
+                "errors-enlarged",
+                f"{scaled}, which were multiplied by that: they are too small, or one shifted material does not "
+                "describe all of the points.",
+            )
+        )
+    return tuple(notes)
+
+
+def _residuals(best: Weighed) -> Array:
+    """Return modelled less measured ln μ of every point, over its error."""
+    return best.problem.measured(best.minimum.place)[0][: len(best.problem.observations.points)]
+
+
+def _follow_each_other(best: Weighed, residuals: Array) -> bool:
+    """Whether residuals differ less from the next one than independent ones would.
+
+    In the order of reduced speed, or temperature by temperature.  J. von Neumann et al., Annals of Mathematical
+    Statistics 12 (1941) 153.
+    """
+    points, (_, log_alpha) = best.problem.observations.points, best.problem.split(best.minimum.place)
+    n = len(residuals)
+    reduced = points.log_speed + log_alpha[points.number]
+    found = []
+    for order in (np.argsort(reduced, kind="stable"), np.lexsort((points.log_speed, points.number))):
+        ratio = float(np.sum(np.diff(residuals[order]) ** 2) / (residuals @ residuals))
+        found.append((1.0 - 0.5 * ratio) * np.sqrt((n**2 - 1.0) / (n - 2.0)))
+    return bool(max(found) > FOLLOWING)
 
 
 def _told_anchors(best: Weighed, drawn: MaterialSamples, middle: float, limit: float) -> tuple[str, ...]:
@@ -197,7 +256,7 @@ def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Arr
     points = problem.observations.points
     value, _ = problem.log_friction(place)
     drawn = np.array([problem.log_friction(row)[0] for row in posterior.drawn])
-    lower, upper = (np.exp(np.quantile(drawn, level, axis=0) + points.raised) for level in (0.025, 0.975))
+    lower, upper = np.exp(_limits(drawn) + points.raised)
     friction = np.exp(value + points.raised)
     measured = outcome.curves.select(points.rows)
     solved = problem.friction.solved
@@ -217,3 +276,8 @@ def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Arr
         viscoelastic_upper=upper,
     )
     return curves, (points.log_friction - value) / points.error
+
+
+def _limits(drawn: Array) -> Array:
+    """Return limits that hold a further draw with 95 % probability: Weibull's plotting position."""
+    return np.asarray(np.quantile(drawn, [0.025, 0.975], axis=0, method="weibull"))

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.errors import InputError
+from viscofric.friction.error_freedom import error_freedom
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.units import celsius, positive
@@ -71,6 +72,20 @@ class Points:
     def __len__(self) -> int:
         return len(self.log_speed)
 
+    def at_one_load(self, curves: FrictionCurves) -> FrictionCurves:
+        """Return the friction as it would be under `load`, with the errors that count, of the curves it comes from."""
+        friction = np.exp(self.log_friction)
+        return replace(
+            curves.select(self.rows),
+            speed=np.exp(self.log_speed),
+            load=np.full(len(self), self.load),
+            viscoelastic=friction,
+            viscoelastic_error=self.error * friction,
+            viscoelastic_scatter=np.zeros(len(self)),
+            replicates=np.ones(len(self), dtype=np.int64),
+            viscoelastic_freedom=np.full(len(self), np.inf),
+        )
+
     def chosen(self, keep: NDArray[np.bool_]) -> Points:
         """Return some of the points, by a mask (n,)."""
         columns = ("log_speed", "log_load", "log_friction", "error", "number", "forces", "raised", "rows")
@@ -100,10 +115,11 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
             f"load of the friction curves is in {curves.load_unit}, but a {indenter.noun} takes a load in {unit}; "
             "give the indenter that was measured with, or load=."
         )
-    notes = []
+    notes: list[str] = []
     if len(curves) and not np.any(np.isfinite(curves.viscoelastic_error)):
         curves, found = with_errors_of_neighbours(curves)
         notes.append(found)
+    notes.extend(error_freedom(curves)[1])
     rows = np.flatnonzero(np.isfinite(curves.viscoelastic_error))
     if len(rows) < len(curves):
         notes.append(
@@ -180,7 +196,7 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
             "friction curves have no standard errors that are known, and too few points at each temperature to find "
             "the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard error')."
         )
-    error = float(np.sqrt(squares / freedom))
+    error = float(np.sqrt(squares / max(freedom - 2.0, 0.5 * freedom)))  # of Student's distribution
     told = (
         f"The friction curves have no standard errors; {100.0 * error:.2g} % is taken, by which the points of each "
         "temperature scatter about a parabola."
@@ -189,7 +205,7 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
 
 
 def relative_errors(curves: FrictionCurves) -> Array:
-    """Return standard errors of ln μ, each drawn towards the common scatter as chance asks.
+    """Return standard errors of ln μ, each drawn towards the common one as chance asks.
 
     Few replicates tell their own scatter badly: of eight, to a quarter, and to weigh points by it would make the
     fit worse than its errors say.  With ν0 the freedom of the common variance s0², that of a point is
@@ -200,20 +216,16 @@ def relative_errors(curves: FrictionCurves) -> Array:
     ----------
     G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
     """
-    own = curves.viscoelastic_error / curves.viscoelastic
-    freedom = curves.replicates - 1
-    scatter = curves.viscoelastic_scatter / curves.viscoelastic
-    told = (freedom > 0) & (scatter > 0.0)
+    errors = curves.viscoelastic_error / curves.viscoelastic
+    freedom, _ = error_freedom(curves)
+    told = np.isfinite(freedom) & (errors > 0.0)
     if np.count_nonzero(told) < FEWEST_POINTS:
-        return np.asarray(own)
-    variance = moderated_variances(scatter[told] ** 2, freedom[told])
-    errors = own.copy()
-    # What else than scatter is in the stated error stays in it.
-    errors[told] *= np.sqrt(variance) / scatter[told]
+        return np.asarray(errors)
+    errors[told] = np.sqrt(moderated_variances(errors[told] ** 2, freedom[told]))
     return np.asarray(errors)
 
 
-def moderated_variances(variances: Array, freedom: NDArray[np.int64]) -> Array:
+def moderated_variances(variances: Array, freedom: Array) -> Array:
     """Return sample variances (n,) of so many degrees of freedom (n,), drawn towards the common one.
 
     They are those of Student's distribution.
@@ -226,7 +238,8 @@ def moderated_variances(variances: Array, freedom: NDArray[np.int64]) -> Array:
     rest = float(np.var(logarithms, ddof=1) - np.mean(polygamma(1, half)))
     common = float(np.exp(np.mean(logarithms)))
     if rest <= polygamma(1, 5e3):  # no more than chance: all have one variance
-        return np.full(len(variances), float(np.sum(freedom * variances) / np.sum(freedom)))
+        total = float(np.sum(freedom))
+        return np.full(len(variances), float(freedom @ variances) / max(total - 2.0, 0.5 * total))
     prior_half = brentq(lambda value: float(polygamma(1, value)) - rest, 1e-3, 1e4)
     common *= float(np.exp(digamma(prior_half)) / prior_half)
     together = 2.0 * prior_half + freedom

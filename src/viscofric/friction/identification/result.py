@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.notes import codes
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
     Array = NDArray[np.float64]
+
+#: Notes beside which nothing counts as identified: the friction is not that of one rubber, or of none that is known.
+NOTHING_IDENTIFIED = frozenset({"not-one-rubber", "too-steep", "constant-friction"})
 
 
 @dataclass(frozen=True)
@@ -195,6 +199,8 @@ class IdentifiedMaterial:
         band = self.identified
         about = "" if self.shift_factors is None else f" at {celsius(float(self.shift_factors.reference)):.1f} °C"
         of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
+        if codes(self.notes) & NOTHING_IDENTIFIED:
+            return "Nothing of the modulus is identified: the friction does not show that a rubber's loss makes it."
         if band.high <= band.low:
             return f"Nowhere is the standard error of {of} {100.0 * band.limit:g} % or less."
         return (

@@ -98,15 +98,7 @@ def shifts_of(
             raise InputError(f"{asked} was not measured, only {celsius(only):.1f} °C was; give shift=.")
         return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]))
     # Points are at one load already, as far as contacts at different loads are alike.
-    alike = replace(
-        curves.select(points.rows),
-        speed=np.exp(points.log_speed),
-        load=np.full(len(points), points.load),
-        viscoelastic=np.exp(points.log_friction),
-        viscoelastic_error=points.error * np.exp(points.log_friction),
-        viscoelastic_scatter=np.zeros(len(points)),
-        replicates=np.ones(len(points), dtype=np.int64),
-    )
+    alike = points.at_one_load(curves)
     found = shift_friction(alike).shift_factors
     away = np.abs(points.temperatures[points.number][:, None] - found.temperatures)
     number, kept = away.argmin(axis=1), away.min(axis=1) <= SAME_TEMPERATURE

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.friction.error_freedom import error_freedom
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.rheology.superposition.common_curve import Curves, Smoother
 from viscofric.rheology.superposition.overlap import LogSweep
@@ -118,7 +119,7 @@ def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
     ordinate = np.log10(friction) if logarithmic else friction / (math.log(10.0) * largest)
     decades = error / (math.log(10.0) * unit)
     rows = nominal_rows(curves.temperature)
-    variance = _variances(decades, curves.replicates, curves.viscoelastic_freedom, rows)
+    variance = _variances(decades, curves.replicates, error_freedom(curves)[0], rows)
     speed, kelvin = np.log10(curves.speed), curves.temperature
     return [
         _merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row], logarithmic)
@@ -138,9 +139,7 @@ def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
     return float(sum(np.sum(curves.residual**2) for curves in several) / freedom)
 
 
-def _variances(
-    error: Array, replicates: NDArray[np.int64], freedom: Array | None, rows: list[NDArray[np.intp]]
-) -> Array:
+def _variances(error: Array, replicates: NDArray[np.int64], freedom: Array, rows: list[NDArray[np.intp]]) -> Array:
     """Pool the squared errors of each temperature; a point without an error gets the typical one.
 
     A standard error found from few replicates is itself uncertain, and weights that scatter cost precision which the
@@ -157,9 +156,6 @@ def _variances(
     for row in rows:
         among = row[known[row]] if known[row].any() else np.flatnonzero(known)
         typical[row] = np.median(squared[among])
-    if freedom is None:
-        # A single replicate with an error: that of a prediction, or one that is known otherwise; it is taken as it is.
-        freedom = np.where(replicates > 1, replicates - 1.0, EXACT)
     freedom = np.where(known, np.clip(freedom, 1.0, EXACT), 0.0)
     prior = _prior_freedom(np.log(squared / typical)[known], freedom[known])
     # What one replicate without an error weighs beside those with one.

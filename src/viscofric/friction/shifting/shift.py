@@ -8,6 +8,8 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.friction.curves import insist_on_curves
+from viscofric.friction.error_freedom import error_freedom
+from viscofric.friction.plausible import implausible
 from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
 from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_rows
@@ -127,7 +129,7 @@ def shift_friction(
         # Whatever the reference of the vertical shift is, it moves all curves together.
         points = _at_one_load(curves, rule, at_load, vertical_shift)
         result = found_shifts(friction_isotherms(points), kelvin, shared)
-        shift, notes = result.factors, result.notes
+        shift, notes = result.factors, (*error_freedom(points)[1], *result.notes)
         rows = nominal_rows(curves.temperature)
         curves = curves.select(np.sort(np.concatenate([rows[place] for place in result.members])))
     elif kelvin is not None:
@@ -150,7 +152,7 @@ def shift_friction(
         load_rule=rule,
         vertical_shift=vertical,
         found=found,
-        notes=(*notes, *_below_zero(curves)),
+        notes=(*notes, *implausible(points), *_below_zero(curves)),
     )
 
 
