@@ -28,6 +28,7 @@ ROOMS = {
     "base": (
         "units",
         "errors",
+        "arguments",
         "notes",
         "files",
         "data",

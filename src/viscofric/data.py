@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import flag, insist_on, numbers, sentences, text
 from viscofric.errors import InputError
-from viscofric.units import positive
+from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,10 +25,7 @@ _LARGEST_WHOLE = 2**53
 
 def read_only(values: object, name: str = "a column of measurements") -> Array:
     """Return a read-only float copy, so that frozen measurements stay frozen; name it where it holds no numbers."""
-    try:
-        column = np.array(values, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} must hold numbers, and nothing else.") from None
+    column = np.array(numbers(values, name, infinite=True, missing=True))
     column.flags.writeable = False
     return column
 
@@ -45,7 +43,7 @@ def whole_numbers(values: object, name: str) -> NDArray[np.int64]:
 def picked(rows: object, count: int, noun: str) -> NDArray[np.int64]:
     """Return the places of the rows that a mask or places pick out of so many."""
     try:
-        places = np.asarray(rows)
+        places = np.array(None) if np.ma.is_masked(rows) else np.asarray(rows)
     except ValueError:
         places = np.array(None)
     if places.shape == (0,):
@@ -89,16 +87,18 @@ class Isotherm:
     strain_amplitude: Array | None = None
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an isotherm"))
+        frequencies = np.atleast_1d(read_only(self.angular_frequency, "angular_frequency of an isotherm"))
         for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
-            column = read_only(getattr(self, name))
-            if column.shape != (np.size(self.angular_frequency),) or not np.all(column > 0):
+            column = read_only(getattr(self, name), f"{name} of an isotherm")
+            if column.shape != frequencies.shape or not np.all((column > 0) & np.isfinite(column)):
                 raise InputError(f"{name} of an isotherm must be one row of positive numbers, one per frequency.")
             object.__setattr__(self, name, column)
         if np.any(np.diff(self.angular_frequency) <= 0):
             raise InputError("the frequencies of an isotherm must ascend without repeats.")
         if self.strain_amplitude is not None:
-            amplitude = read_only(self.strain_amplitude)
-            if amplitude.shape != self.angular_frequency.shape or np.any(amplitude < 0):
+            amplitude = read_only(self.strain_amplitude, "strain_amplitude of an isotherm")
+            if amplitude.shape != self.angular_frequency.shape or np.any((amplitude < 0) | np.isinf(amplitude)):
                 raise InputError("strain_amplitude of an isotherm must be one fraction per frequency, none below zero.")
             object.__setattr__(self, "strain_amplitude", amplitude)
 
@@ -146,6 +146,13 @@ class IsothermalSweeps:
     def __post_init__(self) -> None:
         if self.deformation not in ("tension", "shear"):
             raise InputError(f"deformation = {self.deformation!r}: must be 'tension' or 'shear'.")
+        insist_on(self.isotherms, "isotherms", tuple, list, right="a tuple of Isotherm")
+        for one in self.isotherms:
+            insist_on(one, "one of the isotherms", Isotherm)
+        for name in ("source", "format"):
+            text(getattr(self, name), f"{name} of the sweeps")
+        flag(self.deformation_told, "deformation_told")
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of the sweeps"))
         object.__setattr__(self, "isotherms", tuple(sorted(self.isotherms, key=lambda sweep: sweep.temperature)))
 
     def __len__(self) -> int:
@@ -160,7 +167,7 @@ class IsothermalSweeps:
         """Return the sweeps as tensile moduli, E = 2(1+ν)G if they were measured in shear."""
         if self.deformation == "tension":
             return self
-        factor = 2.0 * (1.0 + poisson_ratio)
+        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
         isotherms = tuple(
             replace(
                 sweep,
@@ -204,9 +211,9 @@ class MasterCurve:
     reference: float
 
     def __post_init__(self) -> None:
-        shape = np.shape(self.angular_frequency)
+        shape = numbers(self.angular_frequency, "angular_frequency of a master curve").shape
         for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
-            column = read_only(getattr(self, name))
+            column = read_only(getattr(self, name), f"{name} of a master curve")
             if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
                 raise InputError(f"{name} of a master curve must be one row of positive numbers, one per point.")
             object.__setattr__(self, name, column)

@@ -14,7 +14,8 @@ def brief(value: object) -> str:
 def check_choice(value: object, name: str, *choices: str) -> None:
     """Raise `InputError` unless a value is one of the choices."""
     if not isinstance(value, str) or value not in choices:
-        raise InputError(f"{name} = {brief(value)}: must be {' or '.join(map(repr, choices))}.")
+        *others, last = map(repr, choices)
+        raise InputError(f"{name} = {brief(value)}: must be {', '.join(others)} or {last}.")
 
 
 class ViscofricError(Exception):

@@ -24,6 +24,8 @@ def file_path(path: object) -> Path:
     """Return the name of a file as a path; raise `InputError` where something else is given."""
     if not isinstance(path, (str, os.PathLike)):
         raise InputError(f"{brief(path)} is not the name of a file, which is text or a pathlib.Path.")
+    if str(path) == "" or "\0" in str(path):
+        raise DataFileError(brief(path), "is not the name of a file.")
     return Path(path)
 
 
@@ -54,10 +56,6 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
         return file.read_bytes()
     except FileNotFoundError:
         raise DataFileError(shown, "no such file.") from None
-    except ValueError as error:
-        if isinstance(error, DataFileError):
-            raise
-        raise DataFileError(shown.replace("\0", "\\0"), f"is not the name of a file ({error}).") from None
     except OSError as error:
         raise DataFileError(shown, f"cannot be opened ({error.strerror or error}).") from None
 

@@ -19,7 +19,8 @@ import threading
 from collections import deque
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from viscofric.errors import InputError, ViscofricError, brief
+from viscofric.arguments import whole_number
+from viscofric.errors import InputError, ViscofricError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator, Sequence
@@ -68,8 +69,7 @@ class Workers:
     """
 
     def __init__(self, number: int, needed: str = "") -> None:
-        if type(number) is not int or number < 1:
-            raise InputError(f"workers = {brief(number)}: must be a whole number of processes above zero, such as 2.")
+        whole_number(number, "workers", 1, right="a whole number of processes above zero, such as 2")
         self.number, self._needed = number, needed
         self._idle: list[Child] = []
         self._started: contextlib.ExitStack | None = None

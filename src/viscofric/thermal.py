@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from viscofric.arguments import text
 from viscofric.units import Quantity, positive
 
 
@@ -43,6 +44,7 @@ class ThermalProperties:
     def __post_init__(self) -> None:
         for name, unit in (("conductivity", "W/m/K"), ("density", "kg/m**3"), ("heat_capacity", "J/kg/K")):
             object.__setattr__(self, name, positive(getattr(self, name), unit, name))
+        text(self.name, "name")
 
     @property
     def volume_heat(self) -> float:

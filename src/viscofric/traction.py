@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import insist_on, sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, brief
 from viscofric.units import celsius
@@ -121,7 +122,7 @@ class TractionRuns:
     steps: tuple[TractionStep, ...] = ()
 
     def __post_init__(self) -> None:
-        rows = np.size(self.disc_speed)
+        rows = read_only(self.disc_speed, "disc_speed of traction runs").size
         for name in ("disc_speed", "ball_speed", "traction_force", "load", "temperature"):
             column = read_only(getattr(self, name), f"{name} of traction runs")
             if column.shape != (rows,) or not np.all(np.isfinite(column)):
@@ -145,6 +146,11 @@ class TractionRuns:
             object.__setattr__(self, name, numbers)
         if rows and not np.all(self.load > 0):
             raise InputError("load of traction runs must be above zero in every reading.")
+        text(self.source, "source of traction runs")
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of traction runs"))
+        insist_on(self.steps, "steps", tuple, list, right="a tuple of TractionStep")
+        for one in self.steps:
+            insist_on(one, "one of the steps", TractionStep)
         object.__setattr__(self, "steps", _summarised(self, self.steps))
 
     def __len__(self) -> int:
@@ -194,7 +200,7 @@ class TractionRuns:
         """Tell which readings belong to some steps, all of which there must be."""
         if self.step is None:
             raise InputError(f"{name} = {brief(wanted)}: these traction runs do not say what steps they are of.")
-        numbers = np.atleast_1d(np.asarray(wanted))
+        numbers = np.atleast_1d(whole_numbers(wanted, name))
         known = np.isin(numbers, self.step)
         if not np.all(known):
             raise InputError(

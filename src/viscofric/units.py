@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import LARGEST, insist_on, numbers, real
 from viscofric.errors import InputError, brief
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
     InputError
         If the text is not a unit, or not one of the right dimension.
     """
+    insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     zero, one = (_convert(_quantity(number, text, text, unit, name), text, unit, name) for number in (0.0, 1.0))
     return one - zero, zero
 
@@ -167,15 +169,23 @@ def to_si(value: Quantity, unit: str, name: str = "value") -> float:
         number = _convert(value, value, unit, name)
     else:
         try:
-            if isinstance(value, (bool, np.bool_)):
-                raise TypeError(value)
-            number = float(value)
-        except (TypeError, ValueError, OverflowError):
+            number = _single(value)
+        except ValueError as error:
             kind = "a number" if unit == "dimensionless" else "a number with a unit"
-            raise _wrong(name, value, unit, f"is not {kind}") from None
+            raise _wrong(name, value, unit, f"is not {kind} but {error}") from None
     if not np.isfinite(number):
         raise _wrong(name, value, unit, "is not a finite number")
+    if abs(number) > LARGEST:
+        raise _wrong(name, value, unit, f"is beyond {LARGEST:g}, too large to compute with")
     return number
+
+
+def _single(value: object) -> float:
+    """Return one real number as a float; ValueError says what there is instead."""
+    found = real(value)
+    if found.ndim:
+        raise ValueError("several")
+    return float(found)
 
 
 def _parse(text: str, unit: str, name: str) -> float:
@@ -220,7 +230,7 @@ def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = ""
             raise _wrong(name, str(shown), unit, "is a temperature difference where a temperature is wanted")
         if unit == "delta_degC" and units in (["degree_Celsius"], ["degree_Fahrenheit"], ["degree_Reaumur"]):
             raise _wrong(name, str(shown), unit, "is a temperature where a temperature difference is wanted")
-        return float(quantity.to(unit).magnitude)
+        return _single(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         reason = f"has the wrong kind of unit ({quantity.units})"
         if unit == "dimensionless":
@@ -241,10 +251,24 @@ def to_si_array(values: Quantities, unit: str, name: str = "value") -> NDArray[n
             return np.array([to_si(values, unit, name)])  # type: ignore[arg-type]
         return np.array([to_si(value, unit, name) for value in values])  # type: ignore[union-attr, arg-type]
     try:
+        if isinstance(values, (bytes, dict, set)):
+            raise TypeError
         each = list(values)  # type: ignore[arg-type]
     except TypeError:
         raise _wrong(name, values, unit, "is not a number with a unit, nor a list of such") from None
     return np.array([to_si(value, unit, name) for value in each])
+
+
+def to_si_in_shape(values: Quantities, unit: str, name: str) -> NDArray[np.float64]:
+    """Convert one or many values to floats in an SI unit, in the shape in which they are given; see `to_si`."""
+    if isinstance(values, np.ndarray) and values.dtype.kind in "fiu":
+        return numbers(values, name)
+    if isinstance(values, (list, tuple)) or np.ndim(values) > 0:
+        rows = [to_si_in_shape(value, unit, name) for value in values]  # type: ignore[union-attr]
+        if len({row.shape for row in rows}) > 1:
+            raise _wrong(name, values, unit, "has rows that are not equally long")
+        return np.array(rows, dtype=float)
+    return np.asarray(to_si(values, unit, name))  # type: ignore[arg-type]
 
 
 def positive(value: Quantity, unit: str, name: str) -> float:
@@ -252,6 +276,8 @@ def positive(value: Quantity, unit: str, name: str) -> float:
     number = to_si(value, unit, name)
     if number <= 0.0:
         raise _wrong(name, value, unit, "must be above absolute zero" if unit == "K" else "must be above zero")
+    if number < 1.0 / LARGEST:
+        raise _wrong(name, value, unit, f"is below {1.0 / LARGEST:g}, too small to compute with")
     return number
 
 
@@ -260,6 +286,15 @@ def share(value: Quantity, name: str, *, example: float) -> float:
     number = to_si(value, "dimensionless", name)
     if not 0.0 < number < 1.0:
         raise InputError(f"{name} = {brief(value)}: must lie between 0 and 1, such as {example:g}.")
+    return number
+
+
+def checked_poisson_ratio(value: Quantity, name: str = "poisson_ratio", *, above: float | None = None) -> float:
+    """Convert like `to_si` and insist on a Poisson ratio from 0 to 0.5, or from above another least value."""
+    number = to_si(value, "dimensionless", name)
+    if not (number >= 0.0 if above is None else number > above) or number > 0.5:
+        limits = "lie between 0 and 0.5" if above is None else f"be above {above:g} and at most 0.5"
+        raise InputError(f"{name} = {brief(value)}: must {limits}.")
     return number
 
 
@@ -279,6 +314,21 @@ def angular_frequency(value: Quantity, name: str) -> float:
         if "rad" not in value:
             raise _wrong(name, value, "Hz", "must be a frequency in Hz or rad/s")
     return positive(value, "rad/s", name)
+
+
+def two_lengths(value: Quantity | tuple[Quantity, Quantity], name: str = "spacing") -> tuple[float, float]:
+    """Return two lengths above zero, those along x and y, m; one that is given is both."""
+    pair = value if isinstance(value, (tuple, list)) else (value, value)
+    if len(pair) != 2:
+        raise InputError(f"{name} = {brief(value)}: must be one length or two, those of x and y.")
+    return positive(pair[0], "m", name), positive(pair[1], "m", name)
+
+
+def velocity(value: Quantity, name: str = "speed") -> float:
+    """Convert like `to_si`, but let infinite speeds pass, one of the elastic limits."""
+    if isinstance(value, float) and math.isinf(value):
+        return value
+    return to_si(value, "m/s", name)
 
 
 def celsius(kelvin: float) -> float:

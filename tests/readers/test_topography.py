@@ -146,7 +146,7 @@ def test_what_cannot_be_read_is_refused_in_one_sentence_with_the_files_name(tmp_
         ({"spacing": "-1 um"}, "above zero"),
         ({"unit": "kg"}, "wrong kind of unit"),
         ({"lines": "z"}, "must be 'x' or 'y'"),
-        ({"missing": "none"}, "the number that stands"),
+        ({"missing": "none"}, "missing = 'none'"),
         ({"channel": 1.5}, "name of a channel"),
         ({"unit": 3}, "must be text"),
     ],

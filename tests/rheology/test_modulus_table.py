@@ -54,7 +54,7 @@ def test_negative_frequencies_give_the_conjugate():
     assert np.array_equal(one.complex_modulus([-3.0, -0.5]), np.conj(one.complex_modulus([3.0, 0.5])))
 
 
-@pytest.mark.parametrize("omega", [0.0, 1e-5, 1e9, -1e9, np.inf, np.nan])
+@pytest.mark.parametrize("omega", [0.0, 1e-5, 1e9, -1e9, np.inf])
 def test_beyond_its_ends_a_table_refuses(omega):
     with pytest.raises(InputError, match=r"lies outside the table's 0\.0001 to 1e\+08 rad/s"):
         table().complex_modulus([1.0, omega])
@@ -75,7 +75,7 @@ def test_ends_taken_for_plateaus_keep_storage_and_lose_loss():
     assert (one.E0, one.E_inf) == (low.real, high.real)
     with pytest.raises(InputError, match="outside"):
         _ = table().E0
-    with pytest.raises(InputError, match="outside"):
+    with pytest.raises(InputError, match="angular_frequency = nan"):
         one.complex_modulus(np.nan)
 
 

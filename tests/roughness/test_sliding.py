@@ -183,9 +183,9 @@ def test_what_cannot_be_predicted_is_refused_and_what_fails_is_named():
             vf.friction_by_wavelength(solution, edges)
     for edges, words in (
         (0, "number of classes above zero"),
-        ("many", "number of classes, or"),
+        ("many", "edges = .*array of numbers"),
         ([2.0, 1.0], "two pressures at least"),
-        ([1.0, math.nan], "two pressures at least"),
+        ([1.0, math.nan], "edges = .*finite numbers"),
     ):
         with pytest.raises(vf.InputError, match=words):
             vf.pressure_distribution(solution, edges)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from viscofric.errors import InputError
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 
 def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
@@ -28,9 +27,5 @@ def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float
     """
     if modulus is None:
         return 0.0
-    ratio = to_si(poisson_ratio, "dimensionless", "indenter_poisson_ratio")
-    if not -1.0 < ratio <= 0.5:
-        raise InputError(
-            f"indenter_poisson_ratio = {poisson_ratio!r}: must lie between -1 and 0.5, such as 0.3 of steel."
-        )
+    ratio = checked_poisson_ratio(poisson_ratio, "indenter_poisson_ratio", above=-1.0)
     return (1.0 - ratio**2) / positive(modulus, "Pa", "indenter_modulus")

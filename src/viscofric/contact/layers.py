@@ -36,8 +36,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
-from viscofric.units import Quantity, positive
+from viscofric.arguments import flag, numbers
+from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -75,8 +75,7 @@ class Layer:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "thickness", positive(self.thickness, "m", "thickness of the layer"))
-        if not isinstance(self.bonded, (bool, np.bool_)):
-            raise InputError(f"bonded = {self.bonded!r}: must be True (bonded) or False (sliding without friction).")
+        flag(self.bonded, "bonded")
 
     def yielding(self, wave_number: ArrayLike, poisson_ratio: float) -> Array:
         """Return Θ(qH): displacement under a wave of pressure over that of the half-space.
@@ -93,8 +92,8 @@ class Layer:
         array
             In the shape of `wave_number`, to rounding from qH = 1e-6 to 1e6 and beyond.
         """
-        depth = np.asarray(wave_number, dtype=float) * float(self.thickness)
-        return _bonded(depth, poisson_ratio) if self.bonded else _sliding(depth)
+        depth = numbers(wave_number, "wave_number") * float(self.thickness)
+        return _bonded(depth, checked_poisson_ratio(poisson_ratio)) if self.bonded else _sliding(depth)
 
     def mean_compression(self, poisson_ratio: float) -> float:
         """Return E u/p under a uniform pressure, m: (1+ν)(1−2ν)/(1−ν) H."""

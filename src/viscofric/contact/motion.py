@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from viscofric.arguments import real
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def unit_direction(direction: Sequence[float]) -> tuple[float, float]:
         If it is not two finite numbers, or both are zero.
     """
     try:
-        x, y = (float(one) for one in direction)
+        x, y = real(direction).tolist()
         length = math.hypot(x, y)
     except (TypeError, ValueError):
         length = math.nan

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import flag, number, whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.counterface import indenter_compliance
 from viscofric.contact.derivatives.friction import differentiate
@@ -33,7 +33,7 @@ from viscofric.errors import InputError, brief
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, positive, to_si, velocity
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -156,8 +156,8 @@ def solve_steady(
     >>> round(solution.friction_coefficient, 4)
     0.0576
     """
-    if derivatives:
-        _check_derivatives(_velocity(speed))
+    if flag(derivatives, "derivatives"):
+        _check_derivatives(velocity(speed))
     solved = _solved(
         material, indenter, speed=speed, load=load, indentation=indentation, temperature=temperature,
         accuracy=accuracy, tolerance=tolerance, finest=finest, window=window, grid=grid,
@@ -188,7 +188,7 @@ def solve_and_differentiate(
     InputError, ConvergenceError
         As `solve_steady`.
     """
-    _check_derivatives(_velocity(speed))
+    _check_derivatives(velocity(speed))
     solved = _solved(material, indenter, speed=speed, temperature=temperature, **settings)
     solution = _solution(solved, material, indenter, temperature, settings.get("layer"))
     return replace(solution, derivatives=_derivatives(solved, with_error=False))
@@ -237,7 +237,7 @@ def friction_and_derivatives(
     InputError, ConvergenceError
         As `solve_steady`.
     """
-    _check_derivatives(_velocity(speed))
+    _check_derivatives(velocity(speed))
     coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
     solved = _solved(material, indenter, speed=speed, load=load, accuracy=accuracy, coarsest=coarsest, **settings)
     estimate, scale = friction_estimate(solved.stages), solved.scale
@@ -280,7 +280,7 @@ def _solved(
 ) -> _Solved:
     """Check, and solve on nested grids; parameters as of `solve_steady`."""
     insist_on_indenter(indenter)
-    velocity = _velocity(speed)
+    sliding = velocity(speed)
     geometry = indenter.geometry
     finest = geometry.finest if finest is None else finest
     _check_settings(accuracy, tolerance, finest)
@@ -294,10 +294,8 @@ def _solved(
         raise InputError(f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').")
     levelled = geometry.has_far_field or (layer is not None and counterface == 0.0)
     scale, control, given, held = _held(indenter, 1.0 / compliance, load, indentation, levelled)
-    solid = _steady_material(
-        spectrum, abs(velocity) / scale.length, plane_strain / compliance, counterface / compliance
-    )
-    ahead = math.copysign(1.0, velocity)
+    solid = _steady_material(spectrum, abs(sliding) / scale.length, plane_strain / compliance, counterface / compliance)
+    ahead = math.copysign(1.0, sliding)
     if len(solid.compliances):
         insist_on_round_edges(indenter)
     shape = ScaledIndenter(indenter, scale, (ahead * toward[0], ahead * toward[1]))
@@ -311,13 +309,7 @@ def _solved(
     given_grid.check(first.extent, first.window.spacing, scale.length)
     stages = refine(first, accuracy, finest, given_grid)
     contact = shape.extent(stages[-1].window, stages[-1].result.pressure > 0.0)
-    return _Solved(stages, scale, spectrum, plane_strain, velocity, toward, given, contact)
-
-
-def _velocity(speed: Quantity) -> float:
-    if isinstance(speed, float) and math.isinf(speed):
-        return speed
-    return to_si(speed, "m/s", "speed")
+    return _Solved(stages, scale, spectrum, plane_strain, sliding, toward, given, contact)
 
 
 def _toward(direction: Sequence[float], indenter: Indenter) -> tuple[float, float]:
@@ -332,15 +324,14 @@ def _toward(direction: Sequence[float], indenter: Indenter) -> tuple[float, floa
 
 def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
     least = TIGHTEST / LOOSEST
-    if not (isinstance(accuracy, Real) and least <= accuracy < 1.0):
+    if not least <= number(accuracy, "accuracy") < 1.0:
         raise InputError(f"accuracy = {brief(accuracy)}: must be a number from {least:g} to below 1, such as 1e-3.")
-    if not (isinstance(tolerance, Real) and TIGHTEST <= tolerance <= LOOSEST * accuracy):
+    if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST * accuracy:
         raise InputError(
             f"tolerance = {brief(tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the accuracy, "
             f"which is {LOOSEST * accuracy:g} for accuracy = {accuracy:g}, so that it does not spoil the friction."
         )
-    if not (isinstance(finest, Integral) and finest >= LEAST_FINEST):
-        raise InputError(f"finest = {finest!r}: must be a whole number of at least {LEAST_FINEST} cells.")
+    whole_number(finest, "finest", LEAST_FINEST)
 
 
 def _check_derivatives(velocity: float) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, check_choice
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
@@ -164,15 +165,18 @@ class FrictionCurves:
     assumption: str = ""
 
     def __post_init__(self) -> None:
-        shape = (np.size(self.speed),)
+        shape = (read_only(self.speed, "speed of friction curves").size,)
         for name in (*_REQUIRED, *_OPTIONAL):
-            if getattr(self, name) is not None:
+            if name in _REQUIRED or getattr(self, name) is not None:
                 object.__setattr__(self, name, _column(getattr(self, name), name, shape))
         replicates = whole_numbers(self.replicates, "replicates of friction curves")
         if replicates.shape != shape:
             raise InputError("replicates of friction curves must hold one whole number per speed.")
         object.__setattr__(self, "replicates", replicates)
         check_choice(self.load_unit, "load_unit", "N", "N/m")
+        for name in ("source", "assumption"):
+            text(getattr(self, name), f"{name} of friction curves")
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of friction curves"))
         for name in ("speed", "temperature", "load"):
             if not np.all(getattr(self, name) > 0.0):
                 raise InputError(f"{name} of friction curves must be above zero everywhere.")
@@ -214,7 +218,7 @@ class FrictionCurves:
         from viscofric.contact.solution import ContactSolution
 
         given: object = solutions
-        solved = tuple(given) if isinstance(given, Iterable) else (given,)
+        solved = tuple(given) if isinstance(given, Iterable) and given is not np.ma.masked else (given,)
         for solution in solved:
             if not isinstance(solution, ContactSolution):
                 raise InputError(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 
+from viscofric.arguments import insist_on_function
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
@@ -13,6 +14,7 @@ from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.processes import Workers, call_all
+from viscofric.rheology.material import insist_on_material
 from viscofric.units import Quantities, Quantity, positive, to_si_array
 
 if TYPE_CHECKING:
@@ -111,8 +113,10 @@ def predict_friction(
     kelvins = to_si_array(temperatures, "K", "temperatures")
     if unknown := settings.keys() - ContactSettings.__annotations__.keys():
         raise TypeError(f"predict_friction() got an unexpected keyword argument {min(unknown)!r}")
+    insist_on_material(material)
     insist_on_indenter(indenter)
     insist_on_round_edges(indenter)
+    insist_on_function(progress, "progress")
     force = positive(load, indenter.geometry.load_unit, "load")
     for name, values, unit in (("speeds", velocities, "m/s"), ("temperatures", kelvins, "K")):
         if not values.size:

@@ -6,6 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING
 
+from viscofric.arguments import insist_on
 from viscofric.errors import DataFileError
 from viscofric.units import conversion
 
@@ -68,6 +69,7 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     InputError
         If the text is not a unit of the right dimension.
     """
+    insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
     pressure = _PRESSURE.fullmatch(plain)
     if pressure:

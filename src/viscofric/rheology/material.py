@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
+from viscofric.arguments import text
 from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.table_modes import modes_of_table, what_was_fitted
-from viscofric.units import positive, to_si
+from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     import numpy as np
@@ -84,10 +85,9 @@ class Material:
                 raise InputError("vertical_shift of a material needs a shift too, which tells its reference.")
             about = self.vertical_shift.at_reference(self.shift.reference)
             object.__setattr__(self, "vertical_shift", about)
-        ratio = to_si(self.poisson_ratio, "dimensionless", "poisson_ratio")
-        if not 0.0 <= ratio <= 0.5:
-            raise InputError(f"poisson_ratio = {ratio:g}: must lie between 0 and 0.5.")
-        object.__setattr__(self, "poisson_ratio", ratio)
+        object.__setattr__(self, "poisson_ratio", checked_poisson_ratio(self.poisson_ratio))
+        text(self.name, "name of a material")
+        text(self.citation, "citation of a material")
 
     @classmethod
     def standard_linear_solid(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypedDict, Unpack
 
 import numpy as np
 
+from viscofric.arguments import insist_on_function
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import ConvergenceError, InputError, brief
@@ -236,6 +237,7 @@ def predict_rough_friction(
         kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
         if not kelvins:
             raise InputError("temperatures must hold at least one value.")
+    insist_on_function(progress, "progress")
     load = positive(pressure, "Pa", "pressure")
     calls: list[dict[str, Any]] = [
         {

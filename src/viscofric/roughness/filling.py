@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 def filled(heights: Array, spacing: tuple[float, float], periodic: bool, method: str) -> Array:
     """Return heights without NaN; see `viscofric.Topography.fill`."""
-    check_choice(method, "method", "harmonic", "nearest")
     holes = np.isnan(heights)
     if holes.all():
         raise InputError("all heights of the topography are missing; there is nothing to fill them from.")

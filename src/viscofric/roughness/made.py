@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import check_cost, flag, numbers, whole_number
 from viscofric.contact.periodic.waves import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum, hurst_exponent, wanted_rms
 from viscofric.roughness.topography import Topography
-from viscofric.roughness.waves import insist_on_size
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, positive, to_si, two_lengths
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -92,6 +92,7 @@ def self_affine(
     '0.200000'
     """
     H = hurst_exponent(hurst)
+    flag(exact, "exact")
     points, steps = _grid(shape, spacing)
     wanted, order = wanted_rms(rms_height, rms_slope)
     period = max(n * d for n, d in zip(points, steps, strict=True) if n > 1)
@@ -169,6 +170,7 @@ def surface_from_spectrum(
     >>> made.heights.shape
     (128, 128)
     """
+    flag(exact, "exact")
     points, steps = _grid(shape, spacing)
     wanted = LineSpectrum if points[1] == 1 else PowerSpectrum
     other = PowerSpectrum if wanted is LineSpectrum else LineSpectrum
@@ -186,18 +188,12 @@ def _grid(
     shape: int | tuple[int, int], spacing: Quantity | tuple[Quantity, Quantity]
 ) -> tuple[tuple[int, int], tuple[float, float]]:
     points: tuple[int, ...] = shape if isinstance(shape, (tuple, list)) else (shape, 1)
-    if len(points) != 2 or not all(_is_whole(n, 1) for n in points) or points[0] < 4:
-        raise InputError(f"shape = {brief(shape)}: must be the points along x (four at least) and y, or of a profile.")
-    insist_on_size(points, "shape")
-    steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
-    if len(steps) != 2:
-        raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
-    return (int(points[0]), int(points[1])), (positive(steps[0], "m", "spacing"), positive(steps[1], "m", "spacing"))
-
-
-def _is_whole(number: object, least: int) -> bool:
-    """Tell whether a number is whole and not below the least."""
-    return isinstance(number, (int, np.integer)) and int(number) >= least
+    right = "the points along x (four at least) and y, or of a profile"
+    if len(points) != 2:
+        raise InputError(f"shape = {brief(shape)}: must be {right}.")
+    points = tuple(whole_number(n, "shape", least, right=right) for n, least in zip(points, (4, 1), strict=True))
+    check_cost(points, "shape: the surface")
+    return (points[0], points[1]), two_lengths(spacing)
 
 
 class _Waves:
@@ -206,9 +202,7 @@ class _Waves:
     def __init__(
         self, points: tuple[int, int], steps: tuple[float, float], seed: int, aspect: float, angle: Quantity
     ) -> None:
-        if not _is_whole(seed, 0):
-            raise InputError(f"seed = {brief(seed)}: must be a whole number, not below zero.")
-        self.points, self.steps, self.seed = points, steps, seed
+        self.points, self.steps, self.seed = points, steps, whole_number(seed, "seed", 0)
         self.stretch = math.sqrt(positive(aspect, "dimensionless", "aspect"))
         turn = to_si(angle, "rad", "angle")
         if points[1] == 1 and self.stretch != 1.0:
@@ -244,8 +238,10 @@ class _Waves:
             if n % 2 == 0:
                 held[(slice(None),) * axis + (n // 2,)] = False
         try:
-            found[held] = self.cell * np.asarray(density(self.seen[held]), dtype=float)
-        except ValueError:  # another number of values, or text
+            found[held] = self.cell * numbers(density(self.seen[held]), "the spectrum's density")
+        except InputError:
+            raise
+        except ValueError:  # another number of values
             raise InputError("the spectrum must return one density for each of the wave numbers it is given.") from None
         if not np.all(np.isfinite(found) & (found >= 0.0)):
             raise InputError("the spectrum's density must be finite and not below zero at all wave numbers.")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import MOST_PER_DECADE, whole_number
 from viscofric.contact.periodic.waves import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
@@ -141,8 +142,7 @@ def _rings(
     The waves in the first ring stand for all wave numbers from limits[0] on: the cells of a grid of waves fill the
     plane.
     """
-    if not (type(per_decade) is int and per_decade > 0):
-        raise InputError(f"per_decade = {per_decade!r}: must be a whole number above zero.")
+    whole_number(per_decade, "per_decade", 1, MOST_PER_DECADE)
     start, first, last = limits
     # Rounding in what a surface was made without is no roughness.
     loud = (q >= first * (1.0 - 1e-9)) & (q <= last * (1.0 + 1e-9)) & (density > 1e-24 * density.max(initial=0.0))

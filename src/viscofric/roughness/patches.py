@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import numbers, whole_number
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.errors import InputError, brief
 
@@ -147,18 +148,18 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
     _insist(solution)
     loaded = solution.pressure[solution.pressure > 0.0]
     if isinstance(edges, int):
-        if edges < 1:
-            raise InputError(f"edges = {edges}: must be a number of classes above zero, or their edges.")
+        whole_number(edges, "edges", 1, MOST_CLASSES, "a number of classes above zero, or their edges")
         limits = np.linspace(0.0, solution.max_pressure, edges + 1)
     else:
-        try:
-            limits = np.asarray(edges, float)
-        except (TypeError, ValueError):
-            raise InputError(f"edges = {brief(edges)}: must be a number of classes, or their edges, Pa.") from None
+        limits = numbers(edges, "edges", infinite=True)
         if limits.ndim != 1 or len(limits) < 2 or not np.all(np.diff(limits) > 0.0):
             raise InputError(f"edges = {brief(edges)}: must be two pressures at least, Pa, that increase.")
     counts, found = np.histogram(loaded, limits)
     return 0.5 * (found[1:] + found[:-1]), counts / (solution.pressure.size * np.diff(found))
+
+
+#: As a number; edges may be as many as one likes.
+MOST_CLASSES = 10**6
 
 
 def _insist(solution: object) -> None:

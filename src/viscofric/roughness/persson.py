@@ -191,13 +191,14 @@ def persson_theory(
     wanted = to_si(accuracy, "dimensionless", "accuracy")
     if not _CLOSEST <= wanted <= _LOOSEST:
         raise InputError(f"accuracy = {wanted:g}: must lie between {_CLOSEST:g} and {_LOOSEST:g}.")
+    spots = share(macroasperity_area, "macroasperity_area", example=0.3)
     flash = None
     if thermal is not None:
         if not isinstance(thermal, ThermalProperties):
             raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.")
         if material.shift is None or temperatures is None:
             raise InputError("thermal: a flash temperature needs a material with a shift, and temperatures.")
-        flash = Flash(thermal, share(macroasperity_area, "macroasperity_area", example=0.3))
+        flash = Flash(thermal, spots)
     solver = Theory(material, spectrum, positive(pressure, "Pa", "pressure"), sharing, flash)
     cases = [Case(kelvin, float(speed)) for kelvin in kelvins for speed in velocities]
     found, error = solver.converged(cases, wanted)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,10 +17,10 @@ if TYPE_CHECKING:
 
 def checked(q: ArrayLike, density: ArrayLike, unit: str) -> tuple[Array, Array]:
     """Return wave numbers and densities as read-only rows: positive, finite, increasing; two at least."""
-    try:
-        found = np.atleast_1d(np.array(q, dtype=float)), np.atleast_1d(np.array(density, dtype=float))
-    except (TypeError, ValueError):
-        raise InputError("a power spectrum must be two rows of numbers: wave numbers and densities.") from None
+    found = (
+        np.atleast_1d(np.array(numbers(q, "wave_number", infinite=True))),
+        np.atleast_1d(np.array(numbers(density, "density", infinite=True))),
+    )
     if found[0].ndim != 1 or found[0].shape != found[1].shape or found[0].size < 2:
         raise InputError(
             f"a power spectrum must be two rows of equal length, two points at least, not {np.shape(q)} wave numbers "
@@ -36,7 +37,7 @@ def checked(q: ArrayLike, density: ArrayLike, unit: str) -> tuple[Array, Array]:
 
 def value(q: Array, density: Array, at: ArrayLike) -> Array:
     """Return the density at any wave numbers; zero outside the points (up to rounding)."""
-    where = np.asarray(at, dtype=float)
+    where = numbers(at, "wave_number")
     inside = (where >= q[0] * (1.0 - 1e-12)) & (where <= q[-1] * (1.0 + 1e-12))
     logs = np.interp(np.log(np.where(inside, where, q[0])), np.log(q), np.log(density))
     return np.asarray(np.where(inside, np.exp(logs), 0.0))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from viscofric.errors import DataFileError, InputError, brief
+from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path
 from viscofric.readers.topography.read import read_scan
 from viscofric.readers.topography.scan import Asked
 from viscofric.roughness.topography import Topography
-from viscofric.units import Quantity, positive
+from viscofric.units import Quantity, to_si, two_lengths
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -69,15 +69,9 @@ def read_topography(
     >>> scan.heights.shape, f"{np.ptp(scan.heights):.1e} m"
     ((2, 3), '1.0e-06 m')
     """
-    steps = None
-    if spacing is not None:
-        pair = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
-        if len(pair) != 2:
-            raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
-        steps = (positive(pair[0], "m", "spacing"), positive(pair[1], "m", "spacing"))
-    if missing is not None and not isinstance(missing, (int, float)):
-        raise InputError(f"missing = {brief(missing)}: must be the number that stands for a missing height.")
-    scan = read_scan(path, Asked(unit, steps, channel, missing, lines))
+    steps = None if spacing is None else two_lengths(spacing)
+    gap = None if missing is None else to_si(missing, "dimensionless", "missing")
+    scan = read_scan(path, Asked(unit, steps, channel, gap, lines))
     try:
         found = Topography(scan.heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.told, *scan.notes))
     except InputError as error:

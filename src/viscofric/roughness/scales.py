@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import MOST_PER_DECADE, whole_number
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.waves import hermitian_factor, wave_number, without_nyquist
 from viscofric.errors import InputError, brief
@@ -91,6 +92,7 @@ def friction_by_wavelength(
     """
     if not isinstance(solution, PeriodicSolution):
         raise InputError(f"solution = {brief(solution)}: must be what solve_periodic gave.")
+    whole_number(per_decade, "per_decade", 1, MOST_PER_DECADE)
     shape = solution.pressure.shape[0], solution.pressure.shape[1]
     spacing = tuple(float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (solution.x, solution.y))
     qx, qy = wave_number(shape, (spacing[0], spacing[1]))
@@ -120,8 +122,6 @@ def _limits(edges: Quantities | None, q: Array, per_decade: int) -> Array:
         if len(given) < 2 or given[-1] <= 0.0 or np.any(np.diff(given) == 0.0):
             raise InputError("edges: must be two wavelengths at least, different and above zero.")
         return given
-    if not (type(per_decade) is int and per_decade > 0):
-        raise InputError(f"per_decade = {per_decade!r}: must be a whole number above zero.")
     first, last = float(q.min()), float(q[np.isfinite(q)].max())
     count = max(1, math.ceil(per_decade * math.log10(last / first) - _ROUNDING))
     return np.asarray(2.0 * math.pi / (first * 10.0 ** (np.arange(count + 1) / per_decade)), dtype=np.float64)

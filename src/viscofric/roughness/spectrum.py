@@ -119,7 +119,8 @@ class PowerSpectrum:
 
     def moment(self, order: float) -> float:
         """Return ∫ d²q q^order C(q): ⟨h²⟩ for 0, ⟨|∇h|²⟩ for 2, ⟨(∇²h)²⟩ for 4."""
-        return 2.0 * math.pi * power_law.integral(self.wave_number, self.density, order + 1.0)
+        power = to_si(order, "dimensionless", "order") + 1.0
+        return 2.0 * math.pi * power_law.integral(self.wave_number, self.density, power)
 
     def limited(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> PowerSpectrum:
         """Return the part between two wavelengths, m.
@@ -218,7 +219,7 @@ class LineSpectrum:
 
     def moment(self, order: float) -> float:
         """Return 2 ∫ q^order C(q) dq: ⟨h²⟩ for 0, ⟨(dh/dx)²⟩ for 2, ⟨(d²h/dx²)²⟩ for 4."""
-        return 2.0 * power_law.integral(self.wave_number, self.density, order)
+        return 2.0 * power_law.integral(self.wave_number, self.density, to_si(order, "dimensionless", "order"))
 
     def rms_height(self) -> float:
         """Return the rms height, m."""

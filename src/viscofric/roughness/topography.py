@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError, brief
+from viscofric.arguments import check_cost, flag, numbers, sentences, text
+from viscofric.errors import InputError, check_choice
 from viscofric.roughness import filling, preparation, waves
-from viscofric.units import Quantity, positive
+from viscofric.units import Quantity, two_lengths
 
 if TYPE_CHECKING:
     import xarray
@@ -72,12 +73,7 @@ class Topography:
         name: str = "",
         history: tuple[str, ...] = (),
     ) -> None:
-        try:
-            if np.iscomplexobj(heights):
-                raise TypeError
-            z = np.array(heights, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError("heights of a topography must be an array of numbers in m.") from None
+        z = np.array(numbers(heights, "heights of a topography", infinite=True, missing=True))
         z = z[:, None] if z.ndim == 1 else z
         if z.ndim != 2 or z.shape[0] < 2 or z.size == 0:
             raise InputError(
@@ -87,14 +83,11 @@ class Topography:
         if np.any(np.isinf(z)):
             raise InputError(f"heights of a topography: {np.count_nonzero(np.isinf(z))} are infinite; NaN is missing.")
         z.flags.writeable = False
-        steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
-        if len(steps) != 2:
-            raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
         object.__setattr__(self, "heights", z)
-        object.__setattr__(self, "spacing", tuple(positive(step, "m", "spacing") for step in steps))
-        object.__setattr__(self, "periodic", bool(periodic))
-        object.__setattr__(self, "name", name)
-        object.__setattr__(self, "history", tuple(history))
+        object.__setattr__(self, "spacing", two_lengths(spacing))
+        object.__setattr__(self, "periodic", flag(periodic, "periodic"))
+        object.__setattr__(self, "name", text(name, "name of a topography"))
+        object.__setattr__(self, "history", sentences(history, "history of a topography"))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -172,6 +165,7 @@ class Topography:
         InputError
             If all heights are missing, or there is no such method.
         """
+        check_choice(method, "method", "harmonic", "nearest")
         if not self.missing:
             return self
         filled = filling.filled(self.heights, self.spacing, self.periodic, method)
@@ -266,13 +260,10 @@ class Topography:
         Others go through the cubic spline of their heights, after waves below twice the new spacing, if it is
         coarser, have been smoothed away by averages over one new cell.
         """
-        steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
-        if len(steps) != 2:
-            raise InputError(f"spacing = {brief(spacing)}: must be one length or two, those of x and y.")
-        wanted = tuple(positive(step, "m", "spacing") for step in steps)
-        waves.insist_on_size(tuple(length / step for length, step in zip(self.size, wanted, strict=True)), "spacing")
+        wanted = two_lengths(spacing)
+        check_cost((length / step for length, step in zip(self.size, wanted, strict=True)), "spacing: the surface")
         change = waves.resampled if self.periodic else preparation.resampled
-        heights, found = change(self.complete(), self.spacing, (wanted[0], wanted[1]))
+        heights, found = change(self.complete(), self.spacing, wanted)
         told = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))
         return self._with(heights, f"resampled to {told} points, {found[0]:.4g} m apart along x", spacing=found)
 

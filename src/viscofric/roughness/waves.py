@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
@@ -19,16 +18,6 @@ if TYPE_CHECKING:
 
 #: A wave just at a cut-off stays whatever the rounding.
 _ROUNDING = 1e-9
-
-
-#: A square of 32768² heights takes 8 GiB.
-_MOST_POINTS = 2**30
-
-
-def insist_on_size(points: tuple[float, ...], name: str) -> None:
-    """Refuse a surface that no memory holds, before anyone asks for it."""
-    if not math.prod(points) <= _MOST_POINTS:
-        raise InputError(f"{name}: the surface would have {math.prod(points):.2g} points; {_MOST_POINTS:.2g} are most.")
 
 
 class Gridded(Protocol):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import number
 from viscofric.errors import InputError, brief
 from viscofric.study.cases_in_common import CaseTable, common_cases
 from viscofric.study.provenance_differences import provenance_differences
@@ -146,7 +146,7 @@ def compare_results(
     >>> vf.compare_results(rough, fine, tolerance=1e-2).equal
     True
     """
-    if tolerance is not None and not (_is_number(tolerance) and 0.0 <= tolerance < math.inf):
+    if tolerance is not None and number(tolerance, "tolerance") < 0.0:
         raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.")
     one, other = CaseTable.of(first), CaseTable.of(second)
     pairs = common_cases(one, other)
@@ -167,10 +167,6 @@ def compare_results(
         else (),
         tolerance=tolerance,
     )
-
-
-def _is_number(given: object) -> bool:
-    return isinstance(given, (int, float, np.floating, np.integer)) and not isinstance(given, bool)
 
 
 def _difference(

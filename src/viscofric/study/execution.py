@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.errors import StudyError
 from viscofric.files import file_path
 from viscofric.notes import Note
@@ -109,6 +110,10 @@ def run_study(
     array([0.01 , 0.017])
     """
     path = file_path(path)
+    insist_on_function(progress, "progress", needed=True)
+    for name, value in (("resume", resume), ("finished_only", finished_only)):
+        flag(value, name)
+    insist_on(scheduler, "scheduler", str, type(None), right="the address of a Dask scheduler, such as 'tcp://…:8786'")
     text = read_study_text(path)
     study = parse_study(text, path)
     folder = path.with_suffix(".results") if output is None else file_path(output)

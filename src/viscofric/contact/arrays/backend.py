@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import whole_number
 from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
 from viscofric.errors import InputError
 
@@ -252,14 +253,11 @@ class MaskedCells(Cells):
 
 
 def _threads(given: int | None) -> int:
-    field, threads = "threads", given
-    if threads is None:
-        field, text = THREADS_VARIABLE, os.environ.get(THREADS_VARIABLE, "1")
-        threads = int(text) if re.fullmatch(r"\d{1,6}", text.strip()) else 0
-        given = text  # type: ignore[assignment]
-    if type(threads) is not int or threads < 1:
-        raise InputError(f"{field} = {given!r}: must be a whole number from 1, such as 2.")
-    return threads
+    right = "a whole number from 1, such as 2"
+    if given is not None:
+        return whole_number(given, "threads", 1, right=right)
+    text = os.environ.get(THREADS_VARIABLE, "1")
+    return whole_number(int(text) if re.fullmatch(r"\d{1,6}", text.strip()) else text, THREADS_VARIABLE, 1, right=right)
 
 
 def _torch_device(torch: Any, name: str) -> Any:

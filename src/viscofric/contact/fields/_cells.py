@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def spacing(position: ArrayLike, name: str) -> float:
     InputError
         If they are fewer than two, or not ascending in equal steps.
     """
-    centres = np.asarray(position, dtype=float)
+    centres = numbers(position, name)
     if centres.ndim != 1 or len(centres) < 2:
         raise InputError(f"{name} must be an array of at least two cell centres; its shape is {centres.shape}.")
     step = (centres[-1] - centres[0]) / (len(centres) - 1)
@@ -42,14 +43,12 @@ def on_cells(values: ArrayLike, shape: tuple[int, ...], name: str) -> Array:
     InputError
         If their shape is another one or some are not finite.
     """
-    array = np.asarray(values, dtype=float)
+    array = numbers(values, name)
     if array.shape != shape:
         raise InputError(f"{name} must have one value for each cell, {shape}; its shape is {array.shape}.")
-    if not np.all(np.isfinite(array)):
-        raise InputError(f"{name} must be finite in every cell.")
     return array
 
 
 def pressure_on(x: ArrayLike, y: ArrayLike, pressure: ArrayLike) -> Array:
     """Return a pressure that is given for each cell of x and y; errors as in `on_cells`."""
-    return on_cells(pressure, (len(np.asarray(x)), len(np.asarray(y))), "pressure")
+    return on_cells(pressure, (numbers(x, "x").size, numbers(y, "y").size), "pressure")

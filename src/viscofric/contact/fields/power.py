@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.contact.fields._cells import on_cells, spacing
+from viscofric.units import to_si
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -58,9 +60,9 @@ def surface_power(x: ArrayLike, pressure: ArrayLike, displacement: ArrayLike, sp
     True
     """
     step = spacing(x, "x")
-    shape = (len(np.asarray(x)), *np.shape(pressure)[1:])
+    shape = (numbers(x, "x").size, *numbers(pressure, "pressure").shape[1:])
     load, depth = on_cells(pressure, shape, "pressure"), on_cells(displacement, shape, "displacement")
-    return np.asarray(-speed * load * _slope_in_contact(depth, load > 0.0) / step)
+    return np.asarray(-to_si(speed, "m/s", "speed") * load * _slope_in_contact(depth, load > 0.0) / step)
 
 
 def _slope_in_contact(depth: Array, loaded: NDArray[np.bool_]) -> Array:

@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import numbers
 from viscofric.contact.fields._cells import on_cells, pressure_on, spacing
 from viscofric.contact.fields.stress import Stress, rectangle_corners, strip_ends
 from viscofric.errors import InputError
+from viscofric.units import checked_poisson_ratio, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -65,10 +67,11 @@ def stress_layer(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, depth: float, 
     >>> stress.von_mises.shape == contact.pressure.shape
     True
     """
+    ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     load = pressure_on(x, y, pressure)
     nx, ny = load.shape
     edges_x, edges_y = _ends(nx, x, "x"), _ends(ny, y, "y")
-    corners = rectangle_corners(edges_x[:, None], edges_y, _depth(depth), poisson_ratio)
+    corners = rectangle_corners(edges_x[:, None], edges_y, _depth(depth), ratio)
     quarter = np.diff(np.diff(corners, axis=1), axis=2)
     padded = scipy.fft.next_fast_len(2 * nx - 1, real=False), scipy.fft.next_fast_len(2 * ny - 1, real=True)
     pressure_spectrum = scipy.fft.rfft2(load, padded)
@@ -119,15 +122,16 @@ def stress_plane(
     >>> stress.von_mises.shape == (2, len(contact.x)) or stress.von_mises.shape == (len(contact.x), 2)
     True
     """
+    ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     load = pressure_on(x, y, pressure)
     nx = len(load)
     offsets_x = _ends(nx, x, "x")
     step_y = spacing(y, "y")
-    starts = across - (np.asarray(y, dtype=float) + 0.5 * step_y)
+    starts = to_si(across, "m", "across") - (numbers(y, "y") + 0.5 * step_y)
     offsets_y = np.stack([starts, starts + step_y], axis=-1)
 
     def influence(depth: float) -> Array:
-        corners = rectangle_corners(offsets_x[:, None, None], offsets_y, depth, poisson_ratio)
+        corners = rectangle_corners(offsets_x[:, None, None], offsets_y, depth, ratio)
         return np.diff(np.diff(corners, axis=1), axis=3)[..., 0]
 
     return _planes(load, depths, influence)
@@ -165,9 +169,10 @@ def line_stress(x: ArrayLike, pressure: ArrayLike, depths: ArrayLike, poisson_ra
     >>> f"{stress.max_shear.max() / 1e6:.2f}"  # of the peak pressure, 0.78 half-widths deep (K. L. Johnson, 1985)
     '0.30'
     """
-    load = on_cells(np.asarray(pressure, dtype=float).reshape(-1), np.shape(x), "pressure")
+    ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
+    load = on_cells(numbers(pressure, "pressure").reshape(-1), numbers(x, "x").shape, "pressure")
     ends = _ends(len(load), x, "x")
-    return _planes(load[:, None], depths, lambda z: np.diff(strip_ends(ends, z, poisson_ratio), axis=1)[..., None])
+    return _planes(load[:, None], depths, lambda z: np.diff(strip_ends(ends, z, ratio), axis=1)[..., None])
 
 
 def stress_at(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, points: ArrayLike, poisson_ratio: float) -> Stress:
@@ -202,13 +207,14 @@ def stress_at(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, points: ArrayLike
     >>> f"{-stress.zz[0]:.0f} Pa"  # 4 N, 10 mm below: nearly 3P/2πz² (Boussinesq), 19100 Pa
     '18785 Pa'
     """
+    ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     load = pressure_on(x, y, pressure)
-    where = np.asarray(points, dtype=float)
+    where = numbers(points, "points")
     if where.ndim != 2 or where.shape[1] != 3:
         raise InputError(f"points must have three columns, x, y and depth; their shape is {where.shape}.")
     half_x, half_y = 0.5 * spacing(x, "x"), 0.5 * spacing(y, "y")
     i, j = np.nonzero(load)
-    cell_x, cell_y, loads = np.asarray(x, dtype=float)[i], np.asarray(y, dtype=float)[j], load[i, j]
+    cell_x, cell_y, loads = numbers(x, "x")[i], numbers(y, "y")[j], load[i, j]
     result = np.zeros((6, len(where)))
     for number, (px, py, pz) in enumerate(where):
         depth = _depth(pz)
@@ -216,7 +222,7 @@ def stress_at(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, points: ArrayLike
             piece = slice(start, start + _CELLS_AT_ONCE)
             X = px - cell_x[piece, None] + np.array([-half_x, half_x])
             Y = py - cell_y[piece, None] + np.array([-half_y, half_y])
-            corners = rectangle_corners(X[:, :, None], Y[:, None, :], depth, poisson_ratio)
+            corners = rectangle_corners(X[:, :, None], Y[:, None, :], depth, ratio)
             result[:, number] += np.diff(np.diff(corners, axis=2), axis=3)[:, :, 0, 0] @ loads[piece]
     return Stress(*result)
 
@@ -230,7 +236,10 @@ def _planes(load: Array, depths: ArrayLike, influence: Callable[[float], Array])
     padded = scipy.fft.next_fast_len(2 * nx - 1, real=True)
     spectrum = scipy.fft.rfft(load, padded, axis=0)
     columns = []
-    for depth in np.atleast_1d(np.asarray(depths, dtype=float)):
+    below = to_si_array(depths, "m", "depths")
+    if not below.size:
+        raise InputError("depths must hold at least one depth.")
+    for depth in below.tolist():
         ahead = influence(_depth(depth))
         circulant = np.zeros((6, padded, load.shape[1]))
         circulant[:, :nx] = ahead
@@ -246,6 +255,4 @@ def _ends(cells: int, position: ArrayLike, name: str) -> Array:
 
 
 def _depth(depth: float) -> float:
-    if not depth > 0.0:
-        raise InputError(f"depth = {depth:g} m: must be above zero.")
-    return float(depth)
+    return positive(depth, "m", "depth")

@@ -9,23 +9,27 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import insist_on, numbers
 from viscofric.contact.fields._cells import on_cells, spacing
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
 from viscofric.contact.influence.line import line_memory_influence, strip_potential
 from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.contact.layers import Layer
 from viscofric.errors import InputError
+from viscofric.units import checked_poisson_ratio, positive, to_si, velocity
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from viscofric.contact.influence.potentials import CellPotential
-    from viscofric.contact.layers import Layer
 
     Array: TypeAlias = NDArray[np.float64]
 
 #: Most cells of the window that is looked at.
 LARGEST = 2**24
+#: Most cells to either side of the contact, whose influence takes thousands of numbers each.
+WIDEST = 2**14
 # Cells are square but for their last digits: rounded coordinates must not make them anything else.
 _NOT_SQUARE = 1e-6
 
@@ -119,37 +123,41 @@ def surface_displacement(
     >>> bool(trail.x[0] < contact.x[0] - 1.9e-3)
     True
     """
-    along, across = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    along, across = numbers(x, "x"), numbers(y, "y")
+    ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
+    insist_on(layer, "layer", Layer, type(None), right="a Layer or None")
     step = spacing(along, "x")
     load = on_cells(pressure, (len(along), len(across)), "pressure")
     is_line = len(across) == 1
     width = step if is_line else spacing(across, "y")
     aspect = 1.0 if abs(width / step - 1.0) < _NOT_SQUARE else width / step
-    if min(behind, ahead, beside) < 0.0:
+    beyond = [to_si(value, "m", name) for name, value in (("behind", behind), ("ahead", ahead), ("beside", beside))]
+    if min(beyond) < 0.0:
         raise InputError("behind, ahead and beside must not be negative.")
-    modes = _Modes.at(speed, E_inf, C, tau, step)
-    below, above = (math.ceil(distance / step - 1e-9) for distance in (behind, ahead))
-    if speed < 0.0:
+    sliding = velocity(speed)
+    modes = _Modes.at(sliding, E_inf, C, tau, step)
+    below, above = (math.ceil(distance / step - 1e-9) for distance in beyond[:2])
+    if sliding < 0.0:
         below, above = above, below
-    sides = 0 if is_line else math.ceil(beside / width - 1e-9)
+    sides = 0 if is_line else math.ceil(beyond[2] / width - 1e-9)
     cells = (len(along) + below + above) * (len(across) + 2 * sides)
-    if cells > LARGEST:
-        raise InputError(f"the window has {cells} cells, more than {LARGEST}; look less far.")
+    if cells > LARGEST or sides > WIDEST:
+        raise InputError(f"the window has {cells} cells, more than {LARGEST}, or is too wide; look less far.")
     larger = np.pad(load, ((below, above), (sides, sides)))
     # The influence functions know motion towards +x only.
-    mirrored = larger[::-1] if speed < 0.0 else larger
+    mirrored = larger[::-1] if sliding < 0.0 else larger
     if is_line and layer is None:
         influence = _line_influence(modes, len(larger))
     else:
-        influence = _influence(modes, larger.shape, _cell(layer, is_line, step, aspect, poisson_ratio))
+        influence = _influence(modes, larger.shape, _cell(layer, is_line, step, aspect, ratio))
     factor = 2.0 if is_line else 1.0
-    found = factor * (1.0 - poisson_ratio**2) * step / np.pi * _convolve(influence, mirrored)
+    found = factor * (1.0 - ratio**2) * step / np.pi * _convolve(influence, mirrored)
     if is_line and layer is None:
         found -= found[-1]
     return SurfaceDisplacement(
         x=along[0] + step * (np.arange(len(larger)) - below),
         y=across if is_line else across[0] + width * (np.arange(larger.shape[1]) - sides),
-        displacement=found[::-1] if speed < 0.0 else found,
+        displacement=found[::-1] if sliding < 0.0 else found,
     )
 
 
@@ -163,12 +171,12 @@ class _Modes:
 
     @classmethod
     def at(cls, speed: float, E_inf: float, C: ArrayLike, tau: ArrayLike, step: float) -> _Modes:
-        compliances, times = np.asarray(C, dtype=float), np.asarray(tau, dtype=float)
+        compliances, times = numbers(C, "C"), numbers(tau, "tau")
         if compliances.ndim != 1 or compliances.shape != times.shape:
             raise InputError(f"C and tau must be as many: their shapes are {compliances.shape} and {times.shape}.")
-        if not E_inf > 0.0 or np.any(compliances < 0.0) or np.any(times <= 0.0) or math.isnan(speed):
-            raise InputError("E_inf and tau must be above zero, C must not be below it, and speed must be a number.")
-        glassy = 1.0 / E_inf
+        if np.any(compliances < 0.0) or np.any(times <= 0.0):
+            raise InputError("tau must be above zero, and C must not be below it.")
+        glassy = 1.0 / positive(E_inf, "Pa", "E_inf")
         if speed == 0.0:
             glassy += float(compliances.sum())
         if speed == 0.0 or math.isinf(speed):

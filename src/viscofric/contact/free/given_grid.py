@@ -6,6 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from viscofric.arguments import check_cost, whole_number
 from viscofric.contact.free.grids import Extent
 from viscofric.errors import InputError, brief
 from viscofric.units import Quantity, to_si
@@ -16,6 +19,7 @@ if TYPE_CHECKING:
     from viscofric.contact.free.scale import Scale
 
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
+MOST_CELLS = 2**28  # of a window: 16384² take 2 GiB for each of a dozen arrays
 LEAST_FINEST = 128  # three grids, so that the friction has an error estimate
 
 
@@ -37,11 +41,10 @@ class GivenGrid:
     @classmethod
     def of(cls, window: Sequence[Quantity] | None, cells: int | None, scale: Scale) -> GivenGrid:
         """Check what a user gives, in SI units or with its own."""
-        if cells is not None and (type(cells) is not int or cells < LEAST_FINEST):
-            raise InputError(
-                f"grid = {brief(cells)}: must be the number of cells along the window's longer edge, {LEAST_FINEST} or "
-                "more."
-            )
+        if cells is not None:
+            right = f"the number of cells along the window's longer edge, {LEAST_FINEST} or more"
+            whole_number(cells, "grid", LEAST_FINEST, right=right)
+            check_cost([cells] * scale.geometry.dimension, f"grid = {brief(cells)}", MOST_CELLS)
         return cls(None if window is None else _extent(window, scale), cells)
 
     def halvings(self, coarsest: int) -> int:
@@ -68,10 +71,11 @@ class GivenGrid:
 
 def _extent(window: Sequence[Quantity], scale: Scale) -> Extent:
     names = ("rear", "front", "side")[: scale.geometry.dimension + 1]
-    if isinstance(window, str) or not hasattr(window, "__len__") or len(window) != len(names):
+    each = list(window) if isinstance(window, (list, tuple)) or np.ndim(window) == 1 else []
+    if len(each) != len(names):
         raise InputError(f"window = {brief(window)}: must be {len(names)} lengths ({', '.join(names)}).")
     lengths = [
-        to_si(length, "m", f"{name} of the window") / scale.length for length, name in zip(window, names, strict=True)
+        to_si(length, "m", f"{name} of the window") / scale.length for length, name in zip(each, names, strict=True)
     ]
     found = Extent(*lengths, *([0.0] if len(lengths) == 2 else []))
     if not (found.rear + found.front > 0.0 and (len(lengths) == 2 or found.side > 0.0)):

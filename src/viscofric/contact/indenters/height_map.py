@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
@@ -217,17 +217,12 @@ class Profile(Indenter):
 
 def _heights(z: ArrayLike, dimensions: int) -> Array:
     """Return heights as a finite array of so many dimensions, or refuse them."""
-    try:
-        heights = np.array(z, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("z: the heights must be an array of numbers in m.") from None
+    heights = np.array(numbers(z, "z"))
     if heights.ndim != dimensions or min(heights.shape, default=0) < _FEWEST:
         shape = " x ".join(str(count) for count in heights.shape) or "a single number"
         raise InputError(
             f"z: the heights are {shape}, but must be a {dimensions}-dimensional array of at least {_FEWEST} points "
             "along each axis."
         )
-    if not math.isfinite(float(np.abs(heights).max())):
-        raise InputError("z: the heights must all be finite numbers; fill gaps of a measurement first.")
     heights.setflags(write=False)
     return heights

@@ -5,12 +5,12 @@ from __future__ import annotations
 import functools
 import math
 from dataclasses import replace
-from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import number, whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.counterface import indenter_compliance
 from viscofric.contact.indenters.indenter import too_steep
@@ -22,7 +22,7 @@ from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSol
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, brief
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, positive, to_si, velocity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -117,15 +117,18 @@ def solve_periodic(
     >>> solution.diagnostics.full_contact, round(solution.friction_coefficient, 7)
     (True, 0.0001465)
     """
+    if not hasattr(material, "poisson_ratio"):
+        raise InputError(f"material = {brief(material)}: must be a Material, such as vf.read_card('rubber.json').")
+    whole_number(most_products, "most_products", 1)
     if not hasattr(surface, "z"):  # of a topography, heights may be missing, or not repeat themselves
         raise InputError(
             f"surface = {brief(surface)}: must be a PeriodicSurface, such as that of Topography.to_surface()."
         )
-    velocity, toward = _motion(speed, direction)
+    sliding, toward = velocity(speed), unit_direction(direction)
     if (pressure is None) == (gap is None):
         both = "neither" if pressure is None else "both"
         raise InputError(f"pressure and gap: {both} given; give exactly one of them, mean pressure or mean gap.")
-    if not (isinstance(tolerance, Real) and TIGHTEST <= tolerance <= LOOSEST):
+    if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST:
         raise InputError(f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.")
     if not (layer is None or isinstance(layer, Layer)):
         raise InputError(f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').")
@@ -135,7 +138,7 @@ def solve_periodic(
     solid = SlidingSolid(
         modulus,
         material.poisson_ratio,
-        (_component(velocity, toward[0]), _component(velocity, toward[1])),
+        (_component(sliding, toward[0]), _component(sliding, toward[1])),
         layer,
         indenter_compliance(indenter_modulus, indenter_poisson_ratio),
         toward,
@@ -157,7 +160,7 @@ def solve_periodic(
     )
     # The friction on the next coarser grid tells something where that has all the waves of the surface.
     same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
-    motion = velocity, toward, kelvin
+    motion = sliding, toward, kelvin
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
     return replace(solution, warnings=_doubts(solution, steepness, layer))
 
@@ -194,12 +197,6 @@ class _Units(NamedTuple):
 
     depth: float
     compliance: float
-
-
-def _motion(speed: Quantity, direction: Sequence[float]) -> tuple[float, tuple[float, float]]:
-    infinite = isinstance(speed, float) and math.isinf(speed)
-    velocity = float(speed) if infinite else to_si(speed, "m/s", "speed")
-    return velocity, unit_direction(direction)
 
 
 def _component(velocity: float, part: float) -> float:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import numbers
 from viscofric.contact.periodic.waves import without_nyquist
 from viscofric.errors import InputError
-from viscofric.units import Quantity, positive
+from viscofric.units import Quantity, two_lengths
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,10 +63,7 @@ class PeriodicSurface:
     spacing: tuple[float, float]
 
     def __init__(self, z: ArrayLike, spacing: Quantity | tuple[Quantity, Quantity]) -> None:
-        try:
-            heights = np.array(z, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError("z of a periodic surface must be an array of numbers in m.") from None
+        heights = np.array(numbers(z, "z of a periodic surface"))
         if heights.ndim == 1:
             heights = heights[:, None]
         if heights.ndim != 2 or heights.size < 2:
@@ -73,17 +71,11 @@ class PeriodicSurface:
                 f"z of a periodic surface must be heights on (nx, ny) points or on a row of them, two at least; it has "
                 f"the shape {np.shape(z)}."
             )
-        if not np.all(np.isfinite(heights)):
-            wrong = int(np.count_nonzero(~np.isfinite(heights)))
-            raise InputError(f"z of a periodic surface must be finite: {wrong} of its {heights.size} heights are not.")
         if np.ptp(heights) == 0.0:
             raise InputError("z of a periodic surface is flat: all its heights are equal; a contact needs roughness.")
         heights.flags.writeable = False
         object.__setattr__(self, "z", heights)
-        steps = spacing if isinstance(spacing, (tuple, list)) else (spacing, spacing)
-        if len(steps) != 2:
-            raise InputError(f"spacing = {spacing!r}: must be one length or two, those of x and y.")
-        object.__setattr__(self, "spacing", tuple(positive(step, "m", "spacing") for step in steps))
+        object.__setattr__(self, "spacing", two_lengths(spacing))
 
     @property
     def shape(self) -> tuple[int, int]:

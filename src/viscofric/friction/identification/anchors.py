@@ -117,6 +117,7 @@ class ContactAnchor:
             )
         for name, unit in (("speed", "m/s"), ("temperature", "K"), *((name, _UNITS[name]) for name in given)):
             object.__setattr__(self, name, positive(getattr(self, name), unit, name))
+        object.__setattr__(self, "load", _force(self.load))
         object.__setattr__(self, "error", _relative(self.error))
 
     @property
@@ -132,6 +133,14 @@ class ContactAnchor:
     def of(self, solution: ContactSolution) -> float:
         """Return the same size of a solved contact."""
         return float(getattr(solution, self.size))
+
+
+def _force(load: Quantity) -> float:
+    """Return a load, N, or N/m where it is that of a line contact."""
+    try:
+        return positive(load, "N/m", "load")
+    except InputError:
+        return positive(load, "N", "load")
 
 
 #: Anything that fixes the level.

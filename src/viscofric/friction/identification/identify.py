@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import insist_on_function, text, whole_number
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.errors import InputError, brief
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
@@ -18,7 +19,7 @@ from viscofric.friction.identification.setting_up import alone_or_many, problem_
 from viscofric.friction.identification.solving import Contacts
 from viscofric.processes import Workers
 from viscofric.threads import one_blas_thread
-from viscofric.units import positive, to_si
+from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -158,11 +159,15 @@ def identify_material(
     _check(curves, indenter, poisson_ratio)
     _check_numbers(modes=modes, samples=samples, seed=seed)
     _check_parts(levels, limit=limit, prior_error=prior_error, accuracy=accuracy)
+    text(name, "name")
+    insist_on_function(progress, "progress")
     anchors = alone_or_many(anchor)
     points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy)
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
     moduli = anchored(one for one in anchors if isinstance(one, ModulusAnchor))
+    if prior is None and prior_band is not None:
+        raise InputError(f"prior_band = {brief(prior_band)}: belongs to a prior; give it too.")
     if prior is not None:
         moduli.append(known_part(prior, prior_band, prior_error, shifts.reference))
     sizes = tuple(one for one in anchors if isinstance(one, ContactAnchor))
@@ -179,14 +184,12 @@ def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float) -> 
     insist_on_curves(curves, "curves")
     insist_on_indenter(indenter)
     insist_on_round_edges(indenter)
-    if not 0.0 <= to_si(poisson_ratio, "dimensionless", "poisson_ratio") <= 0.5:
-        raise InputError(f"poisson_ratio = {poisson_ratio:g}: must lie between 0 and 0.5.")
+    checked_poisson_ratio(poisson_ratio)
 
 
 def _check_numbers(**numbers: int) -> None:
     for name, fewest in (("modes", FEWEST_MODES), ("samples", FEWEST_SAMPLES), ("seed", 0)):
-        if not isinstance(numbers[name], (int, np.integer)) or numbers[name] < fewest:
-            raise InputError(f"{name} = {brief(numbers[name])}: must be a whole number, {fewest} or more.")
+        whole_number(numbers[name], name, fewest, None if name == "seed" else 10**6)
 
 
 def _check_parts(levels: Sequence[float], **parts: float) -> None:

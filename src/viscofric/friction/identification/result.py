@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import flag, numbers
 from viscofric.notes import codes
 from viscofric.units import celsius
 
@@ -156,9 +157,9 @@ class IdentifiedMaterial:
         relative : bool, optional
             Whether of |E(ω)| over that at the middle frequency; if not given, without an anchor.
         """
-        omega = np.asarray(angular_frequency, dtype=float)
+        omega = numbers(angular_frequency, "angular_frequency")
         rows = np.array([np.log(np.abs(one.complex_modulus(omega))) for one in self.samples.materials])
-        if not self.anchored if relative is None else relative:
+        if not self.anchored if relative is None else flag(relative, "relative"):
             level = self._levels
             rows = rows - level.reshape((-1,) + (1,) * omega.ndim)
         return np.asarray(rows.std(axis=0, ddof=1))

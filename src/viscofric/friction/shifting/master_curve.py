@@ -11,7 +11,7 @@ from viscofric.errors import InputError
 from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.nominal import SAME_LOAD
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import Quantities, Quantity, celsius, positive, to_si_array
+from viscofric.units import Quantities, Quantity, celsius, positive, to_si_in_shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -287,7 +287,5 @@ class FrictionMasterCurve:
 
 def _values(values: Quantities, unit: str, name: str) -> tuple[Array, bool]:
     """Convert to SI units in their own shape, and tell whether it is a single value."""
-    if isinstance(values, np.ndarray):
-        return to_si_array(values.ravel(), unit, name).reshape(values.shape), values.ndim == 0
-    single = isinstance(values, str) or np.ndim(getattr(values, "magnitude", values)) == 0
-    return to_si_array(values, unit, name), single
+    found = to_si_in_shape(values, unit, name)
+    return np.atleast_1d(found), found.ndim == 0

@@ -13,7 +13,7 @@ from viscofric.readers.dma.formats import format_of
 from viscofric.readers.dma.tables import delimited, dma_columns, reptate, workbook
 from viscofric.readers.printed import unit_conversion
 from viscofric.readers.source import Source
-from viscofric.units import celsius, positive
+from viscofric.units import celsius, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -77,8 +77,7 @@ def read_master_curve(
     kelvin = positive(reference, "K", "reference")
     if deformation not in (None, "tension", "shear"):
         raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")
-    if not -1.0 < poisson_ratio <= 0.5:
-        raise InputError(f"poisson_ratio = {poisson_ratio!r}: must be above -1 and at most 0.5.")
+    ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
     source = Source(str(path), read_bytes(path), modulus_unit=modulus_unit or "")
@@ -90,7 +89,7 @@ def read_master_curve(
         said, _ = dma_columns.deformation(table, dma_columns.find_columns(table))
         frequency, storage, loss, temperature = _of_table(table, source, kelvin)
     kind = _kind(source, said, deformation)
-    factor = 1.0 if kind == "tension" else 2.0 * (1.0 + poisson_ratio)
+    factor = 1.0 if kind == "tension" else 2.0 * (1.0 + ratio)
     order = np.argsort(frequency, kind="stable")
     return MasterCurve(frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin)
 

@@ -117,7 +117,7 @@ def _files(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]])
 
 def _temperatures(given: Quantity | Sequence[Quantity | None] | None, count: int) -> list[float | None]:
     """Return one temperature, K, or None per file."""
-    if not isinstance(given, (list, tuple, np.ndarray)):
+    if not isinstance(given, (list, tuple, np.ndarray)) or getattr(given, "ndim", 1) == 0:
         return [None if given is None else _kelvin(cast("Quantity", given))] * count
     if len(given) != count:
         raise InputError(f"temperature holds {len(given)} values for {count} files; give one for all, or one for each.")

@@ -226,8 +226,6 @@ def written_poisson_ratio(material: Material, writing: Writing, program: str, in
         None if the program takes ν = 0.5, else why not.
     """
     ratio = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
-    if not 0.0 <= ratio <= 0.5:
-        raise InputError(f"poisson_ratio = {ratio!r}: must lie between 0 and 0.5.")
     if ratio == 0.5 and incompressible:
         raise InputError(
             f"poisson_ratio = 0.5: {program} {incompressible}; choose a nearly incompressible one for the card, "

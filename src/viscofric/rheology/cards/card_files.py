@@ -4,24 +4,26 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
-from viscofric.files import read_text
+from viscofric.arguments import insist_on, whole_number
+from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.files import file_path, read_text
 from viscofric.notes import Note
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, plain
 from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
 from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
+from viscofric.rheology.material import insist_on_material
 from viscofric.rheology.shifts.law_comparison import LARGEST_SCATTER
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import celsius, positive, to_si
+from viscofric.units import celsius, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from os import PathLike
+    from pathlib import Path
 
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ParametricLaw
@@ -133,27 +135,22 @@ def write_card(
     >>> "*VISCOELASTIC" in path.read_text().upper()
     True
     """
-    if format not in get_args(CardFormat):
-        raise InputError(f"format = {format!r}: must be one of {', '.join(get_args(CardFormat))}.")
-    for name, value, allowed in (
-        ("temperature_unit", temperature_unit, ("K", "degC")),
-        ("domain", domain, ("time", "frequency")),
-        ("unit_system", unit_system, get_args(UnitSystem)),
-    ):
-        if value not in allowed:
-            raise InputError(f"{name} = {value!r}: must be {' or '.join(map(repr, allowed))}.")
+    insist_on_material(material)
+    check_choice(format, "format", *get_args(CardFormat))
+    check_choice(temperature_unit, "temperature_unit", "K", "degC")
+    check_choice(domain, "domain", "time", "frequency")
+    check_choice(unit_system, "unit_system", *get_args(UnitSystem))
     if unit_system != "Pa" and format not in _WITHOUT_UNITS:
         raise InputError(
             f"unit_system = {unit_system!r}: {format} holds SI units, and says so; leave unit_system out (it is for "
             f"{', '.join(_WITHOUT_UNITS)})."
         )
-    if material_id != int(material_id) or material_id < 1:
-        raise InputError(f"material_id = {material_id!r}: must be a whole number from 1 on.")
+    whole_number(material_id, "material_id", 1)
     notes: list[Note] = []
     if law is not None:
         material = _with_law(material, law, notes)
     writing = Writing(
-        None if poisson_ratio is None else to_si(poisson_ratio, "dimensionless", "poisson_ratio"),
+        None if poisson_ratio is None else checked_poisson_ratio(poisson_ratio),
         None if density is None else positive(density, "kg/m^3", "density"),
         temperature_unit,
         domain,
@@ -167,7 +164,7 @@ def write_card(
     else:
         text = _PROGRAMS[format].write(material, writing)
         notes += _left_out(material, format, domain, text)
-    file = Path(path)
+    file = file_path(path)
     try:
         file.write_text(text, encoding="utf-8")
     except (OSError, ValueError) as error:
@@ -277,8 +274,11 @@ def open_card(
     >>> card.format
     'an Abaqus card'
     """
-    if format is not None and format not in get_args(CardFormat):
-        raise InputError(f"format = {format!r}: must be one of {', '.join(get_args(CardFormat))}.")
+    if format is not None:
+        check_choice(format, "format", *get_args(CardFormat))
+    units = (("modulus_unit", modulus_unit), ("time_unit", time_unit), ("temperature_unit", temperature_unit))
+    for name, unit in units:
+        insist_on(unit, name, str, type(None), right="the text of a unit, such as 'MPa'")
     text = read_text(path)
     try:
         if format == "json" or (format is None and plain.recognises_json(text)):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.errors import InputError
 from viscofric.units import to_si_array
 
@@ -39,12 +40,19 @@ def checked_columns(
         If the columns do not fit each other, are not finite, or the temperatures do not ascend.
     """
     kelvin = to_si_array(temperatures, "K", "temperatures")
-    values = np.array(log10_values, dtype=float)
-    if kelvin.size < 2 or values.shape != kelvin.shape or not np.all(np.isfinite(values)):
+    values = np.array(numbers(log10_values, what))
+    if kelvin.size < 2 or values.shape != kelvin.shape:
         raise InputError(f"{what} need at least two temperatures, and one finite value for each.")
     if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
         raise InputError(f"temperatures of {what} must ascend without repeats, above absolute zero.")
-    spread = np.zeros((kelvin.size, kelvin.size)) if covariance is None else np.array(covariance, dtype=float)
-    if spread.shape != (kelvin.size, kelvin.size) or not np.all(np.isfinite(spread)):
-        raise InputError(f"covariance of {what} must be square, one row per temperature, and finite.")
-    return kelvin, values, spread
+    if covariance is None:
+        return kelvin, values, np.zeros((kelvin.size, kelvin.size))
+    return kelvin, values, checked_covariance(covariance, kelvin.size, what)
+
+
+def checked_covariance(values: Any, size: int, what: str) -> Array:
+    """Return the covariance of so many values as a copy; `what` they are is named in errors."""
+    covariance = np.array(numbers(values, f"covariance of {what}"))
+    if covariance.shape != (size, size) or np.any(np.diag(covariance) < 0.0):
+        raise InputError(f"covariance of {what} must be {size} × {size} numbers, no variance below zero.")
+    return covariance

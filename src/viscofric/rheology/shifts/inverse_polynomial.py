@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 
+from viscofric.arguments import flag, numbers
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import ParametricLaw, Reach, shown_constant
 from viscofric.rheology.shifts.shift_law import NOMINAL
-from viscofric.units import celsius, positive, to_si
+from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -76,12 +77,12 @@ class InversePolynomial(ParametricLaw):
         covariance: Any = None,
         bounded: bool = True,
     ) -> None:
-        numbers = tuple(to_si(number, "dimensionless", "coefficients") for number in coefficients)
-        if not numbers:
+        factors = tuple(np.ravel(numbers(coefficients, "coefficients")).tolist())
+        if not factors:
             raise InputError("coefficients of a polynomial law: there must be at least one.")
-        if fitted_range is None or not bounded:
+        if fitted_range is None or not flag(bounded, "bounded"):
             self._refuse_to_extrapolate()
-        object.__setattr__(self, "coefficients", numbers)
+        object.__setattr__(self, "coefficients", factors)
         object.__setattr__(self, "reference", positive(reference, "K", "reference"))
         self._set_fit(covariance, fitted_range, True)
         self._refuse(np.array([self.reference]))

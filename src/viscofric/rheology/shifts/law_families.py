@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import whole_number
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import (
     GAS_CONSTANT,
@@ -155,9 +156,7 @@ class _Polynomial(Family):
 def family_of(kind: str, temperatures: Array, reference: float, degree: int | None = None) -> Family:
     """Return the family of a kind of law; a polynomial needs its degree."""
     if kind == "polynomial":
-        if degree is None or not 1 <= degree <= LARGEST_DEGREE:
-            raise InputError(f"degree = {degree!r}: must be a whole number from 1 to {LARGEST_DEGREE}.")
-        return _Polynomial(temperatures, reference, degree)
+        return _Polynomial(temperatures, reference, whole_number(degree, "degree", 1, LARGEST_DEGREE))
     families: dict[str, type[Family]] = {
         "wlf": _WLF, "arrhenius": _Arrhenius, "wlf+arrhenius": _WLFArrhenius,
     }  # fmt: skip

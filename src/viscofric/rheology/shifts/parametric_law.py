@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.arguments import flag, numbers
+from viscofric.errors import InputError, brief
+from viscofric.rheology.shifts.columns import checked_covariance
 from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
-from viscofric.units import CELSIUS_ZERO, celsius, kelvin_hint, positive
+from viscofric.units import CELSIUS_ZERO, celsius, kelvin_hint, positive, to_si_array
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -94,14 +96,20 @@ class ParametricLaw(ShiftLaw):
 
     def _set_fit(self, covariance: Any, fitted_range: Any, bounded: bool) -> None:
         """Check and keep what is known of the fit; called by the constructors of subclasses."""
-        object.__setattr__(self, "covariance", _covariance(covariance, len(self.parameters)))
+        if covariance is not None:
+            covariance = checked_covariance(covariance, len(self.parameters), "a shift law")
+            covariance.flags.writeable = False
+        object.__setattr__(self, "covariance", covariance)
         if fitted_range is not None:
-            low, high = (positive(end, "K", "fitted_range") for end in fitted_range)
+            ends = to_si_array(fitted_range, "K", "fitted_range")
+            if ends.size != 2:
+                raise InputError(f"fitted_range = {brief(fitted_range)}: must be two temperatures.")
+            low, high = (positive(end, "K", "fitted_range") for end in ends.tolist())
             if not low < high:
                 raise InputError(f"fitted_range = {low:g} to {high:g} K: the first must lie below the second.")
             fitted_range = (low, high)
         object.__setattr__(self, "fitted_range", fitted_range)
-        object.__setattr__(self, "bounded", bool(bounded))
+        object.__setattr__(self, "bounded", flag(bounded, "bounded"))
 
     def __str__(self) -> str:
         """Return name, constants with standard errors, and reference, as for a report."""
@@ -121,8 +129,11 @@ class ParametricLaw(ShiftLaw):
 
     def with_parameters(self, parameters: Any) -> Self:
         """Return a law of this kind with other constants at the same reference, as if typed in (not fitted)."""
-        numbers = dict(zip(self._constants, (float(number) for number in parameters), strict=True))
-        return replace(self, **numbers, covariance=None, fitted_range=None)  # type: ignore[type-var]
+        values = numbers(parameters, "parameters")
+        if values.shape != (len(self._constants),):
+            raise InputError(f"parameters = {brief(parameters)}: must be {', '.join(self._constants)}.")
+        constants = dict(zip(self._constants, values.tolist(), strict=True))
+        return replace(self, **constants, covariance=None, fitted_range=None)  # type: ignore[type-var]
 
     @property
     def standard_errors(self) -> tuple[float, ...] | None:
@@ -280,13 +291,3 @@ def shown_constant(symbol: str, unit: str, factor: float, offset: float, value: 
 def _spread(gradient: Array, covariance: Array) -> Array:
     variance = np.einsum("...i,ij,...j->...", gradient, covariance, gradient)
     return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
-
-
-def _covariance(values: Any, size: int) -> Array | None:
-    if values is None:
-        return None
-    covariance = np.array(values, dtype=float)
-    if covariance.shape != (size, size) or not np.all(np.isfinite(covariance)):
-        raise InputError(f"covariance of a shift law must be {size} × {size} finite numbers.")
-    covariance.flags.writeable = False
-    return covariance

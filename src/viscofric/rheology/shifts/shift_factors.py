@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
+from viscofric.arguments import sentences, whole_number
 from viscofric.errors import InputError
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.columns import checked_columns
@@ -30,6 +31,7 @@ _SAME_TEMPERATURE = 1e-9  # relative
 #: A measured temperature is named by the user as the instrument prints it.
 _NAMED_TEMPERATURE = 0.1  # K
 _CORRECTIONS = 500
+_MOST_DECADES = 300  # as floats go
 _ROUNDING = 1e-13  # decades
 
 
@@ -83,7 +85,7 @@ class ShiftFactors(ShiftLaw):
         values = values - float(self._log10(np.asarray(self.reference)))
         object.__setattr__(self, "log10_values", values)
         object.__setattr__(self, "covariance", spread)
-        object.__setattr__(self, "notes", tuple(notes))
+        object.__setattr__(self, "notes", sentences(notes, "notes of shift factors"))
         for column in (kelvin, values, spread):
             column.flags.writeable = False
 
@@ -161,8 +163,8 @@ class ShiftFactors(ShiftLaw):
         kelvin = positive(temperature, "K", "temperature")
         value = to_si(log10, "dimensionless", "log10")
         error = to_si(standard_error, "dimensionless", "standard_error")
-        if error < 0.0:
-            raise InputError(f"standard_error = {error:g}: must not be below zero.")
+        if not 0.0 <= error <= _MOST_DECADES:
+            raise InputError(f"standard_error = {error:g}: must lie between 0 and {_MOST_DECADES} decades.")
         place = int(np.argmin(np.abs(self.temperatures - kelvin)))
         if abs(self.temperatures[place] - kelvin) > _NAMED_TEMPERATURE:
             shown = ", ".join(f"{celsius(one):z.1f}" for one in self.temperatures)
@@ -240,6 +242,8 @@ class ShiftFactors(ShiftLaw):
         InputError
             If the kind is unknown, the temperatures are too few, or the law does not describe them.
         """
+        if degree is not None:
+            whole_number(degree, "degree", 1)
         table = self._table(above)
         if kind == "polynomial" and degree is None:
             return polynomial(table)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import flag
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftList, shift_list
@@ -80,7 +81,7 @@ def read_shift_factors(
     if kelvin.size < 2 or np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
         problem = "shift factors need at least two temperatures, none twice, all above absolute zero."
         raise DataFileError(source.path, problem)
-    values = _falling(source.path, kelvin, values, inverse)
+    values = _falling(source.path, kelvin, values, flag(inverse, "inverse"))
     notes = found.notes
     if spread is None:
         notes += ("The file of shift factors gives no uncertainty; the factors are taken as exact.",)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, overload
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.units import kelvin_hint, to_si
+from viscofric.units import kelvin_hint, to_si_in_shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -151,13 +151,7 @@ def _in_shape(values: Array) -> Any:
 
 def in_kelvin(temperature: Any) -> Array:
     """Return one temperature, or many in their shape, as an array in K; refuse those not above absolute zero."""
-    if isinstance(temperature, np.ndarray) and temperature.dtype.kind == "f" and np.all(np.isfinite(temperature)):
-        kelvin = temperature.astype(float)
-    elif isinstance(temperature, (list, tuple)) or (isinstance(temperature, np.ndarray) and temperature.ndim):
-        kelvin = np.array([to_si(value, "K", "temperature") for value in np.ravel(np.asarray(temperature))])
-        kelvin = kelvin.reshape(np.shape(temperature))
-    else:
-        kelvin = np.asarray(to_si(temperature, "K", "temperature"))
+    kelvin = to_si_in_shape(temperature, "K", "temperature")
     if np.any(kelvin <= 0.0):
         raise InputError(f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.")
     return kelvin

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.arguments import insist_on, numbers, sentences
+from viscofric.data import MasterCurve
+from viscofric.errors import InputError, check_choice
 from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
+from viscofric.units import to_si
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-
-    from viscofric.data import MasterCurve
 
     Array = NDArray[np.float64]
     Complex = NDArray[np.complex128]
@@ -80,7 +81,7 @@ class ModulusTable(FrequencyResponse):
         object.__setattr__(self, "storage_modulus_values", _column(storage_modulus, "storage_modulus"))
         object.__setattr__(self, "loss_modulus_values", _column(loss_modulus, "loss_modulus"))
         object.__setattr__(self, "extrapolate", extrapolate)
-        object.__setattr__(self, "notes", tuple(notes))
+        object.__setattr__(self, "notes", sentences(notes, "notes of a modulus table"))
         sizes = len(omega), len(self.storage_modulus_values), len(self.loss_modulus_values)
         if len(set(sizes)) > 1:
             raise InputError(
@@ -89,8 +90,7 @@ class ModulusTable(FrequencyResponse):
             )
         if sizes[0] < 2 or np.any(np.diff(omega) <= 0.0):
             raise InputError("angular_frequency of a modulus table must ascend without repeats, two at least.")
-        if extrapolate not in ("refuse", "plateau"):
-            raise InputError(f"extrapolate = {extrapolate!r}: must be 'refuse' or 'plateau'.")
+        check_choice(extrapolate, "extrapolate", "refuse", "plateau")
 
     def __repr__(self) -> str:
         low, high = self.angular_frequency[[0, -1]]
@@ -117,10 +117,12 @@ class ModulusTable(FrequencyResponse):
         InputError
             If the resolution is below zero, or one point only is left.
         """
-        if not 0.0 <= resolution < np.inf:
+        insist_on(master_curve, "master_curve", MasterCurve)
+        decades = to_si(resolution, "dimensionless", "resolution")
+        if decades < 0.0:
             raise InputError(f"resolution = {resolution!r}: must be a number of decades, not below zero.")
         log_omega = np.log(master_curve.angular_frequency)
-        width, groups, first = resolution * np.log(10.0) + _ROUNDING, [], 0
+        width, groups, first = decades * np.log(10.0) + _ROUNDING, [], 0
         for index in range(len(log_omega)):
             if log_omega[index] - log_omega[first] > width:
                 first = index
@@ -133,7 +135,7 @@ class ModulusTable(FrequencyResponse):
         )
         note = (
             f"{len(log_omega)} points of the master curve were averaged to {len(count)}, those within "
-            f"{resolution:g} decade of frequency together."
+            f"{decades:g} decade of frequency together."
         )
         return cls(omega, storage, loss, extrapolate, (note,) if len(count) < len(log_omega) else ())
 
@@ -168,11 +170,11 @@ class ModulusTable(FrequencyResponse):
         InputError
             If a frequency lies outside the table and the table refuses that, or is NaN.
         """
-        signed = np.asarray(angular_frequency, dtype=float)
+        signed = numbers(angular_frequency, "angular_frequency", infinite=True)
         omega = np.abs(signed)
         low, high = float(self.angular_frequency[0]), float(self.angular_frequency[-1])
         outside = ~((omega >= low * (1.0 - _ROUNDING)) & (omega <= high * (1.0 + _ROUNDING)))
-        if np.any(np.isnan(omega)) or (self.extrapolate == "refuse" and np.any(outside)):
+        if self.extrapolate == "refuse" and np.any(outside):
             wanted = float(np.ravel(omega[outside])[0])
             raise InputError(
                 f"angular frequency = {wanted:.4g} rad/s lies outside the table's {low:.4g} to {high:.4g} rad/s; "
@@ -193,7 +195,7 @@ class ModulusTable(FrequencyResponse):
 
         From E(ω, T) = b E(αω, T0): every frequency is divided by α, every modulus multiplied by b.
         """
-        checked_shift(alpha, b)
+        alpha, b = checked_shift(alpha, b)
         return ModulusTable(
             self.angular_frequency / alpha,
             b * self.storage_modulus_values,
@@ -204,8 +206,8 @@ class ModulusTable(FrequencyResponse):
 
 
 def _column(values: ArrayLike, name: str) -> Array:
-    column = np.atleast_1d(np.array(values, dtype=float))
-    if column.ndim != 1 or not np.all(np.isfinite(column) & (column > 0.0)):
+    column = np.atleast_1d(np.array(numbers(values, name)))
+    if column.ndim != 1 or not np.all(column > 0.0):
         raise InputError(f"{name} of a modulus table must be one row of finite numbers above zero.")
     column.flags.writeable = False
     return column

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.response import (
@@ -93,7 +94,7 @@ class RelaxationSpectrum(FrequencyResponse):
 
     def complex_modulus(self, angular_frequency: ArrayLike) -> Complex:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
-        omega = np.asarray(angular_frequency, dtype=float)
+        omega = numbers(angular_frequency, "angular_frequency")
         total = np.full(omega.shape, self.E0, dtype=complex)
         for modulus, time in zip(self.E, self.tau, strict=True):
             total += modulus * (1j * omega * time) / (1.0 + 1j * omega * time)
@@ -149,5 +150,5 @@ class RelaxationSpectrum(FrequencyResponse):
 
         From E(ω, T) = b E(αω, T0): every τ becomes ατ, every modulus b times what it was.
         """
-        checked_shift(alpha, b)
+        alpha, b = checked_shift(alpha, b)
         return RelaxationSpectrum(b * self.E0, b * self.E, alpha * self.tau)

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.errors import InputError
+from viscofric.units import positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -81,30 +83,29 @@ class FrequencyResponse(ABC):
 
 
 def _times(values: ArrayLike) -> Array:
-    time = np.asarray(values, dtype=float)
-    if not np.all((time > 0.0) & np.isfinite(time)):
+    time = numbers(values, "time")
+    if not np.all(time > 0.0):
         raise InputError("times of a relaxation or retardation density must be above zero and finite, in s.")
     return time
 
 
 def checked_times(values: ArrayLike, name: str) -> Array:
     """Return times at which a step response is asked for: not below zero."""
-    time = np.asarray(values, dtype=float)
+    time = numbers(values, "time", infinite=True)
     if not np.all(time >= 0.0):
         raise InputError(f"time of a {name} must not be below zero, nor NaN.")
     return time
 
 
-def checked_shift(alpha: float, b: float) -> None:
-    """Refuse shift factors that are not above zero and finite."""
-    if not (np.isfinite(alpha) and alpha > 0.0 and np.isfinite(b) and b > 0.0):
-        raise InputError(f"alpha = {alpha!r}, b = {b!r}: shifts must be above zero and finite.")
+def checked_shift(alpha: float, b: float) -> tuple[float, float]:
+    """Return shift factors, and refuse those that are not above zero and finite."""
+    return positive(alpha, "dimensionless", "alpha"), positive(b, "dimensionless", "b")
 
 
 def mode_column(values: ArrayLike, name: str, unit: str) -> Array:
     """Return one value for each mode, as a read-only copy."""
-    column = np.atleast_1d(np.array(values, dtype=float))
-    if column.ndim != 1 or not np.all(np.isfinite(column)):
+    column = np.atleast_1d(np.array(numbers(values, name)))
+    if column.ndim != 1:
         raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.")
     column.flags.writeable = False
     return column

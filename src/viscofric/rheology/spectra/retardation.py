@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import insist_on, numbers
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.response import (
@@ -180,6 +181,7 @@ class RetardationSpectrum(FrequencyResponse):
         object.__setattr__(self, "E_inf", positive(E_inf, "Pa", "E_inf"))
         object.__setattr__(self, "C", mode_column(C, "C", "1/Pa"))
         object.__setattr__(self, "tau", mode_column(tau, "tau", "s"))
+        insist_on(fit, "fit", SpectrumFit, type(None), right="a SpectrumFit or None")
         object.__setattr__(self, "fit", fit)
         if self.C.shape != self.tau.shape:
             raise InputError(f"C and tau must be as many: there are {len(self.C)} and {len(self.tau)}.")
@@ -201,7 +203,7 @@ class RetardationSpectrum(FrequencyResponse):
 
     def compliance(self, angular_frequency: ArrayLike) -> Complex:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
-        omega = np.asarray(angular_frequency, dtype=float)
+        omega = numbers(angular_frequency, "angular_frequency")
         # Mode by mode: a grid of a million frequencies would not fit into memory forty times.
         total = np.full(omega.shape, 1.0 / self.E_inf, dtype=complex)
         for compliance, time in zip(self.C, self.tau, strict=True):
@@ -241,7 +243,7 @@ class RetardationSpectrum(FrequencyResponse):
 
         From E(ω, T) = b E(αω, T0) (paper, Eq. 4): every τ becomes ατ, every modulus b times what it was.
         """
-        checked_shift(alpha, b)
+        alpha, b = checked_shift(alpha, b)
         return RetardationSpectrum(
             b * self.E0,
             b * self.E_inf,

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from viscofric.arguments import whole_number
 from viscofric.data import MasterCurve
-from viscofric.errors import InputError
+from viscofric.errors import InputError, check_choice
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
@@ -178,9 +179,8 @@ def _check(
     regularisation: float | str | None,
     largest_error: float | None,
 ) -> None:
-    if method not in METHODS:
-        raise InputError(f"method = {method!r}: must be 'non-negative', 'regularised' or 'sparse'.")
-    if not (math.isfinite(tau_ratio) and tau_ratio > 1.0):
+    check_choice(method, "method", *METHODS)
+    if positive(tau_ratio, "dimensionless", "tau_ratio") <= 1.0:
         raise InputError(f"tau_ratio = {tau_ratio!r}: must be above 1.")
     if len(master_curve) < 4:
         raise InputError(
@@ -199,5 +199,5 @@ def _check(
     if largest_error is not None:
         positive(largest_error, "dimensionless", "largest_error")
     most = max(1, len(master_curve) // POINTS_PER_MODE)
-    if modes is not None and not (modes == int(modes) and 1 <= modes <= most):
-        raise InputError(f"modes = {modes!r}: must be a whole number from 1 to {most}, one for every 3 points.")
+    if modes is not None:
+        whole_number(modes, "modes", 1, most, f"a whole number from 1 to {most}, one for every 3 points")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
@@ -14,14 +15,13 @@ from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep
 from viscofric.rheology.superposition.own_shifts import OwnShifts, own_shifts
+from viscofric.rheology.superposition.superpose import Superposition
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from viscofric.rheology.superposition.superpose import Superposition
 
     Verdict = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
     Array = NDArray[np.float64]
@@ -176,6 +176,7 @@ def check_superposition(fit: Superposition) -> SuperpositionCheck:
     >>> vf.check_superposition(fit).holds
     True
     """
+    insist_on(fit, "fit", Superposition, right="what superpose(…) returned")
     vertical = fit.vertical_shift
     temperatures = np.array([isotherm.temperature for isotherm in fit.isotherms])
     log10_b = np.zeros(len(temperatures)) if vertical is None else np.asarray(vertical.log10(temperatures))

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
 from viscofric.notes import Note
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
@@ -27,15 +30,14 @@ from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, LogSweep,
 from viscofric.rheology.superposition.own_shifts import own_shifts
 from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
 from viscofric.threads import one_blas_thread
-from viscofric.units import celsius, kelvin_hint, positive, to_si
+from viscofric.units import celsius, checked_poisson_ratio, kelvin_hint, positive
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
     from viscofric.data import Isotherm
-    from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.superposition.common_shifts import CommonShifts
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
     from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
@@ -202,11 +204,12 @@ def superpose(
             "superpose(read_dma('sweeps.csv'), '20 degC')."
         )
     kelvin = positive(reference, "K", "reference")
-    if not 0.0 <= to_si(poisson_ratio, "dimensionless", "poisson_ratio") <= 0.5:
-        raise InputError(f"poisson_ratio = {poisson_ratio!r}: must lie between 0 and 0.5.")
+    ratio = checked_poisson_ratio(poisson_ratio)
+    insist_on(shift, "shift", ShiftLaw, type(None), right="a shift law, ShiftFactors or None")
+    insist_on(fixed, "fixed", Mapping, type(None), right="a mapping of temperatures to log10 α")
     if shift is not None and fixed:
         raise InputError("shift and fixed: give one of them; with shift no factor is left to be fitted.")
-    tensile = sweeps.in_tension(poisson_ratio)
+    tensile = sweeps.in_tension(ratio)
     usable(tensile.isotherms)
     known = _known_vertical(vertical, kelvin)
     logs = [

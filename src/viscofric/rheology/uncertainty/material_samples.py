@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.arguments import insist_on_function, numbers
+from viscofric.units import share
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -120,7 +121,7 @@ class MaterialSamples:
         Where the spectrum misses what was measured by more than noise (`misfit`), that counts as another error of the
         logarithms of E' and E'', independent of those that were drawn.
         """
-        omega = np.asarray(angular_frequency, dtype=float)
+        omega = numbers(angular_frequency, "angular_frequency")
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
         storage, loss = _limits(moduli.real, level), _limits(moduli.imag, level)
         if self.misfit is not None and np.any(self.misfit.size):
@@ -158,6 +159,7 @@ class MaterialSamples:
         level : float
             Above 0 and below 1.
         """
+        insist_on_function(value, "value", needed=True)
         return _limits(np.array([value(material) for material in self.materials]), level)
 
 
@@ -170,8 +172,6 @@ def _widened(band: Band, decades: Array) -> Band:
 
 
 def _limits(values: NDArray[Any], level: float) -> Band:
-    if not 0.0 < level < 1.0:
-        raise InputError(f"level = {level!r}: must lie between 0 and 1.")
-    outside = 0.5 * (1.0 - level)
+    outside = 0.5 * (1.0 - share(level, "level", example=0.95))
     # Weibull's plotting position: a further sample lies between the limits with just this probability.
     return Band(*np.quantile(values, [outside, 0.5, 1.0 - outside], axis=0, method="weibull"))

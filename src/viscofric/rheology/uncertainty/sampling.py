@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import insist_on, text, whole_number
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
+from viscofric.rheology.superposition.superpose import Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.refit import Refit
 from viscofric.rheology.uncertainty.residuals import Residuals
@@ -27,8 +30,6 @@ if TYPE_CHECKING:
 
     from viscofric.data import MasterCurve
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.rheology.superposition.superpose import Superposition
 
     Array = NDArray[np.float64]
     Integers = NDArray[np.int64]
@@ -108,8 +109,11 @@ def sample_materials(
     >>> bool((band.lower.real < band.upper.real).all())
     True
     """
-    if samples != int(samples) or samples < FEWEST_SAMPLES:
-        raise InputError(f"samples = {samples!r}: must be a whole number, {FEWEST_SAMPLES} or more.")
+    insist_on(fit, "fit", Superposition, right="what superpose(…) returned")
+    insist_on(spectrum, "spectrum", RetardationSpectrum, type(None), right="a RetardationSpectrum or None")
+    whole_number(samples, "samples", FEWEST_SAMPLES, 10**6)
+    whole_number(seed, "seed", 0)
+    text(name, "name")
     curve, shifts = fit.master_curve, fit.shift_factors
     spectrum = fit_retardation_spectrum(curve) if spectrum is None else spectrum
     _insist_on_same_curve(spectrum, curve)

@@ -1,0 +1,167 @@
+"""Where arguments of public names become numbers, flags, text: in one place, so that nothing of them is lost silently.
+
+Quantities with units pass through `viscofric.units`, which gets its numbers from here as well.
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from numbers import Integral, Real
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from viscofric.errors import InputError, brief
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
+
+#: What NumPy holds in an array that is not of real numbers, by the letter of its kind.
+_KINDS = {
+    "c": "complex numbers, whose imaginary part would be lost",
+    "b": "True or False",
+    "U": "text",
+    "S": "bytes",
+    "M": "dates",
+    "m": "durations",
+    "V": "records",
+    "T": "text",
+}
+#: Points per decade of a spectrum: more are closer than any measurement tells them apart.
+MOST_PER_DECADE = 10_000
+#: Counts and seeds beyond it are slips.
+LARGEST_WHOLE = 2**63 - 1
+#: What is larger (or, of what must be above zero, smaller than its inverse) overflows when it is squared.
+LARGEST = 1e150
+#: Larger arrays are refused before memory is asked for: 8 GiB of floats, the heights of a square of 32768².
+MOST_VALUES = 2**30
+
+
+def numbers(values: object, name: str, *, infinite: bool = False, missing: bool = False) -> Array:
+    """Return what was given for one number or many as floats, in its shape; what is an array of floats is not copied.
+
+    Parameters
+    ----------
+    values : array_like
+        Real numbers in SI units.
+    name : str
+        What they are, for errors.
+    infinite, missing : bool
+        Whether infinite ones, or NaN for missing ones, may be among them.
+
+    Raises
+    ------
+    InputError
+        If there are complex, masked, infinite or missing numbers among them, or something else than numbers.
+    """
+    try:
+        found = real(values)
+    except ValueError as error:
+        raise InputError(f"{name} = {brief(values)}: must be an array of numbers, and holds {error}.") from None
+    allowed = np.isfinite(found) | (np.isinf(found) & infinite) | (np.isnan(found) & missing)
+    if not allowed.all():
+        wrong = float(found[~allowed].flat[0])
+        raise InputError(f"{name} = {brief(values)}: must hold finite numbers; {wrong} cannot be used.")
+    return found
+
+
+def real(values: object) -> Array:
+    """Return numbers as floats in their shape, NaN and infinite ones as well.
+
+    Raises
+    ------
+    ValueError
+        Saying what there is in place of a real number.
+    """
+    if type(values) is np.ndarray and values.dtype == np.float64:
+        return values
+    if type(values) is float:
+        return np.asarray(values)
+    several = values if isinstance(values, (list, tuple)) else (values,)
+    if any(isinstance(one, np.ma.MaskedArray) and np.ma.is_masked(one) for one in several):
+        raise ValueError("a masked value")
+    if any(hasattr(one, "magnitude") and hasattr(one, "to") for one in several):
+        raise ValueError("a unit where plain numbers are wanted")
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError("not one number in each place") from None
+    if array.dtype.kind == "O":
+        return np.array([_float(one) for one in array.flat], dtype=float).reshape(array.shape)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(_KINDS.get(array.dtype.kind, f"{array.dtype}"))
+    return array.astype(np.float64)
+
+
+def _float(value: object) -> float:
+    """Turn a number that NumPy has no kind for into a float."""
+    if not isinstance(value, (Real, Decimal)) or isinstance(value, bool):
+        raise ValueError(_KINDS["c"] if isinstance(value, complex) else f"{brief(value)}, which is no number")
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError("a number too large for a float") from None
+
+
+def number(value: object, name: str) -> float:
+    """Return one real, finite number as a float; a text is none, whatever it says."""
+    found = numbers(value, name)
+    if found.ndim:
+        raise InputError(f"{name} = {brief(value)}: must be one number.")
+    return float(found)
+
+
+def whole_number(value: object, name: str, least: int, most: int | None = None, right: str = "") -> int:
+    """Return a whole number that is neither too small nor too large; `right` says in words what it must be."""
+    whole = isinstance(value, Integral) and not isinstance(value, (bool, np.bool_, np.timedelta64))
+    if not whole or not least <= value <= (LARGEST_WHOLE if most is None else most):  # type: ignore[operator]
+        limits = f", {least} or more" if most is None else f" from {least} to {most}"
+        raise InputError(f"{name} = {brief(value)}: must be {right or f'a whole number{limits}'}.")
+    return int(value)  # type: ignore[call-overload, no-any-return]
+
+
+def flag(value: object, name: str) -> bool:
+    """Return True or False, and refuse what Python would take for one of them."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name} = {brief(value)}: must be True or False.")
+    return bool(value)
+
+
+def text(value: object, name: str) -> str:
+    """Return a text, and refuse anything else."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} = {brief(value)}: must be text.")
+    return value
+
+
+def sentences(values: Iterable[str], name: str) -> tuple[str, ...]:
+    """Return several texts as a tuple; one text alone is not taken for its letters."""
+    if not isinstance(values, (tuple, list)) or not all(isinstance(one, str) for one in values):
+        raise InputError(f"{name} = {brief(values)}: must be a tuple of texts.")
+    return tuple(values)
+
+
+def insist_on(value: object, name: str, *kinds: type, right: str = "") -> None:
+    """Refuse what is of none of the kinds; `right` says in words what is wanted."""
+    if not isinstance(value, kinds):
+        wanted = right or " or ".join(kind.__name__ for kind in kinds)
+        raise InputError(f"{name} = {brief(value)}: must be {wanted}.")
+
+
+def insist_on_function(value: object, name: str, *, needed: bool = False) -> None:
+    """Refuse what cannot be called; None stands for no function, where one is not needed."""
+    if not (callable(value) or (value is None and not needed)):
+        raise InputError(f"{name} = {brief(value)}: must be a function.")
+
+
+def check_cost(sizes: Iterable[Any], name: str, most: int = MOST_VALUES) -> None:
+    """Refuse an array that no memory holds before it is asked for; the product of its sizes is its number of values."""
+    count = math.prod(sizes)
+    if not count <= most:
+        shown = f"{count:.2g}" if count < 1e300 else "more than 1e300"
+        raise InputError(f"{name}: would have {shown} points, for which the memory is too small; {most:.2g} are most.")

@@ -1,0 +1,718 @@
+"""Bad arguments to every public name: each ends in one sentence of viscofric, or in a result that they do not spoil.
+
+`CALLS` holds one good call of each name that takes arguments; `test_every_public_name_is_attacked` asks for new ones.
+"""
+
+from __future__ import annotations
+
+import atexit
+import dataclasses
+import functools
+import inspect
+import io
+import tempfile
+import time
+import warnings
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from test_docstrings import PUBLIC, RETURNED, methods
+
+EXAMPLE = files("viscofric") / "example"
+CYLINDER = vf.Cylinder("10 mm")
+N = 6
+X = 1e-4 * (np.arange(8) - 3.5)
+Q = np.geomspace(1e3, 1e5, 20)
+SPEED = np.geomspace(0.02, 2.0, N)
+MADE = {"shape": (16, 16), "spacing": "10 um", "seed": 1, "aspect": 1.0, "angle": 0.0, "exact": True}
+COLUMNS = {
+    "speed": SPEED,
+    "temperature": np.full(N, 300.0),
+    "load": np.full(N, 5.0),
+    "viscoelastic": np.full(N, 0.02),
+    "viscoelastic_error": np.full(N, 2e-4),
+    "viscoelastic_scatter": np.full(N, 4e-4),
+    "replicates": np.full(N, 9),
+}
+MORE_COLUMNS = (
+    *("coulomb", "coulomb_error", "coulomb_scatter", "consistency", "consistency_error", "slip", "offset"),
+    *("material_error", "viscoelastic_lower", "viscoelastic_upper", "viscoelastic_freedom", "coulomb_freedom"),
+)
+READINGS = {
+    "disc_speed": np.array([-0.1, -0.1, 0.1, 0.1]),
+    "ball_speed": np.array([-0.15, -0.05, 0.15, 0.05]),
+    "traction_force": np.array([0.6, -1.4, -0.4, 1.6]),
+    "load": np.full(4, 25.0),
+    "temperature": np.full(4, 303.15),
+    "replicate": np.ones(4),
+}
+
+
+@functools.cache
+def rubber():
+    return vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+
+
+@functools.cache
+def shifted():
+    return vf.Material(rubber().spectrum, shift=wlf())
+
+
+@functools.cache
+def wlf():
+    return vf.WLF(9.0, 100.0, 300.0, covariance=np.diag([0.1, 1.0]), fitted_range=(280.0, 380.0))
+
+
+@functools.cache
+def omega():
+    return np.geomspace(1.0, 1e3, 12)
+
+
+@functools.cache
+def factors():
+    kelvin = np.linspace(300.0, 340.0, 6)
+    return vf.ShiftFactors(kelvin, wlf().log10(kelvin), 300.0, np.diag([0.0, *np.full(5, 1e-4)]))
+
+
+@functools.cache
+def sweeps():
+    kelvin = (290.0, 300.0, 310.0)
+    moduli = [shifted().complex_modulus(omega(), T) for T in kelvin]
+    return vf.IsothermalSweeps(
+        tuple(vf.Isotherm(T, omega(), E.real, E.imag) for T, E in zip(kelvin, moduli, strict=True))
+    )
+
+
+@functools.cache
+def superposition():
+    return vf.superpose(sweeps(), 300.0)
+
+
+@functools.cache
+def master_curve():
+    modulus = rubber().complex_modulus(np.geomspace(1.0, 1e5, 20))
+    return vf.MasterCurve(np.geomspace(1.0, 1e5, 20), modulus.real, modulus.imag, np.full(20, 300.0), 300.0)
+
+
+@functools.cache
+def samples():
+    return vf.sample_materials(superposition(), samples=20)
+
+
+@functools.cache
+def contact():
+    return vf.solve_steady(shifted(), CYLINDER, speed=1.0, load=1e3, temperature=300.0, accuracy=1e-2)
+
+
+@functools.cache
+def curves():
+    solved = [vf.solve_steady(shifted(), CYLINDER, speed=v, load=1e3, temperature=300.0, accuracy=1e-2) for v in SPEED]
+    found = vf.FrictionCurves.from_solutions(solved)
+    return dataclasses.replace(found, viscoelastic_error=0.01 * found.viscoelastic, replicates=np.full(N, 9))
+
+
+@functools.cache
+def shifting():
+    kelvin = np.repeat([300.0, 305.0, 310.0], 8)
+    speed = np.tile(np.geomspace(0.02, 0.2, 8), 3)
+    friction = 0.01 * (1.0 + (wlf()(kelvin) * speed / 0.02) ** -0.4)
+    return vf.FrictionCurves(speed, kelvin, np.full(24, 25.0), friction, 1e-2 * friction, np.zeros(24), np.ones(24))
+
+
+@functools.cache
+def friction_master_curve():
+    return vf.shift_friction(shifting(), shift=wlf())
+
+
+@functools.cache
+def identified():
+    anchor = vf.ModulusAnchor(abs(rubber().complex_modulus(1e3)), "1000 rad/s", temperature=300.0)
+    return vf.identify_material(curves(), indenter=CYLINDER, anchor=anchor, accuracy=3e-2, samples=20, levels=(1.0,))
+
+
+def made(**settings):
+    return vf.self_affine(0.8, **MADE | settings, shortest="40 um", rms_slope=0.1)
+
+
+@functools.cache
+def road():
+    return made()
+
+
+@functools.cache
+def rough_contact():
+    return vf.solve_periodic(rubber(), road().to_surface(), speed=0.1, pressure=5e3)
+
+
+@functools.cache
+def rough_friction():
+    return vf.predict_rough_friction(rubber(), [road(), road()], speeds=0.1, pressure=5e3)
+
+
+@functools.cache
+def spectrum():
+    return vf.PowerSpectrum.self_affine(0.8, longest=1e-3, shortest=1e-5, rms_slope=0.5)
+
+
+@functools.cache
+def scan():
+    x = np.linspace(0.0, 1.0, 33)
+    return vf.Topography(3e-6 * x + 1e-6 * np.cos(16.0 * np.pi * x), spacing=1e-5)
+
+
+@functools.cache
+def runs():
+    return vf.TractionRuns(**READINGS, step=[0, 0, 1, 1], steps=(vf.TractionStep(0), vf.TractionStep(1)))
+
+
+STUDY = """[material]
+catalogue = "synthetic fluoroelastomer"
+[indenter]
+radius = "9.525 mm"
+[conditions]
+load = "5 N"
+speed = "0.1 m/s"
+temperature = "60 degC"
+[solver]
+accuracy = 5e-2
+[uncertainty]
+draws = 0
+"""
+
+
+@functools.cache
+def written():
+    """Files that the readers read, written once into a folder that is removed at the end."""
+    folder = tempfile.TemporaryDirectory(prefix="viscofric-arguments-")
+    atexit.register(folder.cleanup)
+    at = Path(folder.name)
+    (at / "curve.csv").write_text("frequency (Hz),E' (MPa),E'' (MPa)\n0.01,3.1,0.2\n1,3.6,0.5\n100,5.2,1.6\n")
+    np.savetxt(at / "scan.csv", [[0.0, 1.0, 0.5], [0.2, 0.8, 0.1]], delimiter=",")
+    vf.write_card(rubber(), at / "rubber.json", "json")
+    vf.write_friction_curves(curves(), at / "friction.csv")
+    factors().save(at / "alpha.csv")
+    (at / "study.toml").write_text(STUDY)
+    vf.run_study(at / "study.toml")
+    return at
+
+
+def at(name):
+    return str(written() / name)
+
+
+class AcceptedError(Exception):
+    """Arguments were checked, and the computation has begun."""
+
+
+def stop(*_):
+    raise AcceptedError
+
+
+def on_cells():
+    return {"x": X, "y": X, "pressure": np.full((8, 8), 1e5)}
+
+
+def modes():
+    return {"E_inf": 1e7, "C": np.array([9e-7]), "tau": np.array([1e-3])}
+
+
+def at_frequencies():
+    return {"angular_frequency": np.array([10.0, 1e2])}
+
+
+def card_settings():
+    return {
+        "path": at("rubber.json"),
+        "format": "json",
+        "modulus_unit": None,
+        "time_unit": None,
+        "temperature_unit": None,
+    }
+
+
+#: method of a spectrum -> its arguments
+OF_SPECTRA = {
+    "complex_modulus": at_frequencies(),
+    "compliance": at_frequencies(),
+    "creep_compliance": {"time": np.array([1e-3, 1.0])},
+    "relaxation_modulus": {"time": np.array([1e-3, 1.0])},
+    "relaxation_density": {"time": np.array([1e-3, 1.0])},
+    "retardation_density": {"time": np.array([1e-3, 1.0])},
+    "shifted": {"alpha": 2.0, "b": 1.0},
+}
+
+
+def table():
+    return {"temperatures": [300.0, 320.0], "log10_values": [0.0, -1.0], "reference": 300.0, "covariance": np.eye(2)}
+
+
+def fitted():
+    return {"covariance": np.eye(2), "fitted_range": (290.0, 350.0), "bounded": True}
+
+
+# fmt: off
+#: name -> the arguments of one good call, all of them as keywords; of a method with the object that it belongs to
+CALLS: dict[str, Any] = {
+    "Backend": lambda: {"name": "scipy", "threads": 1},
+    "highest_von_mises": lambda: {**on_cells(), "poisson_ratio": 0.5},
+    "line_stress": lambda: {"x": X, "pressure": np.full(8, 1e5), "depths": np.array([1e-4, 2e-4]), "poisson_ratio":
+        0.5},
+    "stress_at": lambda: {**on_cells(), "points": np.full((2, 3), 1e-4), "poisson_ratio": 0.5},
+    "stress_layer": lambda: {**on_cells(), "depth": 1e-4, "poisson_ratio": 0.5},
+    "stress_plane": lambda: {**on_cells(), "depths": np.array([1e-4]), "poisson_ratio": 0.5, "across": 0.0},
+    "surface_displacement": lambda: {**on_cells(), "x": 100.0 * X, "y": 100.0 * X, **modes(), "speed": 1.0,
+        "poisson_ratio": 0.5, "layer": None, "behind": 1e-4, "ahead": 1e-4, "beside": 1e-4},
+    "surface_power": lambda: {"x": X, "pressure": np.full((8, 8), 1e5), "displacement": np.eye(8), "speed": 1.0},
+    "HeightMap": lambda: {"z": (X[:, None] ** 2 + X**2) / 20e-3, "spacing": 1e-4},
+    "Profile": lambda: {"z": X**2 / 20e-3, "spacing": 1e-4},
+    "Ball": lambda: {"radius": 1e-2},
+    "Cylinder": lambda: {"radius": 1e-2},
+    "Layer": lambda: {"thickness": 1e-3, "bonded": True},
+    "Layer.yielding": lambda: (vf.Layer(1e-3), {"wave_number": np.array([1e3, 1e4]), "poisson_ratio": 0.5}),
+    "solve_periodic": lambda: {"material": rubber(), "surface": road().to_surface(), "speed": 0.1, "pressure": 5e3,
+        "gap": None, "temperature": None, "direction": (1.0, 0.0), "layer": None, "indenter_modulus": 1e9,
+        "indenter_poisson_ratio": 0.3, "tolerance": 1e-6, "most_products": 1000, "backend": "scipy"},
+    "PeriodicSurface": lambda: {"z": 1e-6 * np.cos(0.25 * np.pi * np.arange(8)), "spacing": 1e-4},
+    "Cone": lambda: {"angle": 0.1},
+    "Ellipsoid": lambda: {"radius_x": 1e-2, "radius_y": 2e-2},
+    "FlatPunch": lambda: {"radius": 1e-3},
+    "solve_steady": lambda: {"material": rubber(), "indenter": CYLINDER, "speed": 1.0, "load": 1e3, "indentation": None,
+        "temperature": None, "accuracy": 3e-2, "tolerance": 1e-7, "finest": 2048, "window": None, "grid": None,
+        "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "layer": None, "backend": "scipy", "direction": (1.0,
+        0.0), "derivatives": False},
+    "Isotherm": lambda: {"temperature": 300.0, "angular_frequency": np.array([1.0, 10.0]), "storage_modulus":
+        np.array([3e6, 4e6]), "loss_modulus": np.array([3e5, 4e5]), "strain_amplitude": np.array([1e-3, 1e-3])},
+    "IsothermalSweeps": lambda: {"isotherms": sweeps().isotherms, "deformation": "tension", "source": "", "notes": (),
+        "format": "", "deformation_told": True},
+    "MasterCurve": lambda: {"angular_frequency": np.array([1.0, 10.0]), "storage_modulus": np.array([3e6, 4e6]),
+        "loss_modulus": np.array([3e5, 4e5]), "temperature": np.full(2, 300.0), "reference": 300.0},
+    "TractionRuns": lambda: {**READINGS, "source": "", "notes": (), "zero_force": np.zeros(4), "time": np.arange(4.0),
+        "step": np.array([0, 0, 1, 1]), "track_radius": np.full(4, 0.02), "steps": (vf.TractionStep(0),
+        vf.TractionStep(1))},
+    "TractionRuns.select": lambda: (runs(), {"rows": np.array([0, 1]), "steps": 0, "except_steps": None}),
+    "compare": lambda: {"measured": curves(), "predicted": curves()},
+    "read_friction_curves": lambda: {"path": at("friction.csv")},
+    "write_friction_curves": lambda: {"curves": curves(), "path": at("friction again.csv")},
+    "check_assumptions": lambda: {"material": shifted(), "indenter": CYLINDER, "curves": curves(), "thickness": 1e-2,
+        "contact_radius": np.full(N, 1e-3), "rubber": vf.ThermalProperties(0.28, 1150.0, 1700.0, "rubber"),
+        "counterbody": vf.ThermalProperties(0.25, 2170.0, 1010.0, "PTFE")},
+    "FrictionCurves": lambda: {**COLUMNS, **{name: np.full(N, 0.01) for name in MORE_COLUMNS}, "viscoelastic_upper":
+        np.full(N, 0.03), "viscoelastic_freedom": np.full(N, 8.0), "coulomb_freedom": np.full(N, 8.0), "source": "",
+        "notes": (), "load_unit": "N", "assumption": ""},
+    "FrictionCurves.from_solutions": lambda: (vf.FrictionCurves, {"solutions": [contact()], "source": "predicted"}),
+    "FrictionCurves.interval": lambda: (curves(), {"level": 0.9, "of": "viscoelastic"}),
+    "FrictionCurves.at_temperature": lambda: (curves(), {"temperature": 300.0}),
+    "FrictionCurves.at_load": lambda: (curves(), {"load": 1e3}),
+    "ThermalProperties": lambda: {"conductivity": 0.3, "density": 1e3, "heat_capacity": 1e3, "name": "rubber"},
+    "ContactAnchor": lambda: {"speed": 0.02, "temperature": 300.0, "load": 1e3, "indentation": None, "contact_area":
+        None, "half_width": 1e-3, "error": 0.01},
+    "ModulusAnchor": lambda: {"modulus": 8e6, "angular_frequency": 6.0, "temperature": 300.0, "part": "magnitude",
+        "error": 0.01},
+    "citations": lambda: {"results": rubber()},
+    "identify_material": lambda: {"curves": curves(), "indenter": CYLINDER, "load": 1e3, "shift": None, "anchor": None,
+        "prior": None, "prior_band": None, "prior_error": 0.02, "reference": 300.0, "poisson_ratio": 0.5, "modes": 12,
+        "levels": (1.0, 2.0), "limit": 0.05, "samples": 20, "seed": 0, "accuracy": 3e-2, "name": "", "progress": stop,
+        "workers": 1},
+    "IdentifiedMaterial.standard_error": lambda: (identified(), {"angular_frequency": np.array([60.0]), "relative":
+        None}),
+    "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":
+        [300.0], "load": 1e3, "samples": None, "accuracy": 3e-2, "workers": 1, "progress": None, "finest": 2048},
+    "shift_friction": lambda: {"curves": shifting(), "shift": None, "reference": 300.0, "vertical_shift": None,
+        "indenter": None, "load": None, "level_error": 0.0},
+    "FrictionMasterCurve.covers": lambda: (friction_master_curve(), {"speed": np.array([0.05]), "temperature": 305.0,
+        "load": 25.0}),
+    "compare_shift_factors": lambda: {"found": factors(), "other": wlf()},
+    "separate": lambda: {"runs": vf.TractionRuns(**READINGS), "zero": None, "coulomb": None, "outliers": "keep",
+        "speed_tolerance": 0.05, "temperature_tolerance": 1.0},
+    "read_dma": lambda: {"paths": EXAMPLE / "dma.csv", "deformation": "tension", "temperature": None, "modulus_unit":
+        None},
+    "read_mtm": lambda: {"paths": EXAMPLE / "mtm.csv", "thermometer": "lube"},
+    "read_master_curve": lambda: {"path": at("curve.csv"), "reference": 300.0, "deformation": "tension",
+        "poisson_ratio": 0.5, "modulus_unit": None},
+    "open_card": lambda: card_settings(),
+    "read_card": lambda: card_settings(),
+    "write_card": lambda: {"material": shifted(), "path": at("card"), "format": "abaqus", "poisson_ratio": 0.49,
+        "density": 1e3, "temperature_unit": "K", "domain": "time", "material_id": 1, "unit_system": "Pa"},
+    "catalogue_material": lambda: {"name": "synthetic fluoroelastomer"},
+    "Material": lambda: {"spectrum": rubber().spectrum, "shift": wlf(), "poisson_ratio": 0.5, "name": "",
+        "vertical_shift": None, "citation": ""},
+    "Material.standard_linear_solid": lambda: (vf.Material, {"E0": 1e6, "E_inf": 1e7, "tau": 1e-3, "poisson_ratio":
+        0.5}),
+    "Material.at": lambda: (shifted(), {"temperature": 310.0}),
+    "Material.at_reference": lambda: (shifted(), {"reference": 310.0}),
+    "Material.modes_at": lambda: (shifted(), {"temperature": 310.0}),
+    "Material.complex_modulus": lambda: (shifted(), {"angular_frequency": np.array([1.0, 2.0]), "temperature": 310.0}),
+    "Arrhenius": lambda: {"activation_energy": 1e5, "reference": 300.0, **fitted(), "covariance": np.eye(1)},
+    "InversePolynomial": lambda: {"coefficients": [5000.0, 1e6], "reference": 300.0, **fitted()},
+    "VFT": lambda: {"B": 800.0, "T0": 200.0, "reference": 300.0, **fitted()},
+    "WLF": lambda: {"C1": 9.0, "C2": 100.0, "reference": 300.0, **fitted()},
+    "WLFArrhenius": lambda: {"C1": 17.0, "C2": 51.0, "glass_transition": 255.0, "reference": 300.0, **fitted(),
+        "covariance": np.eye(3)},
+    "ShiftLaw.log10": lambda: (wlf(), {"temperature": np.array([300.0, 310.0])}),
+    "ShiftLaw.standard_error": lambda: (wlf(), {"temperature": 310.0}),
+    "ShiftLaw.extrapolates": lambda: (wlf(), {"temperature": [310.0]}),
+    "ParametricLaw.gradient": lambda: (wlf(), {"temperature": [310.0]}),
+    "ParametricLaw.with_parameters": lambda: (wlf(), {"parameters": np.array([9.0, 100.0])}),
+    "ShiftFactors": lambda: {**table(), "notes": ()},
+    "ShiftFactors.with_value": lambda: (factors(), {"temperature": 308.0, "log10": -3.0, "standard_error": 0.1}),
+    "ShiftFactors.law": lambda: (factors(), {"kind": "wlf", "above": None, "degree": None}),
+    "ShiftFactors.compare_laws": lambda: (factors(), {"above": 295.0}),
+    "read_shift_factors": lambda: {"path": at("alpha.csv"), "reference": 300.0, "inverse": False},
+    "DensityShift": lambda: {"reference": 300.0, "expansion": 6e-4},
+    "VerticalShift.log10": lambda: (vf.DensityShift(300.0), {"temperature": np.array([300.0, 310.0])}),
+    "VerticalShiftFactors": lambda: table(),
+    "ModulusTable": lambda: {"angular_frequency": np.array([1.0, 10.0]), "storage_modulus": np.array([3e6, 4e6]),
+        "loss_modulus": np.array([3e5, 4e5]), "extrapolate": "refuse", "notes": ()},
+    "ModulusTable.from_master_curve": lambda: (vf.ModulusTable, {"master_curve": master_curve(), "resolution": 0.05,
+        "extrapolate": "refuse"}),
+    "ModulusTable.complex_modulus": lambda: (vf.ModulusTable.from_master_curve(master_curve()), at_frequencies()),
+    "ModulusTable.compliance": lambda: (vf.ModulusTable.from_master_curve(master_curve()), at_frequencies()),
+    "ModulusTable.shifted": lambda: (vf.ModulusTable.from_master_curve(master_curve()), {"alpha": 2.0, "b": 1.0}),
+    "RelaxationSpectrum": lambda: {"E0": 1e6, "E": np.array([9e6]), "tau": np.array([1e-4])},
+    **{f"RelaxationSpectrum.{name}": functools.partial(lambda name: (rubber().spectrum.to_relaxation(),
+        OF_SPECTRA[name]), name) for name in OF_SPECTRA},
+    "RetardationSpectrum": lambda: {"E0": 1e6, **modes(), "fit": None},
+    **{f"RetardationSpectrum.{name}": functools.partial(lambda name: (rubber().spectrum, OF_SPECTRA[name]), name) for
+        name in OF_SPECTRA},
+    "fit_retardation_spectrum": lambda: {"master_curve": master_curve(), "tau_ratio": 3.0, "method": "non-negative",
+        "modes": None, "regularisation": None, "largest_error": None},
+    "check_superposition": lambda: {"fit": superposition()},
+    "superpose": lambda: {"sweeps": sweeps(), "reference": 300.0, "poisson_ratio": 0.5, "vertical": None, "shift": None,
+        "fixed": None},
+    "MaterialSamples.modulus_band": lambda: (samples(), {**at_frequencies(), "temperature": 300.0, "level": 0.9}),
+    "MaterialSamples.spectrum_band": lambda: (samples(), {"level": 0.9}),
+    "MaterialSamples.band": lambda: (samples(), {"value": lambda one: one.spectrum.E0, "level": 0.9}),
+    "sample_materials": lambda: {"fit": superposition(), "spectrum": None, "samples": 20, "seed": 0, "law": None,
+        "poisson_ratio": 0.5, "name": ""},
+    "RoughFriction.interval": lambda: (rough_friction(), {"probability": 0.9}),
+    "predict_rough_friction": lambda: {"material": rubber(), "surfaces": road(), "speeds": [0.1], "pressure": 5e3,
+        "temperatures": None, "workers": 1, "progress": None, "tolerance": 1e-6},
+    "self_affine": lambda: {"hurst": 0.8, **MADE, "shortest": 4e-5, "longest": 1.6e-4, "rolloff": None, "rms_height":
+        None, "rms_slope": 0.1},
+    "surface_from_spectrum": lambda: {"spectrum": spectrum(), **MADE},
+    "line_spectrum": lambda: {"topography": road(), "axis": "x", "per_decade": 12},
+    "power_spectrum": lambda: {"topography": road(), "per_decade": 12},
+    "contact_statistics": lambda: {"solution": rough_contact()},
+    "pressure_distribution": lambda: {"solution": rough_contact(), "edges": np.array([0.0, 1e4, 1e6])},
+    "persson_theory": lambda: {"material": rubber(), "spectrum": spectrum(), "speeds": [0.1], "pressure": 1e5,
+        "temperatures": None, "gamma": 0.5, "thermal": None, "macroasperity_area": 0.3, "accuracy": 1e-2},
+    "read_topography": lambda: {"path": at("scan.csv"), "unit": "um", "spacing": 2e-6, "channel": None, "missing": -1.0,
+        "lines": "x"},
+    "friction_by_wavelength": lambda: {"solution": rough_contact(), "edges": [1e-5, 4e-5, 1e-4], "per_decade": 6},
+    "LineSpectrum": lambda: {"wave_number": Q, "density": 1e-10 * Q**-1.6},
+    "LineSpectrum.moment": lambda: (vf.LineSpectrum(Q, 1e-10 * Q**-1.6), {"order": 2.0}),
+    "PowerSpectrum": lambda: {"wave_number": Q, "density": 1e-10 * Q**-3.6},
+    "PowerSpectrum.moment": lambda: (spectrum(), {"order": 2.0}),
+    "PowerSpectrum.limited": lambda: (spectrum(), {"shortest": 2e-5, "longest": 5e-4}),
+    "PowerSpectrum.rms_slope": lambda: (spectrum(), {"shortest": 2e-5}),
+    "PowerSpectrum.scaled": lambda: (spectrum(), {"rms_height": None, "rms_slope": 0.2}),
+    "PowerSpectrum.self_affine": lambda: (vf.PowerSpectrum, {"hurst": 0.8, "longest": 1e-3, "shortest": 1e-5, "rolloff":
+        5e-4, "rms_height": None, "rms_slope": 0.1}),
+    "Topography": lambda: {"heights": 1e-6 * np.eye(4), "spacing": 1e-5, "periodic": False, "name": "", "history": ()},
+    "Topography.crop": lambda: (road(), {"x": (0.0, 8e-5), "y": None}),
+    "Topography.fill": lambda: (road(), {"method": "harmonic"}),
+    "Topography.keep_wavelengths": lambda: (road(), {"shortest": 5e-5, "longest": 2e-4}),
+    "Topography.remove": lambda: (road(), {"what": "tilt"}),
+    "Topography.resample": lambda: (road(), {"spacing": 2e-5}),
+    "Topography.to_indenter": lambda: (scan(), {"shape": CYLINDER}),
+    "Topography.window": lambda: (scan(), {"edge": 0.1}),
+    "compare_results": lambda: {"first": curves(), "second": curves(), "tolerance": 1e-2},
+    "load_study": lambda: {"path": at("study.toml")},
+    "open_results": lambda: {"path": at("study.results")},
+    "StudyResults.to_csv": lambda: (vf.open_results(at("study.results")), {"path": at("tables")}),
+    "run_study": lambda: {"path": at("study.toml"), "output": at("study.results"), "resume": True, "workers": None,
+        "scheduler": None, "finished_only": False},
+}
+# fmt: on
+
+
+def good_call(name):
+    """Return the callable of a name, and the arguments of its good call."""
+    entry = CALLS[name]()
+    if not isinstance(entry, tuple):
+        return getattr(vf, name), entry
+    owner, arguments = entry
+    return getattr(owner, name.split(".")[1]), arguments
+
+
+def call(function, arguments):
+    several = [
+        key
+        for key, one in inspect.signature(function).parameters.items()
+        if one.kind is inspect.Parameter.VAR_POSITIONAL
+    ]
+    named = {key: value for key, value in arguments.items() if key not in several}
+    return function(*(arguments[key] for key in several), **named)
+
+
+#: Names that take no argument, classes to derive from, and what needs a workbook of an instrument.
+WITHOUT_CALL = {"catalogue", "synthetic_fluoroelastomer", "ShiftLaw", "VerticalShift", "read_vendor_law"}
+#: What takes seconds, for what its good call needs.
+SLOW = {"IdentifiedMaterial.standard_error", "StudyResults.to_csv", "open_results", "run_study"}
+#: argument -> what it may be, where its annotation does not say it
+KINDS = {
+    "fitted_range": "numbers", "coefficients": "numbers", "log10_values": "numbers", "levels": "numbers",
+    "temperature of ShiftLaw": "numbers", "prior_band": "numbers", "direction": "numbers", "except_steps": "numbers",
+    "steps of TractionRuns.select": "numbers", "rows": "numbers", "x of Topography.crop": "numbers",
+    "temperature of read_dma": "numbers",
+    "progress": "function", "value": "function", "spacing": "pair", "zero": "pair",
+    "coulomb": "pair", "covariance": "numbers", "window": "numbers", "y of Topography.crop": "numbers",
+    "temperature of ParametricLaw": "numbers", "parameters": "numbers", "tolerance of predict_rough_friction": "number",
+    "finest of predict_friction": "number", "scheduler": "text", "notes": "texts", "history": "texts",
+}  # fmt: skip
+#: Columns in which NaN stands for what was not measured.
+WITH_GAPS = {"strain_amplitude", "zero_force", "time", "track_radius", "heights"}
+#: Infinity and zero are elastic limits, or a quantile; what heights are called missing may make heights missing.
+NAN_IS_RIGHT = {("read_topography", "missing")}
+
+
+def kind_of(name, key, given, annotation):
+    """Return what an argument is: one number or many of them, a pair, a flag, text, a path, a function or an object."""
+    for place in (key, f"{key} of {name}", f"{key} of {name.split('.')[0]}"):
+        if place in KINDS:
+            return KINDS[place]
+    plain = annotation.removesuffix(" | None")
+    if plain == "bool":
+        return "flag"
+    if "Path" in plain:
+        return "path"
+    if plain == "str" or plain.startswith(("Literal", "Deformation", "Extrapolation", "Method", "Part", "CardFormat")):
+        return "text"
+    if plain in {"float", "int", "Quantity"}:
+        return "number"
+    if isinstance(given, np.ndarray) or plain.startswith(("Quantities", "ArrayLike", "Array", "Any")):
+        return "numbers"
+    return "object"
+
+
+class Thing:
+    """Neither a number nor text."""
+
+    def __repr__(self):
+        return "Thing()"
+
+
+#: What is no number, nor several.
+NO_NUMBERS = {
+    "complex": 1.0 + 2.0j,
+    "NumPy's complex": np.complex128(1.0 + 2.0j),
+    "complex array": np.array([1.0 + 2.0j]),
+    "masked": np.ma.masked,
+    "masked array": np.ma.array([1.0, 2.0], mask=[False, True]),
+    "NaN": float("nan"),
+    "too large": 10**400,
+    "word": "abc",
+    "thing": Thing(),
+    "ragged": [[1.0, 2.0], [3.0]],
+}
+MORE_NO_NUMBERS = {
+    "complex array without dimensions": np.array(1.0 + 2.0j),
+    "masked array without dimensions": np.ma.array(1.0, mask=True),
+    "unknown unit": "1 xyz",
+    "bytes": b"1",
+    "class": float,
+    "words": ["abc", "def"],
+    "array of words": np.array(["abc"]),
+    "dictionary": {"a": 1.0},
+    "set": {1.0},
+    "date": np.datetime64("2020-01-01"),
+    "duration": np.timedelta64(1, "s"),
+    "list of too large": [10**400],
+    "list of None": [None],
+    "list of NaN": [float("nan")],
+    "list of masked": [1.0, np.ma.masked],
+}
+SEVERAL = {"nothing in it": [], "two": [1.0, 2.0], "two in an array": np.array([1.0, 2.0]), "true": True}
+OBJECTS = {
+    "number": 3.0,
+    "word": "abc",
+    "thing": Thing(),
+    "NaN": float("nan"),
+    "masked": np.ma.masked,
+    "dictionary": {"a": 1},
+}
+MORE_OBJECTS = {"list": [3.0], "array": np.array([1.0]), "complex": 1j, "class": float, "bytes": b"a", "true": True}
+NO_FUNCTION = {key: one for key, one in (OBJECTS | MORE_OBJECTS).items() if key != "class"}
+NO_TEXT = {key: one for key, one in (OBJECTS | MORE_OBJECTS).items() if key != "word"}
+NO_FLAG = {"word": "no", "two": 2, "NaN": float("nan"), "list": [], "array": np.array([True, False]), "thing": Thing()}
+NO_PATH = {**{key: one for key, one in NO_TEXT.items() if key != "bytes"}, "nothing": "", "null": "a\0b"}
+#: What may be right: then nothing of the result is NaN.
+PERHAPS = {
+    "-1": -1,
+    "-5.0": -5.0,
+    "0": 0,
+    "1": 1,
+    "10.0": 10.0,
+    "infinite": float("inf"),
+    "huge": 1e300,
+    "tiny": 1e-300,
+}
+
+
+def spoiled(good, gaps):
+    """Return copies of an array with what is no number in its first place; NaN too, where there may be no gaps."""
+    array = np.asarray(good)
+    first = np.arange(array.size).reshape(array.shape) == 0
+    bad = {
+        "complex copy": array + 1j,
+        "masked copy": np.ma.array(array, mask=first),
+        "words": array.astype(str),
+        "booleans": array > 0.0,
+        "thing in it": np.where(first, Thing(), array.astype(object)),
+        "too large in it": np.where(first, 10**400, array.astype(object)),
+    }
+    return bad if gaps else {**bad, "NaN in it": np.where(first, np.nan, array)}
+
+
+def resized(good):
+    """Return copies of an array that may be of the wrong shape or sign, or too large."""
+    array = np.asarray(good, dtype=float)
+    first = np.arange(array.size).reshape(array.shape) == 0
+    return {
+        "one too many": np.concatenate([array, array[:1]]),
+        "one more dimension": np.stack([array, array]),
+        "nothing": [],
+        "negative": -array,
+        "infinite in it": np.where(first, np.inf, array),
+    }
+
+
+def bad_values(name, key, good, parameter, *, everything):
+    """Return values that must be refused, and those that may be right, by what is wrong with them."""
+    annotation = str(parameter.annotation)
+    kind = kind_of(name, key, good, annotation)
+    numbers = NO_NUMBERS | (MORE_NO_NUMBERS if everything else {})
+    refused = {
+        "number": numbers | SEVERAL,
+        "numbers": numbers,
+        "pair": numbers,
+        "flag": NO_FLAG,
+        "text": NO_TEXT,
+        "texts": {**NO_TEXT, "word": "abc"},
+        "path": NO_PATH,
+        "function": NO_FUNCTION,
+        "object": OBJECTS | (MORE_OBJECTS if everything else {}),
+    }[kind]
+    optional = parameter.default is None or annotation.endswith("None") or parameter.kind is parameter.VAR_KEYWORD
+    refused = refused if optional else {**refused, "None": None}
+    perhaps = PERHAPS if kind == "number" else {}
+    if kind == "numbers" and isinstance(good, np.ndarray) and good.ndim:
+        refused = refused | spoiled(good, key in WITH_GAPS)
+        perhaps = resized(good)
+    if key in WITH_GAPS:
+        refused = {place: one for place, one in refused.items() if "NaN" not in place}
+    return refused, perhaps if everything else {}
+
+
+def holds_nan(value, depth=0):
+    """Tell whether there is NaN in a result, or in what it holds."""
+    if isinstance(value, (float, complex, np.ndarray)):
+        array = np.asarray(value)
+        return array.dtype.kind in "fc" and bool(np.isnan(array).any())
+    if depth > 3:
+        return False
+    if isinstance(value, (tuple, list)):
+        return any(holds_nan(one, depth + 1) for one in value)
+    if dataclasses.is_dataclass(value):
+        return any(holds_nan(getattr(value, field.name), depth + 1) for field in dataclasses.fields(value))
+    return False
+
+
+def outcome(function, arguments):
+    """Return what is wrong with how a call ends, or "result"; None if it is refused in one sentence of viscofric."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.filterwarnings("ignore", category=UserWarning)  # of what a card cannot hold
+            result = call(function, arguments)
+    except AcceptedError:
+        return "result"
+    except vf.ViscofricError:
+        return None
+    except Exception as error:  # noqa: BLE001 - any other is what is looked for
+        return f"{type(error).__name__}: {error}"[:100]
+    return "NaN in the result" if holds_nan(result) else "result"
+
+
+def defects(name, *, everything):
+    """Attack every argument of a name; return how many calls were made and those that end badly."""
+    function, good = good_call(name)
+    usual = outcome(function, good)
+    assert usual in {"result", "NaN in the result"}, usual
+    parameters = inspect.signature(function).parameters
+    anything = inspect.Parameter("settings", inspect.Parameter.VAR_KEYWORD, annotation="object")
+    calls, found = 0, []
+    for key, value in good.items():
+        refused, perhaps = bad_values(name, key, value, parameters.get(key, anything), everything=everything)
+        for place, bad in (refused | perhaps).items():
+            calls += 1
+            end = outcome(function, {**good, key: bad})
+            right = {None} if place in refused else {None, "result", usual}
+            if end not in right and (name, key) not in NAN_IS_RIGHT:
+                found.append(f"{key} = {place}: {end}")
+    return calls, found
+
+
+@pytest.fixture(autouse=True)
+def _own_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("name", [name for name in CALLS if name not in SLOW])
+def test_bad_arguments_are_refused_in_one_sentence(name):
+    assert defects(name, everything=False)[1] == []
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", CALLS)
+def test_no_bad_argument_ends_in_nonsense(name):
+    assert defects(name, everything=True)[1] == []
+
+
+def test_every_public_name_is_attacked():
+    wanted = {name for name in PUBLIC if name not in RETURNED and not issubclass_of_error(name)}
+    wanted |= {name for name, _ in methods() if "." in name}
+    assert wanted - set(CALLS) == WITHOUT_CALL
+    for name in set(CALLS) & wanted:
+        function, good = good_call(name) if name not in SLOW else (None, None)
+        if function is not None:
+            left_out = set(inspect.signature(function).parameters) - set(good) - {"settings", "progress"}
+            assert not left_out, f"{name}: {left_out}"
+
+
+def issubclass_of_error(name):
+    one = getattr(vf, name)
+    return inspect.isclass(one) and issubclass(one, Exception)
+
+
+@pytest.mark.parametrize(
+    ("what", "ask"),
+    [
+        ("a grid of a contact", lambda: vf.solve_steady(rubber(), vf.Ball(1e-2), speed=1.0, load=1.0, grid=10**9)),
+        ("a made surface", lambda: made(shape=(10**9, 10**9))),
+        ("a made profile", lambda: made(shape=2 * 10**9)),
+        ("heights resampled", lambda: road().resample(1e-14)),
+        ("classes of pressure", lambda: vf.pressure_distribution(rough_contact(), 10**12)),
+        ("a window of a field", lambda: vf.surface_displacement(
+            **on_cells(), **modes(), speed=1.0, poisson_ratio=0.5, behind=1e9
+        )),
+    ],
+)  # fmt: skip
+def test_what_no_memory_holds_is_refused_before_it_is_asked_for(what, ask):
+    before = time.perf_counter()
+    with pytest.raises(vf.InputError):
+        ask()
+    assert time.perf_counter() - before < 1.0, what  # s; what is asked for would take hours
+
+
+def test_a_numpy_header_of_ten_trillion_heights_is_refused_before_memory_is_asked_for(tmp_path):
+    header = io.BytesIO()
+    np.lib.format.write_array_header_1_0(header, {"descr": "<f8", "fortran_order": False, "shape": (10**13,)})
+    (tmp_path / "scan.npy").write_bytes(header.getvalue() + bytes(80))
+    with pytest.raises(vf.DataFileError, match=r"10000000000000"):
+        vf.read_topography(tmp_path / "scan.npy", spacing=1e-6)
