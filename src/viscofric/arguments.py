@@ -38,8 +38,8 @@ MOST_PER_DECADE = 10_000
 LARGEST_WHOLE = 2**63 - 1
 #: What is larger (or, of what must be above zero, smaller than its inverse) overflows when it is squared.
 LARGEST = 1e150
-#: Larger arrays are refused before memory is asked for: 8 GiB of floats, the heights of a square of 32768².
-MOST_VALUES = 2**30
+#: Larger arrays are refused before memory is asked for: a square of 16384² takes 2 GiB, and computing a dozen of them.
+MOST_VALUES = 2**28
 
 
 def numbers(values: object, name: str, *, infinite: bool = False, missing: bool = False) -> Array:
@@ -159,9 +159,9 @@ def insist_on_function(value: object, name: str, *, needed: bool = False) -> Non
         raise InputError(f"{name} = {brief(value)}: must be a function.")
 
 
-def check_cost(sizes: Iterable[Any], name: str, most: int = MOST_VALUES) -> None:
+def check_cost(sizes: Iterable[Any], name: str) -> None:
     """Refuse an array that no memory holds before it is asked for; the product of its sizes is its number of values."""
     count = math.prod(sizes)
-    if not count <= most:
+    if not count <= MOST_VALUES:
         shown = f"{count:.2g}" if count < 1e300 else "more than 1e300"
-        raise InputError(f"{name}: would have {shown} points, for which the memory is too small; {most:.2g} are most.")
+        raise InputError(f"{name} would have {shown} points; at most {MOST_VALUES:.2g} are computed with.")

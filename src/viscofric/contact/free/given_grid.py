@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from viscofric.contact.free.scale import Scale
 
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
-MOST_CELLS = 2**28  # of a window: 16384² take 2 GiB for each of a dozen arrays
 LEAST_FINEST = 128  # three grids, so that the friction has an error estimate
 
 
@@ -44,7 +43,7 @@ class GivenGrid:
         if cells is not None:
             right = f"the number of cells along the window's longer edge, {LEAST_FINEST} or more"
             whole_number(cells, "grid", LEAST_FINEST, right=right)
-            check_cost([cells] * scale.geometry.dimension, f"grid = {brief(cells)}", MOST_CELLS)
+            check_cost([cells] * scale.geometry.dimension, f"grid = {brief(cells)}: the window")
         return cls(None if window is None else _extent(window, scale), cells)
 
     def halvings(self, coarsest: int) -> int:
