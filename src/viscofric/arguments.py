@@ -110,9 +110,12 @@ def _float(value: object) -> float:
 
 def number(value: object, name: str) -> float:
     """Return one real, finite number as a float; a text is none, whatever it says."""
-    found = numbers(value, name)
-    if found.ndim:
-        raise InputError(f"{name} = {brief(value)}: must be one number.")
+    try:
+        found = real(value)
+    except ValueError as error:
+        raise InputError(f"{name} = {brief(value)}: must be a number, not {error}.") from None
+    if found.ndim or not math.isfinite(float(found)):
+        raise InputError(f"{name} = {brief(value)}: must be a number, finite and only one.")
     return float(found)
 
 

@@ -136,7 +136,7 @@ def test_nothing_else_is_replaced(tmp_path: Path) -> None:
         with pytest.raises(InputError, match="the results themselves"):
             export_results(results, form, tmp_path / "results.nc")
     assert (tmp_path / "folder" / "precious.txt").exists()
-    with pytest.raises(InputError, match="must be 'csv' or 'excel'"):
+    with pytest.raises(InputError, match="must be 'csv', 'excel'"):
         export_results(results, "xml")  # type: ignore[arg-type]
 
 
