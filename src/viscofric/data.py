@@ -122,8 +122,6 @@ class IsothermalSweeps:
         What the reader found doubtful, left out, sorted or averaged: one sentence each.
     format : str
         What the reader took the file for, in words; empty for sweeps that no file holds.
-    deformation_told : bool
-        Whether a file or a person said what `deformation` is; False where it was assumed.
 
     Examples
     --------
@@ -141,7 +139,6 @@ class IsothermalSweeps:
     source: str = ""
     notes: tuple[str, ...] = ()
     format: str = ""
-    deformation_told: bool = True
 
     def __post_init__(self) -> None:
         if self.deformation not in ("tension", "shear"):

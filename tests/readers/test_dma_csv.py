@@ -8,13 +8,19 @@ import re
 import numpy as np
 import pytest
 
+from viscofric import readers
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import codes
-from viscofric.readers import read_dma, read_mtm
-from viscofric.readers.dma.isotherms import deformation_is_told
+from viscofric.readers import read_mtm
+from viscofric.readers.dma.read import trace_dma
 
 HEADER = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
 ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
+
+
+def read_dma(*paths, **asked):
+    """Read tables that need not say whether they are of tension or of shear."""
+    return trace_dma(*paths, **asked).sweeps
 
 
 def write(tmp_path, *lines, encoding="utf-8", name="sweeps.csv"):
@@ -163,15 +169,14 @@ def test_the_header_says_tension_or_shear(tmp_path):
         read_dma(write(tmp_path, shear.replace("G''", "E''"), *ROWS))
 
 
-def test_without_a_word_in_the_header_the_caller_says_it_or_a_note_does(tmp_path):
+def test_without_a_word_in_the_file_the_deformation_is_asked_for(tmp_path):
     path = write(tmp_path, HEADER, *ROWS)
     assert read_dma(path, deformation="shear").deformation == "shear"
-    assumed = read_dma(path)
-    assert assumed.deformation == "tension"
-    assert any("taken as tensile" in note for note in assumed.notes)
-    assert not deformation_is_told(assumed)
-    assert deformation_is_told(read_dma(path, deformation="tension"))
-    assert deformation_is_told(read_dma(write(tmp_path, HEADER.replace("storage modulus", "E'"), *ROWS)))
+    assert read_dma(path, deformation="tension").deformation == "tension"
+    with pytest.raises(DataFileError, match="deformation='tension' or 'shear'"):
+        readers.read_dma(path)
+    assert not trace_dma(path).deformation_known  # shown with the question
+    assert trace_dma(path, deformation="shear").deformation_known
     with pytest.raises(InputError, match="must be 'tension' or 'shear'"):
         read_dma(path, deformation="bending")
 

@@ -100,6 +100,14 @@ def test_names_that_tell_no_deformation_leave_it_open():
     assert rheocompass.read(written(sweep(ROWS))).deformation is None
 
 
+def test_measuring_system_or_torque_says_shear():
+    assert rheocompass.read(written(["Measuring system:\tCP50-1", *sweep(ROWS)])).deformation == "shear"
+    columns = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", "Torque")
+    rows = [[*row, "0.5"] for row in ROWS]
+    readings = rheocompass.read(written(sweep(rows, columns, ("[°C]", "[rad/s]", "[Pa]", "[Pa]", "[mN·m]"))))
+    assert readings.deformation == "shear"
+
+
 def test_tensile_names_are_known():
     columns = ("Temperature", "Angular Frequency", "Tensile Storage Modulus", "Tensile Loss Modulus")
     assert rheocompass.read(written(sweep(ROWS, columns))).deformation == "tension"

@@ -12,7 +12,7 @@ from viscofric.errors import DataFileError
 from viscofric.readers import read_dma
 from viscofric.readers.table import read_table
 
-HEADER = "temperature (degC);frequency (Hz);storage modulus (MPa);loss modulus (MPa)"
+HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensile loss modulus (MPa)"
 
 
 def write(tmp_path, *lines, encoding="utf-8"):

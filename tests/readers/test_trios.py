@@ -138,7 +138,8 @@ def test_columns_stand_in_any_order(tmp_path, order, layout):
         ("35 mm dual cantilever", "tension", "{} '35 mm dual cantilever'"),
         ("15 mm compression clamp", "tension", "{} '15 mm compression clamp'"),
         ("Shear sandwich", "shear", "{} 'Shear sandwich'"),
-        ("25 mm parallel plate", None, ""),  # plates shear in rotation and compress in axial oscillation
+        ("25 mm parallel plate", "shear", "{} '25 mm parallel plate'"),
+        ("25 mm parallel plate, axial", None, ""),  # plates shear in rotation and compress in axial oscillation
     ],
 )
 @pytest.mark.parametrize("layout", ["lims", "json"])
@@ -287,7 +288,8 @@ def test_json_is_read_by_the_vendor_and_directly_where_the_vendor_fails(tmp_path
 
 
 def test_columns_of_one_step_of_json_say_nothing_of_another(tmp_path):
-    document = trios.document(names=tuple(name for name in trios.COLUMNS if name != "Oscillation torque"))
+    names = tuple(name for name in trios.COLUMNS if name != "Oscillation torque")
+    document = trios.document(geometry="own", names=names)
     results = document["Results"]["Processed"]
     one = "a8b61200-ae3f-40a9-831e-899999999999"
     results["ResultsSteps"].append({"Id": one, "Name": "Torque - 4"})

@@ -48,6 +48,39 @@ def test_names_and_units_may_stand_in_two_rows_below_a_title(tmp_path):
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6])
 
 
+RHEOMETER = ["Temperature", "Angular frequency", "Storage modulus", "Loss modulus"]
+UNITS = ["°C", "rad/s", "MPa", "MPa"]
+
+
+@pytest.mark.parametrize(
+    ("details", "columns", "deformation"),
+    [
+        ([["Filename", "a.tri"], ["Geometry name", "25mm parallel plate, Peltier plate Steel"]], [], "shear"),
+        ([["Measuring System:", "PP25-SN12345"]], [], "shear"),
+        ([["Clamp: dual cantilever"]], [], "tension"),
+        ([["Filename", "a.tri"]], [("Oscillation torque", "µN.m")], "shear"),
+        ([["Filename", "a.tri"]], [("Torque", "mN·m")], "shear"),
+        ([["Filename", "a.tri"]], [("Shear strain", "%")], "shear"),
+        ([["Geometry name", "15 mm parallel plate"]], [("Oscillation force", "N")], None),  # plates that compress
+        ([["Geometry name", "15 mm parallel plate, compression"]], [], None),
+        ([["Filename", "shear.tri"]], [], None),
+    ],
+)
+def test_geometry_or_torque_decides_between_tension_and_shear(tmp_path, details, columns, deformation):
+    # as TRIOS and RheoCompass write workbooks: a sheet of details, then names and units of one step
+    names, units = (
+        [*first, *more] for first, more in ((RHEOMETER, [c[0] for c in columns]), (UNITS, [c[1] for c in columns]))
+    )
+    step = [["Frequency sweep - 1"], names, units, *([*point, *[0.5] * len(columns)] for point in POINTS)]
+    path = write(tmp_path / "a.xlsx", {"Details": details, "Frequency sweep - 1": step})
+    if deformation is None:
+        with pytest.raises(DataFileError, match="deformation='tension' or 'shear'"):
+            read_dma(path)
+        assert read_dma(path, deformation="tension").deformation == "tension"
+    else:
+        assert read_dma(path).deformation == deformation
+
+
 def test_numbers_may_be_text_with_a_decimal_comma_beside_true_numbers(tmp_path):
     sheet = [HEADER, [20, 0.5, "5,5", "0,5"], [20, "1,5", 6.25, 0.7]]
     isotherm = read_dma(write(tmp_path / "a.xlsx", {"DMA": sheet})).isotherms[0]

@@ -292,7 +292,7 @@ def test_a_file_that_tells_neither_tension_nor_shear_needs_it_told(tmp_path: Pat
     text = (EXAMPLE / "dma.csv").read_text(encoding="utf-8")
     untold = text.replace("E' (MPa),E'' (MPa)", "storage modulus (MPa),loss modulus (MPa)")
     (tmp_path / "dma.csv").write_text(untold, encoding="utf-8")
-    with pytest.raises(vf.StudyError, match="tension or in shear"):
+    with pytest.raises(vf.InputError, match="tension or in shear"):
         run_study(path, resume=True)
 
 

@@ -1,7 +1,6 @@
 """Readers of instrument files: what a file holds, in SI units, with notes on what was doubtful."""
 
-from viscofric.readers.dma.isotherms import deformation_is_told
 from viscofric.readers.dma.read import read_dma
 from viscofric.readers.mtm.read import read_mtm
 
-__all__ = ["deformation_is_told", "read_dma", "read_mtm"]
+__all__ = ["read_dma", "read_mtm"]

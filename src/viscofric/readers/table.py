@@ -81,6 +81,8 @@ class Table:
         Line of the file, counted from 1, that each row stands on.
     decimal_comma : bool
         Whether numbers are written as ``1,5``.
+    tools : tuple of (str, str)
+        Label and value of what names, beside the table, the tool that held the sample.
     """
 
     path: str
@@ -88,6 +90,7 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
     lines: NDArray[np.int64]
     decimal_comma: bool
+    tools: tuple[tuple[str, str], ...] = ()
 
     def headings(self) -> str:
         """Return the headings as one readable list, for error messages."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.notes import Note
-from viscofric.readers import deformation_is_told, read_dma
+from viscofric.readers import read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
@@ -115,10 +115,9 @@ def make_rubber(wanted: MaterialTable, *, liquids: bool = False) -> Rubber:
     ------
     LiquidError
         If it is a liquid, unless `liquids` is true.
-    StudyError
-        If sweeps do not say whether they were taken in tension or in shear.
     DataFileError, SuperpositionError, InputError
-        If a file cannot be used, or the sweeps do not give what is asked for.
+        If a file cannot be used or does not say whether it was measured in tension or in shear, or the sweeps do not
+        give what is asked for.
     """
     if wanted.dma is not None:
         return _from_sweeps(wanted, liquids)
@@ -150,11 +149,6 @@ def _from_sweeps(wanted: MaterialTable, liquids: bool) -> Rubber:
         temperature=wanted.temperature,
         modulus_unit=wanted.modulus_unit,
     )
-    if not deformation_is_told(sweeps):
-        raise StudyError(
-            f"{name}: does not say whether it was measured in tension or in shear, a factor of 3 in the modulus; "
-            'say it: deformation = "tension" or "shear" below [material] of a run file, --deformation in the shell.'
-        )
     try:
         fit = _superposed(wanted, sweeps)
         shift, laws, used = _law_or_table(wanted.shift, fit.shift_factors)

@@ -31,7 +31,7 @@ def german(folder: Path) -> Path:
     rows = [f"{T:g};{f:g};{s / 1e6:.6g};{loss / 1e6:.6g};0,1".replace(".", ",") for T, f, s, loss in points()]
     header = "Temperatur (°C);Frequenz (Hz);Speichermodul (N/mm²);Verlustmodul (N/mm²);Dehnung (%)"
     path = folder / "deutsch.csv"
-    lines = ["Prüfbericht 12;synthetisch", "Prüfer: n. n.", header, *rows, ""]
+    lines = ["Prüfbericht 12;synthetisch", "Prüfer: n. n.", "Einspannung;Zug", header, *rows, ""]
     path.write_bytes("\r\n".join(lines).encode("cp1252"))
     return path
 

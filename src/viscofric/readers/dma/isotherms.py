@@ -34,17 +34,6 @@ SAME_FREQUENCY = 1e-4
 REPEATS_DIFFER = 0.02
 
 
-def deformation_is_told(sweeps: IsothermalSweeps) -> bool:
-    """Return whether the file or the caller of `read_dma` said that the moduli are tensile or shear.
-
-    Parameters
-    ----------
-    sweeps : IsothermalSweeps
-        As `read_dma` returned them.
-    """
-    return sweeps.deformation_told
-
-
 @dataclass(frozen=True, eq=False)
 class TracedSweeps:
     """Sweeps with every reading that they were made of, or that was left out.
@@ -58,12 +47,16 @@ class TracedSweeps:
         The readings of all files in one row.
     isotherms : tuple of Sorted
         Which of them each isotherm of the sweeps was made of.
+    deformation_known : bool
+        Whether a file or the caller said that the moduli are tensile or shear; where not, they count as tensile for
+        a first look, and nothing may be concluded from them.
     """
 
     sweeps: IsothermalSweeps
     readings: tuple[Readings, ...]
     points: Points
     isotherms: tuple[Sorted, ...]
+    deformation_known: bool
 
     @property
     def left_out(self) -> Indices:
@@ -85,7 +78,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     readings : sequence of Readings
         One per file, all of one specimen.
     deformation : {"tension", "shear"}, optional
-        What the moduli are, where the files do not say it; tension if nobody says it, with a note.
+        What the moduli are, where the files do not say it.
 
     Returns
     -------
@@ -122,9 +115,9 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     ]
     formats = list(dict.fromkeys(one.format for one in readings))
     isotherms = tuple(one.isotherm for one in sweeps)
-    told = deformation is not None or any(one.deformation is not None for one in readings)
-    found = IsothermalSweeps(isotherms, kind, source, tuple(notes), ", ".join(formats), told)
-    return TracedSweeps(found, tuple(readings), points, tuple(sweeps))
+    known = deformation is not None or any(one.deformation is not None for one in readings)
+    found = IsothermalSweeps(isotherms, kind, source, tuple(notes), ", ".join(formats))
+    return TracedSweeps(found, tuple(readings), points, tuple(sweeps), known)
 
 
 def _source(readings: Sequence[Readings]) -> str:
@@ -158,14 +151,15 @@ def _own_notes(readings: Sequence[Readings]) -> list[str]:
 
 
 def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[str]]:
-    """Decide between tension and shear: what the files say, else what the caller says, else tension."""
+    """Decide between tension and shear: what the files say, else what the caller says."""
     if asked not in (None, "tension", "shear"):
         raise InputError(f"deformation = {asked!r}: must be 'tension' or 'shear'.")
     said = [one for one in readings if one.deformation is not None]
     if not said:
         if asked is not None:
             return asked, [f"The moduli are taken as measured in {asked}, as asked; the file does not say it."]
-        return "tension", ["The file does not say whether its moduli are tensile or shear; taken as tensile."]
+        note = "The file does not say whether its moduli are tensile or shear; shown as tensile until that is known."
+        return "tension", [note]
     kind = said[0].deformation or "tension"
     by = f" ({said[0].said_by})" if said[0].said_by else ""
     other = next((one for one in said if one.deformation != kind), None)

@@ -9,6 +9,7 @@ import numpy as np
 from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
+from viscofric.readers.dma.deformation import NOT_SAID
 from viscofric.readers.dma.formats import format_of
 from viscofric.readers.dma.tables import delimited, dma_columns, reptate, workbook
 from viscofric.readers.printed import unit_conversion
@@ -45,7 +46,7 @@ def read_master_curve(
     reference : float, str or quantity
         Temperature that the curve holds for, K if a plain number.
     deformation : {"tension", "shear"}, optional
-        What the moduli are, where the headings do not say it.
+        What the moduli are, where the file does not say it.
     poisson_ratio : float
         ν of E = 2(1+ν)G, for moduli in shear.
     modulus_unit : str, optional
@@ -150,11 +151,10 @@ def _insist_on_positive(path: str, lines: NDArray[np.int64], named: dict[str, Ar
 
 
 def _kind(source: Source, said: Deformation | None, asked: Deformation | None) -> Deformation:
-    """Return what the moduli are; a master curve carries no notes, so that nothing is assumed."""
+    """Return what the moduli are; nothing is assumed."""
     if said is not None and asked not in (None, said):
-        raise DataFileError(source.path, f"the headings say {said}, but deformation={asked!r} was asked.")
+        raise DataFileError(source.path, f"the file says {said}, but deformation={asked!r} was asked.")
     kind = said or asked
     if kind is None:
-        problem = "does not say whether its moduli are tensile or shear; say deformation='tension' or 'shear'."
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, NOT_SAID)
     return kind

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from typing import TYPE_CHECKING
 
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from viscofric.data import Deformation
 
 _SORTS = ("", "tensile ", "tension ", "young's ", "shear ", "complex ")
 
@@ -83,8 +79,6 @@ QUANTITIES = {
     "step": STEP,
 }
 
-_SHEAR = re.compile(r"\|?g['*\s]|g-|gstor|gloss|.*(shear|schub|scher|cisaillement|cizall|taglio|cisalh|сдвиг)")
-_TENSION = re.compile(r"\|?e['*\s]|e-|estor|eloss|.*(tensi|young|zug|traction|tracción|trazione|tração)")
 # "foam_-25C", "T 25 °C": a number and its unit, set apart from other letters and digits.
 _TEMPERATURE_IN_NAME = re.compile(
     r"(?:(?P<mark>^|[\s_=(,;])(?P<sign>[+−-]?)|(?P<dash>-))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
@@ -105,14 +99,6 @@ def quantity(name: str) -> str | None:
         if plain in names or (len(plain) > 1 and plain.lower() in names):
             return what
     return None
-
-
-def deformation_of(name: str) -> Deformation | None:
-    """Return whether a modulus of this name is tensile or shear, None if the name does not say it."""
-    lower = name.lower() + " "
-    if _SHEAR.match(lower):
-        return "shear"
-    return "tension" if _TENSION.match(lower) else None
 
 
 def temperature_in_name(name: str) -> float | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
+from viscofric.readers.dma.deformation import NOT_SAID
 from viscofric.readers.dma.formats import format_of
 from viscofric.readers.dma.isotherms import traced_sweeps
 from viscofric.readers.printed import unit_conversion
@@ -42,7 +43,8 @@ def read_dma(
     *paths : str or path, or a list of them
         One or many files of one specimen; units may differ between them, the kind of deformation may not.
     deformation : {"tension", "shear"}, optional
-        What the moduli are, where the files do not say it (E' or G'); tension if nobody says it, with a note.
+        What the moduli are, where the files do not say it: by headings (E' or G'), by the tool that held the sample,
+        or by a torque.
     temperature : float, str or quantity, or a list with one (or None) per file, optional
         Of files that hold none, K if a plain number.  Without it the temperature in a file's name
         (``foam_-25C.csv``) is taken, with a note.
@@ -60,8 +62,8 @@ def read_dma(
     ------
     DataFileError
         If a file cannot be read or is not recognised, a column or unit is missing or wrong, a cell is no number,
-        most storage moduli or frequencies are not above zero, files contradict each other or are given twice, or
-        the temperatures form a ramp, not isotherms.
+        most storage moduli or frequencies are not above zero, files contradict each other or are given twice, nobody
+        says whether the moduli are tensile or shear, or the temperatures form a ramp, not isotherms.
     InputError
         If no file is given, or an argument is wrong.
 
@@ -74,7 +76,10 @@ def read_dma(
     >>> len(sweeps.isotherms), sweeps.isotherms[0].storage_modulus.shape
     (26, (17,))
     """
-    return trace_dma(*paths, deformation=deformation, temperature=temperature, modulus_unit=modulus_unit).sweeps
+    traced = trace_dma(*paths, deformation=deformation, temperature=temperature, modulus_unit=modulus_unit)
+    if not traced.deformation_known:
+        raise DataFileError(traced.sweeps.source, NOT_SAID)
+    return traced.sweeps
 
 
 def trace_dma(
@@ -83,7 +88,10 @@ def trace_dma(
     temperature: Quantity | Sequence[Quantity | None] | None = None,
     modulus_unit: str | None = None,
 ) -> TracedSweeps:
-    """Read what `read_dma` reads, and return with the sweeps every reading of the files; see there."""
+    """Read what `read_dma` reads, and return with the sweeps every reading of the files; see there.
+
+    That nothing decides between tension and shear is no error here, so that the sweeps can be shown with the question.
+    """
     if deformation not in (None, "tension", "shear"):
         raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")
     files = _files(paths)

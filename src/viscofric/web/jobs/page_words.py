@@ -29,7 +29,7 @@ _PAGE_WORDS = (
     ("is a master curve of RepTate", "; use read_master_curve", _MASTER, "material.dma"),
     ("not a table of a master curve", "; use read_dma", _SWEEPS, "material.master_curve"),
     ("no master curve", "; use read_dma", _SWEEPS, "material.master_curve"),
-    ("tension or in shear", "; say it: deformation", "; say under “Data” which it was.", "material.deformation"),
+    ("tension or in shear", "; give deformation=", "; say under “Data” which it was.", "material.deformation"),
     ("a table of traction runs", "; use read_mtm", "; drop it under “Measurement”.", "material.dma"),
     ('law="best"', '; law="best"', "; choose a law under “Shift law” to write it.", None),
     ("a table of DMA sweeps", "; use read_dma", "; drop it under “Data”.", "measurement.mtm"),

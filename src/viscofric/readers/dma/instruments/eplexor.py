@@ -80,6 +80,8 @@ def read(source: Source) -> Readings:
     """
     tables = sheets(source)
     sheet = _Sheet(source.path, tables[DATA])
+    if {"E'", "G'"} <= set(sheet.names):
+        raise DataFileError(source.path, f"sheet {DATA!r} names E' and G'; keep the columns of one of them.")
     deformation: Deformation = "tension" if "E'" in sheet.names else "shear"
     letter = "E" if deformation == "tension" else "G"
     needed = {name: sheet.column(name) for name in ("f", "T", f"{letter}'", f"{letter}''")}

@@ -7,21 +7,26 @@ other languages are the usual words of the field.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma import names
-from viscofric.readers.dma.instruments.rheocompass_intervals import Decimals, Interval, has_intervals, intervals
+from viscofric.readers.dma.deformation import said_by_columns, tools_in
+from viscofric.readers.dma.instruments.rheocompass_intervals import (
+    Decimals,
+    Interval,
+    has_intervals,
+    head,
+    intervals,
+)
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.printed import STRAIN_FACTORS, to_rad_per_second, unit_conversion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import Deformation
     from viscofric.readers.source import Source
 
     Array = NDArray[np.float64]
@@ -32,7 +37,6 @@ NAME = "Anton Paar RheoCompass text"
 
 #: Frequencies of one interval that differ by less (relative) are one frequency held, as measured: no sweep.
 _SAME_FREQUENCY = 0.05
-_SHEAR = re.compile(r"shear|scher|schub|cisaillement|cizall|cortante|taglio|cisalh", re.IGNORECASE)
 
 
 def recognises(source: Source) -> bool:
@@ -87,7 +91,9 @@ def read(source: Source) -> Readings:
         what = "1 interval that is no frequency sweep was"
         what = what if others == 1 else f"{others} intervals that are no frequency sweeps were"
         notes.insert(0, f"{what} passed over.")
-    deformation, said_by = _deformation(sweeps)
+    moduli = [interval.columns[interval.places["storage modulus"]] for interval in sweeps]
+    columns = [column for interval in sweeps for column in interval.columns[1:]]
+    deformation, said_by = said_by_columns(moduli, columns, tools_in(head(source)))
     temperature, frequency, storage, loss, amplitude = np.concatenate(tables, axis=1)
     return Readings(
         source.path,
@@ -192,16 +198,3 @@ def _conversion(path: str, interval: Interval, what: str, unit: str) -> tuple[fl
         example = {"K": "°C"}.get(unit, unit)
         problem = f"column {heading!r} has the unit {text!r}; it must be one like {example!r}."
         raise DataFileError(path, problem, interval.line) from None
-
-
-def _deformation(sweeps: list[Interval]) -> tuple[Deformation | None, str]:
-    """Return what the headings say: those of the moduli first, then any strain, stress or rate of shear."""
-    for interval in sweeps:
-        heading = interval.columns[interval.places["storage modulus"]]
-        kind = names.deformation_of(heading)
-        if kind is not None:
-            return kind, f"the heading {heading!r}"
-    for heading in (column for interval in sweeps for column in interval.columns[1:]):
-        if _SHEAR.search(heading):
-            return "shear", f"the heading {heading!r}"
-    return None, ""

@@ -98,6 +98,13 @@ def has_intervals(text: str) -> bool:
     return _INTERVAL.search(text) is not None
 
 
+def head(source: Source) -> list[list[str]]:
+    """Return the cells of the lines above the first interval, where the export names the measuring system."""
+    text = source.text or ""
+    first = _INTERVAL.search(text)
+    return [] if first is None else [_cells(line, first["mark"]) for line in text[: first.start()].splitlines()]
+
+
 def intervals(source: Source) -> list[Interval]:
     """Split an export into its intervals.
 

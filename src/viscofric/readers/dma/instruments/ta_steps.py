@@ -7,16 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
 
-    from viscofric.data import Deformation
-
     Array = NDArray[np.float64]
-    #: What the moduli are and what in the file says so; (None, "") where nothing does.
-    Said = tuple[Deformation | None, str]
 
 #: What a column holds -> its names, in small letters.
 ROLES = {
@@ -30,10 +26,6 @@ ROLES = {
     "oscillation torque": re.compile(r"oscillation torque"),
     "oscillation force": re.compile(r"oscillation force"),
 }
-
-# TRIOS gives every modulus the same name, so that the tool which held the sample tells E from G.
-_SHEAR = re.compile(r"\b(shear|torsion|cone|concentric|couette|double gap)", re.IGNORECASE)
-_TENSION = re.compile(r"\b(tension|tensile|films?\b|fib(er|re)|compress)|cantilever|\bbend", re.IGNORECASE)
 
 #: Steps that change the amplitude are no frequency sweeps even where they do so at several frequencies.
 _AMPLITUDE = re.compile(r"amplitude|(strain|stress|force|displacement) sweep", re.IGNORECASE)
@@ -116,21 +108,3 @@ def roles(names: Sequence[str]) -> dict[str, int]:
             if pattern.fullmatch(plain):
                 places.setdefault(role, place)
     return places
-
-
-def tool_says(texts: Iterable[tuple[str, str]]) -> Said:
-    """Return what the tool that held the sample tells: shear, or tension (bending and compression give E too).
-
-    Parameters
-    ----------
-    texts : pairs of str
-        Field of the header and what it says, such as ``("Geometry name", "Shear sandwich")``.
-    """
-    said: dict[Deformation, str] = {}
-    for field, value in texts:
-        shear, tension = _SHEAR.search(value), _TENSION.search(value)
-        if shear and not tension:
-            said.setdefault("shear", f"{field} {value.strip()[:80]!r}")
-        elif tension and not shear:
-            said.setdefault("tension", f"{field} {value.strip()[:80]!r}")
-    return next(iter(said.items())) if len(said) == 1 else (None, "")

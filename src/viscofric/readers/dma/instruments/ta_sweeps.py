@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -12,16 +11,18 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.agreement import insist_on_agreement
+from viscofric.readers.dma.deformation import said_by_columns
+from viscofric.readers.dma.instruments.ta_steps import ROLES, roles
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.printed import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
-    from viscofric.readers.dma.instruments.ta_steps import Said, Signal, Step
+    from viscofric.readers.dma.instruments.ta_steps import Signal, Step
     from viscofric.readers.source import Source
 
     Array = NDArray[np.float64]
@@ -36,7 +37,9 @@ class _Points:
     columns: tuple[Array, ...]
 
 
-def readings_of(source: Source, kind: str, steps: Sequence[Step], tool: Said, notes: Sequence[str]) -> Readings:
+def readings_of(
+    source: Source, kind: str, steps: Sequence[Step], tools: Iterable[tuple[str, str]], notes: Sequence[str]
+) -> Readings:
     """Return the points of all frequency sweeps among the steps of a file.
 
     Parameters
@@ -47,8 +50,8 @@ def readings_of(source: Source, kind: str, steps: Sequence[Step], tool: Said, no
         What it was taken for, in words.
     steps : sequence of Step
         All of them, in the order of the file.
-    tool : pair
-        What the header says of the deformation; see `viscofric.readers.dma.instruments.ta_steps.tool_says`.
+    tools : pairs of str
+        What the header says of the tool; see `viscofric.readers.dma.deformation.tool_says`.
     notes : sequence of str
         What was doubtful before.
 
@@ -77,7 +80,11 @@ def readings_of(source: Source, kind: str, steps: Sequence[Step], tool: Said, no
     temperature, frequency, storage, loss, strain = (
         np.concatenate(columns) for columns in zip(*(part.columns for part in parts), strict=True)
     )
-    deformation, said_by = _deformation([step for _, step in sweeps], tool)
+    headings = [step.signals["storage modulus"].heading for _, step in sweeps]
+    columns = [step.signals[role].heading for role in ROLES for _, step in sweeps if role in step.signals]
+    if not all("oscillation torque" in step.signals for _, step in sweeps):
+        columns = [one for one in columns if roles([one]) != {"oscillation torque": 0}]
+    deformation, said_by = said_by_columns(headings, columns, tools)
     return Readings(
         source=source.path,
         format=kind,
@@ -218,20 +225,3 @@ def _strain(step: Step, notes: list[str]) -> Array:
         notes.append(f"The strain amplitudes were not read: column {signal.heading!r} has {shown}, not '%'.")
         return nothing
     return np.where(signal.values >= 0.0, factor * signal.values, math.nan)
-
-
-def _deformation(sweeps: Sequence[Step], tool: Said) -> Said:
-    """Decide between E and G: the heading of the moduli, else the tool, else a torque where there is no force."""
-    for step in sweeps:
-        heading = step.signals["storage modulus"].heading
-        plain = heading.lower()
-        if "shear" in plain or re.search(r"\bg['’′]", plain):
-            return "shear", f"the heading {heading!r}"
-        if "tensi" in plain or "young" in plain or re.search(r"\be['’′]", plain):
-            return "tension", f"the heading {heading!r}"
-    if tool[0] is not None:
-        return tool
-    if all("oscillation torque" in step.signals and "oscillation force" not in step.signals for step in sweeps):
-        heading = sweeps[0].signals["oscillation torque"].heading
-        return "shear", f"the column {heading!r}, as only a rotational rheometer writes it"
-    return None, ""

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles, tool_says
+from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def read(source: Source) -> Readings:
     if len(results.step_ids) <= _MOST_ROWS:
         results = _by_vendor(document, name) or results
     steps = _steps(results, f"{name.lower()} results")
-    return readings_of(source, NAME, steps, tool_says(_geometry(document)), _notes(name, section))
+    return readings_of(source, NAME, steps, _geometry(document), _notes(name, section))
 
 
 def _part(parent: Any, key: str) -> Any:

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
-from viscofric.readers.dma.instruments.ta_steps import tool_says
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
@@ -72,12 +71,12 @@ def read(source: Source) -> Readings:
     lims = short is None
     tables = [_lims_table(draft, notes) if lims else _short_table(draft) for draft in drafts]
     kind = "export for LIMS" if lims else ("CSV" if delimiter != "\t" else "short text")
-    tool = tool_says(
+    tools = [
         (field, value)
         for section, field, value in header
         if field.lower() in _GEOMETRY_FIELDS and (section.startswith("geometry") or field.lower() == "geometry name")
-    )
-    return readings_of(source, f"TA Instruments TRIOS text ({kind})", steps_of(source.path, tables), tool, notes)
+    ]
+    return readings_of(source, f"TA Instruments TRIOS text ({kind})", steps_of(source.path, tables), tools, notes)
 
 
 def _rows(path: str, text: str, delimiter: str) -> Iterator[Row]:

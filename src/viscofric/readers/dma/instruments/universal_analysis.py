@@ -20,7 +20,7 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.files import decoded
 from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
-from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles, tool_says
+from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
@@ -78,9 +78,9 @@ def read(source: Source) -> Readings:
         raise DataFileError(
             source.path, f"holds no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}."
         )
-    tool = tool_says((tag, value) for tag, value in header if _CLAMP_TAGS.fullmatch(tag))
+    tools = [(tag, value) for tag, value in header if _CLAMP_TAGS.fullmatch(tag)]
     # The file does not tell the steps of its programme apart.
-    return replace(readings_of(source, kind, [step], tool, notes), step=None)
+    return replace(readings_of(source, kind, [step], tools, notes), step=None)
 
 
 def _end_of_header(data: bytes) -> int:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
+from viscofric.readers.dma.deformation import tools_in
 from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.dma.tables.layout import (
     DEEPEST_HEADER,
@@ -59,7 +61,9 @@ def delimited_table(source: Source) -> Table:
         rows = [(number, split_cells(source.path, number, line, delimiter)) for number, line in lines]
     header = header_row(rows) or 0
     insist_on_moduli(source.path, rows[header][1])
-    return table_under(source.path, rows, header, comma_is_free=delimiter != ",")
+    table = table_under(source.path, rows, header, comma_is_free=delimiter != ",")
+    remarks = [line for line in (source.text or "").splitlines()[:DEEPEST_HEADER] if line.lstrip().startswith("#")]
+    return replace(table, tools=(*table.tools, *tools_in(re.split(r"[\t;,]", line) for line in remarks)))
 
 
 def _delimiter(lines: list[tuple[int, str]]) -> str | None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.agreement import insist_on_agreement
+from viscofric.readers.dma.deformation import deformation_of, said_by_columns
 from viscofric.readers.dma.names import (
     ANGULAR_FREQUENCY,
     COMPLEX_MODULUS,
@@ -17,15 +18,15 @@ from viscofric.readers.dma.names import (
     SET_TEMPERATURE,
     STORAGE_MODULUS,
     TEMPERATURE,
-    deformation_of,
     quantity,
 )
 from viscofric.readers.printed import PRINTED_FREQUENCY, to_rad_per_second, unit_conversion
+from viscofric.readers.table import MISSING
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.data import Deformation
+    from viscofric.readers.dma.deformation import Said
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
 
@@ -159,8 +160,8 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
     return factor * table.numbers_or_missing(place) + offset
 
 
-def deformation(table: Table, places: dict[str, int]) -> tuple[Deformation | None, str]:
-    """Return what the headings say of the deformation, and by which words.
+def deformation(table: Table, places: dict[str, int]) -> Said:
+    """Return what headings and tool say of the deformation, and by which words.
 
     Raises
     ------
@@ -168,10 +169,14 @@ def deformation(table: Table, places: dict[str, int]) -> tuple[Deformation | Non
         If one modulus is called tensile and another one shear.
     """
     said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
-    known = [(kind, place) for kind, place in said if kind is not None]
-    if len({kind for kind, _ in known}) > 1:
+    if {"tension", "shear"} <= {kind for kind, _ in said}:
         raise DataFileError(table.path, "one modulus is headed as tensile (E), the other as shear (G).")
-    if not known:
-        return None, ""
-    kind, place = known[0]
-    return kind, f"the heading {table.columns[place].heading!r}"
+    for kind, place in said:
+        if kind is not None:
+            return kind, f"the heading {table.columns[place].heading!r}"
+    filled = [
+        column.name
+        for place, column in enumerate(table.columns)
+        if any(row[place].strip().lower() not in MISSING for row in table.rows)
+    ]
+    return said_by_columns((), filled, table.tools)

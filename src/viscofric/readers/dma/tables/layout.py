@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
+from viscofric.readers.dma.deformation import tools_in
 from viscofric.readers.dma.names import quantity
 from viscofric.readers.table import Column, Table, heading, make_table
 
@@ -85,7 +86,10 @@ def table_under(path: str, rows: Sequence[NumberedRow], header: int, *, comma_is
             for column, cell in zip(columns, [*units, *[""] * len(columns)], strict=False)
         )
     repeated = [list(rows[header][1])]  # tables put one below the other repeat their header
-    return make_table(path, columns, [row for row in body if list(row[1]) not in repeated], comma_is_free=comma_is_free)
+    table = make_table(
+        path, columns, [row for row in body if list(row[1]) not in repeated], comma_is_free=comma_is_free
+    )
+    return replace(table, tools=tuple(tools_in(cells for _, cells in rows[:header])))
 
 
 def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:

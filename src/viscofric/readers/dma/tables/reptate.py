@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma.names import deformation_of, quantity
+from viscofric.readers.dma.deformation import deformation_of
+from viscofric.readers.dma.names import quantity
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.printed import to_rad_per_second, unit_conversion
 from viscofric.readers.table import heading

@@ -14,9 +14,10 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.readers.dma.deformation import tools_in
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_points
-from viscofric.readers.dma.tables.layout import header_row, quantities, table_under
+from viscofric.readers.dma.tables.layout import DEEPEST_HEADER, header_row, quantities, table_under
 from viscofric.readers.printed import decimal_comma
 from viscofric.units import celsius
 
@@ -179,10 +180,13 @@ def tables(source: Source) -> dict[str, Table]:
         )
     # a sheet of, say, shift factors names two quantities, but no modulus
     whole = {name: one for name, one in found.items() if _MODULI & quantities(one[0][one[1]][1])}
-    return {
+    beside = [rows[:DEEPEST_HEADER] for name, rows in sheets(source).items() if name not in found]
+    tools = tools_in([str(cell) for cell in row] for rows in beside for row in rows)
+    tables = {
         name: table_under(f"{source.path}, sheet {name!r}", rows, header)
         for name, (rows, header) in (whole or found).items()
     }
+    return {name: replace(table, tools=(*table.tools, *tools)) for name, table in tables.items()}
 
 
 def _numbered(path: str, cells: Rows) -> list[NumberedRow]:
@@ -224,8 +228,8 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
     names, parts = list(readings), list(readings.values())
     if len(parts) == 1:
         return parts[0]
-    kinds = {part.deformation for part in parts}
-    if len(kinds) > 1:
+    saying = next((part for part in parts if part.deformation is not None), parts[0])
+    if any(part.deformation not in (None, saying.deformation) for part in parts):
         raise DataFileError(source.path, f"the sheets {', '.join(map(repr, names))} differ in E and G; part them.")
 
     def all_of(column: str) -> NDArray[np.float64]:
@@ -245,8 +249,8 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
         angular_frequency=all_of("angular_frequency"),
         storage_modulus=all_of("storage_modulus"),
         loss_modulus=all_of("loss_modulus"),
-        deformation=parts[0].deformation,
-        said_by=parts[0].said_by,
+        deformation=saying.deformation,
+        said_by=saying.said_by,
         strain_amplitude=np.concatenate(amplitudes) if any(p.strain_amplitude is not None for p in parts) else None,
         unit_is_asked=any(part.unit_is_asked for part in parts),
         notes=(told, *dict.fromkeys(note for part in parts for note in part.notes)),
