@@ -293,7 +293,7 @@ CALLS: dict[str, Any] = {
     "Isotherm": lambda: {"temperature": 300.0, "angular_frequency": np.array([1.0, 10.0]), "storage_modulus":
         np.array([3e6, 4e6]), "loss_modulus": np.array([3e5, 4e5]), "strain_amplitude": np.array([1e-3, 1e-3])},
     "IsothermalSweeps": lambda: {"isotherms": sweeps().isotherms, "deformation": "tension", "source": "", "notes": (),
-        "format": "", "deformation_told": True},
+        "format": ""},
     "MasterCurve": lambda: {"angular_frequency": np.array([1.0, 10.0]), "storage_modulus": np.array([3e6, 4e6]),
         "loss_modulus": np.array([3e5, 4e5]), "temperature": np.full(2, 300.0), "reference": 300.0},
     "TractionRuns": lambda: {**READINGS, "source": "", "notes": (), "zero_force": np.zeros(4), "time": np.arange(4.0),

@@ -148,7 +148,6 @@ class IsothermalSweeps:
             insist_on(one, "one of the isotherms", Isotherm)
         for name in ("source", "format"):
             text(getattr(self, name), f"{name} of the sweeps")
-        flag(self.deformation_told, "deformation_told")
         object.__setattr__(self, "notes", sentences(self.notes, "notes of the sweeps"))
         object.__setattr__(self, "isotherms", tuple(sorted(self.isotherms, key=lambda sweep: sweep.temperature)))
 

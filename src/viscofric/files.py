@@ -2,20 +2,38 @@
 
 from __future__ import annotations
 
+import io
+import json
+import math
 import os
 import re
 import stat
 import tempfile
+import zipfile
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import DataFileError, InputError, brief
 
 if TYPE_CHECKING:
     from os import PathLike
 
+    import numpy as np
+    from numpy.typing import NDArray
+
 #: A file of measurements is far smaller; what is larger was chosen by mistake.
 LARGEST_FILE = 200_000_000  # bytes
+#: What a packed file may hold when unpacked, and by how much its bytes may have been packed.
+LARGEST_UNPACKED = 500_000_000  # bytes
+LARGEST_RATIO = 400
+_SMALL = 10_000_000  # bytes, which may be packed as well as they like
+#: Dots in all keys, or texts, of TOML that have more than a few: the parser's time grows with the square of a key's.
+_MOST_DOTS, _FEW_DOTS = 1000, 10
+# One key of TOML with its dots, or one text; what has no closing quotation mark goes on to the end of its line, so that
+# every character is looked at once.
+_PART = r"""(?:[\w-]++|"(?:\\.|[^"\\\n])*+"?|'[^'\n]*+'?)"""
+_KEY = re.compile(rf"{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+")
+_HDF5 = b"\x89HDF\r\n\x1a\n"
 # Below the space, but for tabs and ends of lines.
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 
@@ -29,13 +47,15 @@ def file_path(path: object) -> Path:
     return Path(path)
 
 
-def read_bytes(path: str | PathLike[str]) -> bytes:
+def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
     """Return what a regular file holds.
 
     Parameters
     ----------
     path : str or path
         The file.
+    most : int, optional
+        Bytes that such a file has at most.
 
     Raises
     ------
@@ -50,9 +70,10 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
             raise DataFileError(shown, "is a folder, not a data file.")
         if not stat.S_ISREG(status.st_mode):  # a device or a pipe may never end
             raise DataFileError(shown, "is a device or a pipe, not a data file.")
-        if status.st_size > LARGEST_FILE:
-            size, most = status.st_size / 1e6, LARGEST_FILE / 1e6
-            raise DataFileError(shown, f"holds {size:.0f} MB; a table of measurements has at most {most:.0f} MB.")
+        if status.st_size > (most or LARGEST_FILE):
+            size, right = status.st_size / 1e6, (most or LARGEST_FILE) / 1e6
+            what = "such a file" if most else "a table of measurements"
+            raise DataFileError(shown, f"holds {size:.0f} MB; {what} has at most {right:.0f} MB.")
         return file.read_bytes()
     except FileNotFoundError:
         raise DataFileError(shown, "no such file.") from None
@@ -86,9 +107,118 @@ def decoded(data: bytes, path: str | PathLike[str]) -> str:
     return text
 
 
-def read_text(path: str | PathLike[str]) -> str:
+def read_text(path: str | PathLike[str], most: int | None = None) -> str:
     """Return a text file; see `read_bytes` and `decoded`."""
-    return decoded(read_bytes(path), path)
+    return decoded(read_bytes(path, most), path)
+
+
+def parse_json(text: str | bytes, **options: Any) -> Any:
+    """Return what JSON holds; raise `ValueError`, in a sentence, where it is none or nested too deeply.
+
+    Parameters
+    ----------
+    text : str or bytes
+    **options
+        Of `json.loads`.
+    """
+    try:
+        return json.loads(text, **options)
+    except RecursionError:
+        raise ValueError("lists or objects lie within each other too deeply") from None
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """Return what TOML holds; raise `ValueError`, in a sentence, where it is none or nested too deeply."""
+    import tomllib
+
+    deep = "lists or tables lie within each other too deeply"
+    dots = (key[0].count(".") for key in _KEY.finditer(text))
+    if sum(count for count in dots if count > _FEW_DOTS) > _MOST_DOTS:
+        raise ValueError(deep)
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ValueError(deep) from None
+
+
+def saved_array(data: bytes, path: str | PathLike[str]) -> NDArray[np.generic]:
+    """Return the array of an .npy file, if it is as large as it says.
+
+    Raises
+    ------
+    DataFileError
+        If it is damaged, holds objects, or announces more than there is.
+    """
+    import numpy as np
+
+    file = io.BytesIO(data)
+    try:
+        version = np.lib.format.read_magic(file)
+        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        shape, _, kind = read(file)
+        if math.prod(shape) * kind.itemsize > len(data):
+            raise ValueError(f"its header announces {math.prod(shape):.3g} numbers, more than it holds")
+        file.seek(0)
+        return np.asarray(np.load(file, allow_pickle=False))
+    except (ValueError, OSError, EOFError, MemoryError, RecursionError, SyntaxError) as error:
+        raise DataFileError(path, f"is not an array that NumPy can read ({error}).") from None
+
+
+def insist_on_size(data: bytes, path: str | PathLike[str]) -> None:
+    """Refuse bytes of a zip archive or of HDF5 that would unpack to far more than measurements need.
+
+    Raises
+    ------
+    DataFileError
+        If they would, or the file is damaged.
+    """
+    try:
+        if data.startswith(b"PK"):
+            with zipfile.ZipFile(io.BytesIO(data)) as archive:
+                parts = archive.infolist()
+            sizes = sum(part.file_size for part in parts), sum(part.compress_size for part in parts)
+        elif data.startswith(_HDF5):
+            sizes = _unpacked(io.BytesIO(data)), len(data)
+        else:
+            return
+    except Exception as error:  # noqa: BLE001 - torn archives and HDF5 raise whatever they meet
+        reason = (str(error).splitlines() or [type(error).__name__])[0][:120].rstrip(".")
+        raise DataFileError(path, f"is damaged ({reason}).") from None
+    size, packed = sizes
+    if size > LARGEST_UNPACKED or (size > _SMALL and size > LARGEST_RATIO * max(1, packed)):
+        raise DataFileError(path, f"would unpack to {size / 1e6:.0f} MB, far more than its size lets expect.")
+
+
+def insist_on_true_size(file: Path) -> None:
+    """Refuse an HDF5 file that announces far more than it can hold, before anything of it is read.
+
+    Results may be large, and are as large as they say.
+
+    Raises
+    ------
+    ValueError
+        If it does; the file is damaged.
+    """
+    size = _unpacked(file)
+    if size > _SMALL and size > LARGEST_RATIO * file.stat().st_size:
+        raise ValueError(f"it announces {size / 1e6:.0f} MB, far more than it can hold")
+
+
+def _unpacked(file: object) -> int:
+    """Return how many bytes the arrays of HDF5 take, or their chunks where those are larger."""
+    import h5py
+
+    total = 0
+
+    def count(_: str, node: object) -> None:
+        nonlocal total
+        if isinstance(node, h5py.Dataset) and node.shape is not None:
+            chunk = math.prod(node.chunks) if node.chunks else 0
+            total += node.dtype.itemsize * max(math.prod(node.shape), chunk)
+
+    with h5py.File(file, "r") as opened:
+        opened.visititems(count)
+    return total
 
 
 def _umask() -> int:

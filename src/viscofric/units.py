@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.arguments import LARGEST, insist_on, numbers, real
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, ViscofricError, brief, not_imported
 
 if TYPE_CHECKING:
     import pint
@@ -81,9 +81,12 @@ _UNIT = re.compile(rf"(?:1\s?/\s?)?(?:{_TERM}|{_GROUP})(?:{_JOIN}(?:{_TERM}|{_GR
 @lru_cache(maxsize=1)
 def registry() -> pint.UnitRegistry[Any]:
     """Return the one pint registry that viscofric uses (made at first need)."""
-    import pint
+    try:
+        import pint
 
-    return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+        return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    except Exception as error:  # pint imports what it finds of other packages, files of the user's among them
+        raise ViscofricError(f"units cannot be read: {not_imported('pint', error)}.") from error
 
 
 def _wrong(name: str, value: object, unit: str, reason: str, right: str = "") -> InputError:
@@ -115,10 +118,11 @@ def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
 
 def _quantity(number: float, text: str, shown: str, unit: str, name: str) -> pint.Quantity[Any]:
     plain = _plain(text)
+    units = registry()
     try:
         if len(plain) > _LONGEST_UNIT or not _UNIT.fullmatch(plain):
             raise ValueError(plain)
-        return registry().Quantity(number, registry().Unit(plain))
+        return units.Quantity(number, units.Unit(plain))
     except Exception as error:  # pint raises many kinds; all mean the same to the user
         reason = f"{text!r} is not a unit that is known"
         raise _wrong(name, shown, unit, reason, _meant(shown, text, unit)) from error

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from readers.samples.pcs import TRACTION_SAMPLES
-from viscofric.errors import DataFileError
+from viscofric.errors import LONGEST_SENTENCE, DataFileError
 from viscofric.readers import read_mtm
 
 #: Processor time of one damaged file of a few kilobytes, s; whole ones take some milliseconds.
@@ -57,7 +57,7 @@ def read_or_refuse(tmp_path, data):
     if runs is None:
         assert str(path) in refusal
         assert "\n" not in refusal
-        assert len(refusal) < 1500
+        assert len(refusal) <= LONGEST_SENTENCE
         return
     assert len(runs) >= 1
     for column in (runs.disc_speed, runs.ball_speed, runs.traction_force, runs.load, runs.temperature):

@@ -331,7 +331,7 @@ def test_long_json_is_read_without_the_vendor_to_the_same_numbers(tmp_path, monk
         (lambda text: text.replace('"Results"', '"Other"'), "has no results under any of Original, Raw, Processed"),
         (lambda text: text.replace("MPa", "mm"), "'Storage modulus' of step 'Frequency sweep - 1' has the unit 'mm'"),
         (lambda text: text.replace('"Rows"', '"Lines"'), "holds no frequency sweep"),
-        (lambda text: '{"TRIOSJSONExportSchema": ' + 100_000 * "[", "nested too deeply"),
+        (lambda text: '{"TRIOSJSONExportSchema": ' + 100_000 * "[", "too deeply"),
     ],
 )
 def test_broken_json_is_refused_in_one_sentence(tmp_path, change, message):

@@ -159,7 +159,7 @@ def test_each_mistake_is_told_by_its_field(good: str, bad: str, told: list[str])
         ("[solver]\n[solver]\n", "study.toml, line 2, column 8: the table [solver] is there twice"),
         ("[material", "study.toml, at its end: is not valid TOML"),
         ("a = " + "[" * 5000, "study.toml: lists or tables lie within each other too deeply for a run file."),
-        (".".join("a" * 5000) + " = 1", "study.toml: tables lie within each other too deeply for a run file."),
+        (".".join("a" * 5000) + " = 1", "study.toml: lists or tables lie within each other too deeply for a run file."),
         ("a = " + "9" * 5000, "study.toml: a whole number has thousands of digits."),
         ("#" * 1_000_001, "study.toml: has more than 1,000,000 characters; is this a run file?"),
     ],

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, shortened
 from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note
@@ -184,7 +184,7 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
             replicates=replicates.astype(np.int64),
             source=(remarks["source"] or [str(path)])[0],
             assumption=(remarks["assumption"] or [""])[0],
-            notes=tuple(notes),
+            notes=tuple(map(shortened, notes)),
             load_unit=unit,
             **columns,
         )

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import tomllib
 from typing import TYPE_CHECKING, Any
 
 from viscofric.contact.layers import Layer
+from viscofric.files import parse_toml
 from viscofric.literature import basis as parts
 from viscofric.rheology.catalogue import catalogue_material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
@@ -25,7 +25,7 @@ def study_basis(results: StudyResults) -> parts.Basis:
     ----------
     results : StudyResults
     """
-    tables = tomllib.loads(str(results.tree.attrs.get("study_text", "")))
+    tables = parse_toml(str(results.tree.attrs.get("study_text", "")))
     given = tables.get("material", {})
     rubbers = given if isinstance(given, list) else [given]
     for rubber, found in zip(rubbers, results.materials.values(), strict=True):

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 import re
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.files import decoded, read_bytes
+from viscofric.files import decoded, read_bytes, saved_array
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
@@ -55,10 +54,7 @@ def read_heights(path: str | Path, unit: str = "m") -> Array:
 
 
 def _numpy(data: bytes, path: str | Path) -> Array:
-    try:
-        array = np.load(io.BytesIO(data), allow_pickle=False)
-    except (ValueError, OSError, EOFError) as error:
-        raise DataFileError(path, f"is not an array that NumPy can read ({error}).") from None
+    array = saved_array(data, path)
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size == 0:
         raise DataFileError(
             path, f"holds an array of shape {array.shape} of {array.dtype}; a table of heights is wanted."

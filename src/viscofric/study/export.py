@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
-from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.errors import DataFileError, InputError, check_choice, not_imported
 from viscofric.files import file_path, write_atomically
 from viscofric.study.columns import table_text
 from viscofric.study.results import RESULTS_FILE
@@ -85,10 +85,9 @@ def _write_netcdf(dataset: xarray.Dataset, target: Path) -> None:
 def _write_zarr(dataset: xarray.Dataset, target: Path) -> None:
     try:
         import zarr  # noqa: F401
-    except ImportError:
-        raise InputError(
-            "zarr is not installed; it comes with viscofric's extra: pip install 'viscofric[zarr]'."
-        ) from None
+    except Exception as error:
+        why = not_imported("zarr", error, "pip install 'viscofric[zarr]'")
+        raise InputError(f"this format needs zarr, but {why}.") from error
     if target.exists() and not any((target / name).exists() for name in (".zgroup", "zarr.json")):
         raise DataFileError(target, "exists, and is no zarr folder that could be replaced; choose another name.")
 

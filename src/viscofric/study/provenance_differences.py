@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
+
+from viscofric.files import parse_toml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -65,8 +66,8 @@ def _run_files(first: str, second: str) -> Iterator[str]:
     if first == second or not (first and second):  # a table of results does not hold its run file
         return
     try:
-        here, there = (dict(_flat(tomllib.loads(text))) for text in (first, second))
-    except tomllib.TOMLDecodeError:
+        here, there = (dict(_flat(parse_toml(text))) for text in (first, second))
+    except ValueError:
         yield "The run files differ."
         return
     changed = [key for key in {**here, **there} if here.get(key) != there.get(key)]

@@ -18,7 +18,7 @@ import numpy as np
 
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import file_path
+from viscofric.files import file_path, insist_on_true_size
 from viscofric.study.integrity import DIGEST, digest, what_helps, what_is_wrong
 
 if TYPE_CHECKING:
@@ -207,6 +207,7 @@ def open_results(path: str | Path) -> StudyResults:
     >>> float(results.dataset["indentation"].sel(temperature=333.15)) > 0.0
     True
     """
+    import h5netcdf  # noqa: F401 - what is wrong with it is nothing of the file's
     import xarray
 
     file = file_path(path)
@@ -222,7 +223,8 @@ def open_results(path: str | Path) -> StudyResults:
     if not file.is_file():
         raise DataFileError(file, f"no such results file; {_where_they_are(file.parent)}")
     try:
-        with xarray.open_datatree(file, engine="h5netcdf") as stored:
+        insist_on_true_size(file)
+        with xarray.open_datatree(file, engine="h5netcdf", phony_dims="access") as stored:
             tree = stored.load()
             found = digest(tree)
     except Exception as error:  # h5py raises many kinds; the file tells more than they do

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import functools
 import re
-import tomllib
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
 from viscofric.errors import StudyError
-from viscofric.files import file_path
+from viscofric.files import file_path, parse_toml
 from viscofric.study.axis_values import RANGE, SEED_RANGE, SeedRange, SpeedRange
 from viscofric.study.contact_tables import (
     SHAPES,
@@ -233,13 +232,11 @@ def _toml(text: str, path: Path) -> dict[str, Any]:
     if len(text) > LONGEST_RUN_FILE:
         raise StudyError(f"{path}: has more than {LONGEST_RUN_FILE:,} characters; is this a run file?")
     try:
-        values = tomllib.loads(text)
-    except RecursionError:
-        raise StudyError(f"{path}: lists or tables lie within each other too deeply for a run file.") from None
+        values = parse_toml(text)
     except ValueError as error:  # of TOML, and of whole numbers with thousands of digits
         raise StudyError(_of_syntax(path, str(error))) from None
     if _depth(values) > _DEEPEST:
-        raise StudyError(f"{path}: tables lie within each other too deeply for a run file.")
+        raise StudyError(f"{path}: lists or tables lie within each other too deeply for a run file.")
     return values
 
 
@@ -256,6 +253,8 @@ def _of_syntax(path: Path, words: str) -> str:
         return f"{where}: a key is given twice in the same table."
     if "integer string conversion" in words:
         return f"{where}: a whole number has thousands of digits."
+    if "too deeply" in words:
+        return f"{where}: {words} for a run file."
     return f"{where}: is not valid TOML: {words}."
 
 

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.files import write_atomically
+from viscofric.errors import DataFileError
+from viscofric.files import insist_on_size, parse_json, read_bytes, write_atomically
 from viscofric.study.record import ContactFields, Failure, Record
 from viscofric.study.surface_record import read_record
 
@@ -67,16 +68,15 @@ class CaseStore:
         with_fields : bool
             Whether a record without its fields counts as none.
         """
+        path = self._path(key)
         try:
-            stored = self._path(key).read_bytes()
-        except FileNotFoundError:
-            return None
-        except OSError as error:
-            return Damaged(f"cannot be read ({error.strerror or error})")
+            stored = read_bytes(path)
+        except DataFileError as error:
+            return Damaged(error.problem) if path.exists() else None
         if not _is_sealed(stored, key):
             return _unsealed(stored)
         try:
-            values = json.loads(stored)
+            values = parse_json(stored)
             if "failed" in values:
                 return Failure(values["failed"], values["label"])
             record, fields = read_record(values["case"]), values["fields"]
@@ -138,9 +138,11 @@ class CaseStore:
         return found
 
     def _fields(self, key: str, checksum: str) -> ContactFields:
-        stored = self._path(key, "npz").read_bytes()
+        path = self._path(key, "npz")
+        stored = read_bytes(path)
         if hashlib.sha256(stored).hexdigest() != checksum:
             raise ValueError("fields are not those that were stored.")
+        insist_on_size(stored, path)
         with np.load(io.BytesIO(stored), allow_pickle=False) as fields:
             return ContactFields(**{name: fields[name] for name in ContactFields._fields})
 
@@ -166,8 +168,8 @@ def _checksum(body: bytes, key: str) -> str:
 
 def _unsealed(stored: bytes) -> Damaged:
     """Say what is wrong with a file whose checksum is not right, or not there."""
-    with contextlib.suppress(ValueError, RecursionError):
-        values = json.loads(stored)
+    with contextlib.suppress(ValueError):
+        values = parse_json(stored)
         if isinstance(values, dict) and not {"case", "sha256"} & values.keys():
             return Damaged("has no checksum: an older viscofric stored it", older=True)
     return Damaged("does not match its checksum")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path, PureWindowsPath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from viscofric.errors import DataFileError
+from viscofric.files import parse_toml
 from viscofric.web.jobs.context import JobError
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ def opened_study(path: Path) -> tuple[dict[str, Any], dict[str, Path]]:
     for one in study.inputs:
         if not one.is_file():
             raise DataFileError(one, "no such file.")
-    document = tomllib.loads(text)
+    document = parse_toml(text)
     files: dict[str, Path] = {}
     for named in named_files(document):
         found = [file for name in named.names for file in files_of(path.parent, Path(name))]

@@ -84,6 +84,28 @@ def test_study_waits_for_workers_and_says_so(tmp_path: Path, monkeypatch: pytest
     assert len(plan.known) == 8
 
 
+def test_what_dask_prints_is_kept_back_until_its_client_is_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    logger = logging.getLogger("distributed.client")
+    before = logger.level
+    levels = []
+
+    class Client:
+        def __init__(self, *_: object, **__: object) -> None: ...
+
+        def __enter__(self) -> Client:
+            return self
+
+        def __exit__(self, *_: object) -> None:  # where the scheduler is gone, Dask prints its traceback here
+            levels.append(logger.level)
+
+    monkeypatch.setattr(distributed, "Client", Client)
+    with Dask("tcp://127.0.0.1:9"):
+        levels.append(logger.level)
+    assert levels == [logging.CRITICAL, logging.CRITICAL]
+    assert logger.level == before
+
+
 def test_jobs_are_those_of_the_run_file() -> None:
     jobqueue = pytest.importorskip("dask_jobqueue")
     jobs = BatchJobs.of(TABLE)

@@ -19,7 +19,7 @@ import numpy as np
 
 from viscofric.arguments import whole_number
 from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
-from viscofric.errors import InputError
+from viscofric.errors import InputError, not_imported
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -139,11 +139,9 @@ class Backend:
     def _imported(self, module: str) -> Any:
         try:
             return importlib.import_module(module)
-        except ImportError as error:
-            raise InputError(
-                f"backend = {self.name!r}: {self._library} cannot be imported; install it: "
-                f"{_HOW_TO_INSTALL[self._library]}."
-            ) from error
+        except Exception as error:
+            why = not_imported(module.partition(".")[0], error, _HOW_TO_INSTALL[self._library])
+            raise InputError(f"backend = {self.name!r}: {why}.") from error
 
     @cached_property
     def is_numpy(self) -> bool:

@@ -75,7 +75,7 @@ def format_of(source: Source) -> Format:
     if source.text is None:
         what = "is a binary file of no known kind"
     else:
-        what = "has no columns separated by commas, semicolons, tabs or blanks that name a modulus and a frequency"
+        what = "has no columns that name a modulus and a frequency"
     raise DataFileError(source.path, f"{what}; what can be read: {known()}.")
 
 

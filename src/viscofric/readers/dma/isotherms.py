@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.data import Isotherm, IsothermalSweeps
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, shortened
 from viscofric.readers.dma.amplitudes import insist_on_one_amplitude
 from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
 from viscofric.readers.dma.points import Sorted, at, joined, listed
@@ -104,7 +104,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     for rows in groups:
         insist_on_one_amplitude(points, rows, source)
     sweeps = [_isotherm(points, rows) for rows in groups]
-    notes = [
+    notes: list[str] = [
         *_on_formats(readings),
         *on_deformation,
         *_own_notes(readings),
@@ -116,7 +116,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     formats = list(dict.fromkeys(one.format for one in readings))
     isotherms = tuple(one.isotherm for one in sweeps)
     known = deformation is not None or any(one.deformation is not None for one in readings)
-    found = IsothermalSweeps(isotherms, kind, source, tuple(notes), ", ".join(formats))
+    found = IsothermalSweeps(isotherms, kind, source, tuple(map(shortened, notes)), ", ".join(formats))
     return TracedSweeps(found, tuple(readings), points, tuple(sweeps), known)
 
 

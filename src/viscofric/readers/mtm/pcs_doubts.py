@@ -112,7 +112,7 @@ def _unfinished(export: Export) -> Iterator[str]:
     planned, completed = (export.told.get(f"number of steps {what}", "") for what in ("in profile", "completed"))
     if completed.isdecimal() and planned.isdecimal() and planned != completed:
         yield f"{completed} of the {planned} steps of the profile were completed."
-    if completed.isdecimal() and int(completed) != len(export.steps):
+    if completed.isdecimal() and completed.lstrip("0") != str(len(export.steps)):
         yield f"The file tells of {completed} completed steps, but holds {len(export.steps)}."
     for remark in export.remarks:
         if _ABORTED.search(remark) and "completed normally" not in remark:

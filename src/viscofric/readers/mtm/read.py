@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.errors import DataFileError, InputError, check_choice, shortened
 from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.notes import Note
@@ -111,7 +111,7 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
         **columns,
         replicate=replicate,
         source=", ".join(part.source for part in parts),
-        notes=(*told, *numbering, *timing),
+        notes=tuple(map(shortened, (*told, *numbering, *timing))),
         zero_force=_optional(parts, "zero_force"),
         time=time,
         step=step,

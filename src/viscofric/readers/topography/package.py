@@ -5,11 +5,14 @@ from __future__ import annotations
 import io
 import math
 import warnings
+import zipfile
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, not_imported
+from viscofric.files import insist_on_size
+from viscofric.readers.dma.tables.workbook import is_workbook, sheets
 from viscofric.readers.topography.scan import Asked, Scan, name_of
 from viscofric.units import conversion
 
@@ -22,6 +25,10 @@ if TYPE_CHECKING:
 
 #: Elevations of the globe without any header: whatever has the size of a square would pass for them.
 _BY_SIZE = ("hgt",)
+#: Of workbooks that a Mitutoyo SurfTest writes, of one line scan each.
+_CONTENTS, _LONGEST_CONTENTS = "xl/workbook.xml", 1_000_000  # bytes
+_TESTER_SHEETS = ("DATA", "Certificate")
+_MOST_CELLS = 500_000
 
 
 def read_with_package(source: Source, asked: Asked) -> Scan:
@@ -33,16 +40,19 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
         If the package is not installed, does not know the format, finds the file damaged, there is no such channel,
         or what the file says contradicts what was asked.
     """
+    insist_on_size(source.data, source.path)
+    _insist_on_small_workbook(source)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of missing MPI at import, and of its own dependencies
         try:
             from SurfaceTopography import open_topography  # type: ignore[import-untyped]
             from SurfaceTopography.Exceptions import CannotDetectFileFormat  # type: ignore[import-untyped]
-        except ImportError:
+        except Exception as error:  # noqa: BLE001 - of whatever it imports itself
+            why = not_imported("SurfaceTopography", error, "pip install 'viscofric[surfaces]'")
             raise DataFileError(
                 source.path,
                 "is neither a table of numbers nor a NumPy array; the formats of instruments are read by the package "
-                "SurfaceTopography: pip install 'viscofric[surfaces]'.",
+                f"SurfaceTopography, but {why}.",
             ) from None
         try:
             with open_topography(io.BytesIO(source.data)) as reader:
@@ -56,6 +66,23 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
         except Exception as error:  # noqa: BLE001 - a damaged file makes the package raise whatever it meets
             reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
             raise DataFileError(source.path, f"cannot be read as heights of a surface ({reason[:200]}).") from None
+
+
+def _insist_on_small_workbook(source: Source) -> None:
+    """Refuse workbooks but those of the one tester whose sheets the package reads, which holds them whole."""
+    if not is_workbook(source) or _CONTENTS.encode() not in source.data:
+        return
+    try:
+        with zipfile.ZipFile(io.BytesIO(source.data)) as archive, archive.open(_CONTENTS) as contents:
+            listed = contents.read(_LONGEST_CONTENTS)
+    except Exception:  # noqa: BLE001 - a torn archive raises whatever it meets
+        raise DataFileError(source.path, "is a damaged workbook.") from None
+    if not all(f'name="{name}"'.encode() in listed for name in _TESTER_SHEETS):  # before it takes time to parse
+        raise DataFileError(source.path, "is a workbook, but not one of heights; save the sheet of heights as CSV.")
+    held = sheets(source)
+    cells = sum(len(row) for rows in held.values() for row in rows)
+    if cells > _MOST_CELLS:
+        raise DataFileError(source.path, f"holds {cells} cells, more than a line scan has; save it as CSV.")
 
 
 def _scan(source: Source, reader: Any, asked: Asked) -> Scan:

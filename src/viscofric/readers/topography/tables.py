@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import re
 from dataclasses import replace
@@ -10,7 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import DataFileError, brief
+from viscofric.errors import DataFileError
+from viscofric.files import saved_array
 from viscofric.readers.table import MISSING
 from viscofric.readers.topography.points import scan_of_points
 from viscofric.readers.topography.scan import Asked, Scan, name_of
@@ -61,18 +61,7 @@ def read_array(source: Source, asked: Asked) -> Scan:
     DataFileError
         If it is no such array, or its spacing is not given.
     """
-    file = io.BytesIO(source.data)
-    try:
-        if np.lib.format.read_magic(file) == (1, 0):
-            shape, _, dtype = np.lib.format.read_array_header_1_0(file)
-        else:
-            shape, _, dtype = np.lib.format.read_array_header_2_0(file)
-        # before NumPy asks for as much memory as the header says
-        if math.prod(shape) * dtype.itemsize > len(source.data):
-            raise ValueError(f"its header says {brief(shape)} numbers, and it is {len(source.data)} bytes long")
-        array = np.load(io.BytesIO(source.data), allow_pickle=False)
-    except (ValueError, OSError, EOFError) as error:
-        raise DataFileError(source.path, f"is not an array that NumPy can read ({error}).") from None
+    array = saved_array(source.data, source.path)
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size < 2:
         problem = f"holds an array of shape {array.shape} of {array.dtype}; a row or a matrix of heights is wanted."
         raise DataFileError(source.path, problem)

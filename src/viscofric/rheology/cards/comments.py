@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.files import parse_json
 from viscofric.rheology.cards.card import Solid, card_law
 from viscofric.rheology.cards.native import VERSION, about, assembled, shift_of
 from viscofric.units import CELSIUS_ZERO, celsius
@@ -127,8 +128,8 @@ def stored_content(text: str) -> dict[str, Any] | None:
     if not pieces:
         return None
     try:
-        content = json.loads("".join(pieces))
-    except (json.JSONDecodeError, RecursionError):
+        content = parse_json("".join(pieces))
+    except ValueError:
         content = None
     if not isinstance(content, dict) or not isinstance(content.get("card"), dict):
         raise InputError(f"the lines marked {_MARK!r} are damaged; restore them, or delete all lines so marked.")

@@ -143,12 +143,13 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
                 f"line {row}: {line.strip()[:40]!r} is not a name, a number with [unit] and a description."
             )
         if not re.fullmatch(
-            r"nu|rho|[GK]_long_term|K_constant|[GK]_\d+|tau_\d+|T_reference|C[12]_WLF|Q_arrhenius", match["name"]
+            r"nu|rho|[GK]_long_term|K_constant|([GK]|tau)_\d{1,4}|T_reference|C[12]_WLF|Q_arrhenius",
+            match["name"],
         ):
             ignored.append(match["name"])
         values[match["name"]] = f"{match['value']} {match['unit']}" if match["unit"] else match["value"]
     notes = [f"Parameters that were not read: {', '.join(ignored)}."] if ignored else []
-    branches = sorted(int(name[2:]) for name in values if re.fullmatch(r"G_\d+", name))
+    branches = sorted(int(name[2:]) for name in values if re.fullmatch(r"G_\d{1,4}", name))
     ratio = _value(values, "nu", "dimensionless")
     factor = 2.0 * (1.0 + ratio)
     notes += _bulk_note(values, ratio)

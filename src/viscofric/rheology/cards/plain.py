@@ -8,6 +8,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError
+from viscofric.files import parse_json
 from viscofric.rheology.cards.native import from_plain, to_plain
 
 if TYPE_CHECKING:
@@ -40,11 +41,13 @@ def write_json(material: Material) -> str:
 def read_json(text: str) -> Material:
     """Return the material of a JSON text."""
     try:
-        content = json.loads(text, parse_constant=_no_constant)
+        content = parse_json(text, parse_constant=_no_constant)
+    except InputError:
+        raise
     except json.JSONDecodeError as error:
         raise InputError(f"line {error.lineno}: is not JSON ({error.msg}).") from None
-    except RecursionError:
-        raise InputError("is nested too deeply for a material.") from None
+    except ValueError as error:  # nested too deeply, or with numbers of thousands of digits
+        raise InputError(f"is no JSON of a material ({error}).") from None
     return from_plain(content)
 
 
@@ -90,8 +93,10 @@ def read_csv(text: str) -> Material:
         name = name.strip()
         home, key = (spectrum, name.removeprefix("spectrum.")) if name.startswith("spectrum.") else (content, name)
         try:
-            home[key] = json.loads(value, parse_constant=_no_constant)
-        except (json.JSONDecodeError, RecursionError):
+            home[key] = parse_json(value, parse_constant=_no_constant)
+        except InputError:
+            raise
+        except ValueError:
             raise InputError(f"line {number}: the value of {name} is damaged; text wants quotation marks.") from None
     columns = _COLUMNS.get(str(spectrum.get("kind")))
     if columns is None:

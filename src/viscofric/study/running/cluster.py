@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from viscofric.errors import InputError, ViscofricError
+from viscofric.errors import InputError, ViscofricError, not_imported
 from viscofric.study.running.executors import Executor, Waiting
 from viscofric.study.running.task import Lost, take_on_cluster
 from viscofric.study.solving import solver_fingerprint
@@ -99,6 +99,7 @@ class Dask(Executor):
         with contextlib.ExitStack() as opened:
             address: Any = self._where
             self._insist_on_batch_system()
+            opened.enter_context(_without_tracebacks())  # first, so that it outlasts the client
             if isinstance(self._where, BatchJobs):
                 address = opened.enter_context(getattr(self._jobqueue, self._where.kind)(**self._where.settings))
                 # At least and at most: jobs that end, with their time or their machine, are replaced.
@@ -108,7 +109,6 @@ class Dask(Executor):
             except (OSError, ValueError) as error:
                 raise InputError(f"scheduler {self._where!r} cannot be reached: {error}") from error
             self._client = opened.enter_context(client)
-            opened.enter_context(_without_tracebacks())
             self._open = opened.pop_all()
         return self
 
@@ -218,5 +218,6 @@ def _clock(seconds: int) -> str:
 def _imported(name: str) -> ModuleType:
     try:
         return import_module(name)
-    except ImportError as error:
-        raise InputError(f"{name} is not installed, which clusters need: pip install 'viscofric[cluster]'.") from error
+    except Exception as error:
+        why = not_imported(name, error, "pip install 'viscofric[cluster]'")
+        raise InputError(f"clusters need {name}, but {why}.") from error

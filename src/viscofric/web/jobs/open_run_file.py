@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from fnmatch import fnmatchcase
 from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING, Any
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.errors import StudyError
+from viscofric.files import parse_toml
 from viscofric.study.run_file import LONGEST_RUN_FILE, parse_study
 from viscofric.web.jobs.context import plain
 from viscofric.web.study_files import named_files
@@ -57,8 +57,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     text = options.text.removeprefix("\ufeff")
     try:
-        document = tomllib.loads(text)
-    except (ValueError, RecursionError):
+        document = parse_toml(text)
+    except ValueError:
         parse_study(text, context.files / RUN_FILE)  # says in a sentence what is wrong, and where
         raise
     missing = []

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.files import parse_json
 from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
@@ -68,14 +69,12 @@ def read(source: Source) -> Readings:
         If the file is no whole JSON, has no results, or holds no frequency sweep (the message says what it holds).
     """
     try:
-        document = json.loads(source.text or "")
+        document = parse_json(source.text or "")
     except json.JSONDecodeError as error:
         problem = f"is not whole JSON ({error.msg}); the file may have been cut short."
         raise DataFileError(source.path, problem, error.lineno) from None
-    except ValueError as error:  # a number of thousands of digits
+    except ValueError as error:  # nested too deeply, or with numbers of thousands of digits
         raise DataFileError(source.path, f"is no JSON of an instrument ({error}).") from None
-    except RecursionError:
-        raise DataFileError(source.path, "is nested too deeply for an export of TRIOS.") from None
     held = _part(document, "Results")
     name = next((one for one in _SECTIONS if _part(_part(held, one), "ColumnHeaders")), None)
     if name is None:

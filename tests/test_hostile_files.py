@@ -1,0 +1,190 @@
+"""Hostile files at every way in: one sentence of bearable length, soon, in little memory."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+import warnings
+from typing import TYPE_CHECKING
+
+import pytest
+
+import hostile
+import viscofric as vf
+from study import sweeps
+from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, shortened
+from viscofric.files import insist_on_size, parse_toml
+from viscofric.study.store import CaseStore
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+#: Processor time of one small file, s: each takes a few hundredths; unguarded they took half a minute and more.
+LONGEST = 2.0
+
+
+def refused(read, path):
+    """Return the sentence by which a file is refused, and insist that it is one, and soon."""
+    before = os.times()
+    with pytest.raises(vf.InputError) as caught:
+        read(path)
+    after = os.times()
+    assert sum(after[:4]) - sum(before[:4]) < LONGEST
+    said = str(caught.value)
+    assert str(path.name) in said
+    assert "\n" not in said
+    assert len(said) <= LONGEST_SENTENCE
+    return said
+
+
+@pytest.mark.parametrize("name", hostile.run_files())
+def test_run_files_of_any_depth_are_refused_at_once(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(hostile.run_files()[name], encoding="utf-8")
+    refused(vf.load_study, path)
+
+
+def test_ordinary_keys_and_texts_with_dots_are_read() -> None:
+    text = "a.b.c.d = 1\nnumbers = [" + "0.5, " * 5_000 + ']\ntitle = "one. two. … 3.5"\n# ......................\n'
+    found = parse_toml(text)
+    assert found["a"]["b"]["c"]["d"] == 1
+    assert len(found["numbers"]) == 5_000
+
+
+def test_a_stored_case_of_nested_lists_counts_as_not_solved(tmp_path: Path) -> None:
+    store = CaseStore(tmp_path)
+    for text in ("[" * hostile.NESTED + "]" * hostile.NESTED, '{"a": ' + "1" * 5_000 + "}"):
+        (tmp_path / "a.json").write_text(text, encoding="utf-8")
+        assert store.get("a") is None
+    store.put("a", sweeps.RECORD)
+    assert store.get("a") == sweeps.RECORD
+
+
+def test_arrays_that_announce_more_than_they_hold_are_refused(tmp_path: Path) -> None:
+    def read(path: Path) -> object:
+        return vf.read_topography(path, spacing="1 um")
+
+    assert "announces 1e+13 numbers" in refused(read, hostile.array(tmp_path / "scan.npy"))
+
+
+def test_workbooks_are_no_surfaces(tmp_path: Path) -> None:
+    refused(vf.read_topography, hostile.workbook(tmp_path / "book.xlsx"))
+    torn = tmp_path / "torn.xlsx"
+    torn.write_bytes(hostile.workbook(tmp_path / "book.xlsx").read_bytes()[:3_000])
+    refused(vf.read_topography, torn)
+
+
+@pytest.mark.slow  # a workbook of 600,000 cells takes seconds to write and to parse
+def test_a_workbook_as_the_tester_writes_it_is_parsed_apart(tmp_path: Path) -> None:
+    path = hostile.workbook(tmp_path / "scan.xlsx", ("DATA", "Certificate"), rows=6_000, columns=100)
+    with pytest.raises(DataFileError, match="cells, more than a line scan has"):
+        vf.read_topography(path)
+
+
+def test_hdf5_that_announces_more_than_it_can_hold_is_refused(tmp_path: Path) -> None:
+    pytest.importorskip("h5py")
+    path = hostile.hdf5(tmp_path / "results.nc")
+    assert path.stat().st_size < 10_000
+    assert "would unpack to 3200 MB" in refused(vf.read_topography, path)
+    assert "announces 3200 MB" in refused(vf.open_results, path)
+    with pytest.raises(DataFileError, match="would unpack to"):
+        insist_on_size(path.read_bytes(), path)
+
+
+def test_hdf5_of_others_is_refused_without_a_warning(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "results.nc"
+    with h5py.File(path, "w") as file:
+        file.create_dataset("heights", data=[[1.0, 2.0]])  # without names of its dimensions
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        refused(vf.open_results, path)
+
+
+MEASURED = """
+import resource, sys, warnings
+import h5py, xarray, viscofric as vf
+warnings.simplefilter("error")
+reads = {"results.nc": vf.open_results, "study.toml": vf.load_study, "scan.npy": vf.read_topography}
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+for path in sys.argv[1:]:
+    try:
+        reads[path.rpartition("/")[2]](path)
+    except vf.InputError:
+        pass
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024)
+"""
+
+
+@pytest.mark.slow  # a process of its own, so that its memory can be measured
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is measured in kB on Linux only")
+def test_what_is_refused_takes_little_memory_and_warns_of_nothing(tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(hostile.run_files()["dotted key"], encoding="utf-8")
+    paths = [hostile.hdf5(tmp_path / "results.nc"), study, hostile.array(tmp_path / "scan.npy")]
+    done = subprocess.run(
+        [sys.executable, "-c", MEASURED, *map(str, paths)], capture_output=True, text=True, check=True
+    )
+    # MB beyond the imports: what reading loads besides; unguarded, several GB
+    assert float(done.stdout) < 300
+
+
+CARDS = {
+    "digits.txt": "nu 0.5\nG_long_term 1e6[Pa]\nG_1 1e6[Pa]\ntau_1 x[s]\nG_" + "1" * 5_000 + " 1e6[Pa]\n",
+    "digits.json": '{"format": ' + "1" * 5_000 + "}",
+    "nested.json": '{"a":' * hostile.NESTED + "1" + "}" * hostile.NESTED,
+    "line.inp": "*ELASTIC\n" + "z" * 500_000 + "\n*VISCOELASTIC, TIME=PRONY\n0.1,0,1\n",
+    "key.k": "*MAT_" + "VISCO" * 100_000 + "\n",
+    "branch.txt": "1 1e6 1\n" + "2" * 5_000 + " 1e6 1\n",
+}
+
+
+@pytest.mark.parametrize("name", CARDS)
+def test_cards_with_endless_numbers_and_lines_are_refused(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    path.write_text(CARDS[name], encoding="utf-8")
+    refused(vf.read_card, path)
+
+
+def test_a_card_may_hold_a_name_of_any_length(tmp_path: Path) -> None:
+    path = tmp_path / "card.txt"
+    path.write_text(CARDS["digits.txt"].replace("x[s]", "1[s]"), encoding="utf-8")
+    with pytest.warns(UserWarning, match="not read") as caught:
+        vf.read_card(path)
+    assert all(len(str(one.message)) < 2 * LONGEST_SENTENCE for one in caught)
+
+
+LONG = "x" * 100_000
+TABLES = {
+    "a heading": f"T (°C),f (Hz),E' (MPa),loss {LONG}\n20,1,5,0.5\n",
+    "a unit": f"T (°C),f (Hz),E' (MPa),E'' ({LONG})\n20,1,5,0.5\n",
+    "a cell": f"T (°C),f (Hz),E' (MPa),E'' (MPa)\n20,1,5,{LONG}\n",
+    "a number": f"T (°C),f (Hz),E' (MPa),E'' (MPa)\n20,1,5,{'1' * 100_000}\n",
+    "a traction table": f"speed (mm/s),temperature (degC),load (N),traction force (N)\n1,20,1,{LONG}\n",
+    "friction curves": f"speed (mm/s),temperature (degC),load (N),viscoelastic friction\n1,20,1,{LONG}\n",
+    "RepTate": f"T=25;Mw={LONG};\nFreq G' G''\nrad/s Pa Pa\n1 1 {LONG}\n",
+    "RheoCompass": f"Interval and data points:\t1\t1\nInterval data:\tPoint No.\tf\t{LONG}\n\t[Hz]\n\t1\t{LONG}\n",
+}
+
+
+@pytest.mark.parametrize("name", TABLES)
+@pytest.mark.parametrize(
+    "read", [vf.read_dma, vf.read_mtm, vf.read_friction_curves, vf.read_shift_factors], ids=lambda one: one.__name__
+)
+def test_messages_quote_no_more_than_a_sentence_holds(tmp_path: Path, read: object, name: str) -> None:
+    path = tmp_path / "long.csv"
+    path.write_text(TABLES[name], encoding="utf-8")
+    refused(read, path)
+
+
+def test_a_long_sentence_keeps_its_beginning_and_its_end() -> None:
+    error = DataFileError("a.csv", f"column {'x' * 10**6} has no unit; write it.", row=3)
+    for one in (error, pickle.loads(pickle.dumps(error))):
+        assert len(str(one)) <= LONGEST_SENTENCE
+        assert str(one).startswith("a.csv, line 3: column xxx")
+        assert str(one).endswith("has no unit; write it.")
+    lines = str(StudyError("\n".join(["study.toml: 99 things are wrong:"] + ["  a: no."] * 99))).split("\n")
+    assert len(lines) <= 21
+    assert shortened("brief") == "brief"
