@@ -14,8 +14,10 @@ import pytest
 import hostile
 import viscofric as vf
 from study import sweeps
-from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, shortened
+from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_imported, shortened
 from viscofric.files import insist_on_size, parse_toml
+from viscofric.notes import codes
+from viscofric.readers.height_table import read_heights
 from viscofric.study.store import CaseStore
 
 if TYPE_CHECKING:
@@ -154,6 +156,53 @@ def test_a_card_may_hold_a_name_of_any_length(tmp_path: Path) -> None:
     with pytest.warns(UserWarning, match="not read") as caught:
         vf.read_card(path)
     assert all(len(str(one.message)) < 2 * LONGEST_SENTENCE for one in caught)
+
+
+def test_friction_and_heights_that_no_rubber_or_surface_has_are_noted(tmp_path: Path) -> None:
+    path = tmp_path / "curves.csv"
+    header = "speed (mm/s),temperature (degC),load (N),viscoelastic friction"
+    path.write_text(f"{header}\n1,20,1,5.6e9\n2,20,1,0.1\n", encoding="utf-8")
+    assert "implausible-friction" in codes(vf.read_friction_curves(path).notes)
+    path.write_text(f"{header}\n1,20,1,3.5\n", encoding="utf-8")
+    assert not codes(vf.read_friction_curves(path).notes)
+    header = "temperature (degC),disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)"
+    path.write_text(f"{header}\n20,10,9,1,99\n20,9,10,1,-1\n", encoding="utf-8")
+    assert "implausible-friction" in codes(vf.read_mtm(path).notes)
+    scan = tmp_path / "scan.csv"
+    scan.write_text("8e298,0\n0,1\n", encoding="utf-8")
+    with pytest.raises(DataFileError, match=r"heights of up to 8e\+298 m"):
+        vf.read_topography(scan, spacing="1 um")
+    with pytest.raises(DataFileError, match=r"heights of up to 8e\+298 m"):
+        read_heights(scan)
+    scan.write_text("3.5,0\n0,1\n", encoding="utf-8")  # µm, read as m
+    assert "implausible-heights" in codes(vf.read_topography(scan, spacing="1 um").history)
+    assert not codes(vf.read_topography(scan, spacing="1 um", unit="um").history)
+
+
+SHADOWED = """
+import viscofric as vf
+from viscofric.units import to_si
+try:
+    to_si("30 degC", "K")
+except vf.ViscofricError as error:
+    print(error)
+"""
+
+
+@pytest.mark.slow  # a process of its own, which imports anew
+def test_a_module_of_the_users_in_place_of_a_package_is_told_as_such(tmp_path: Path) -> None:
+    (tmp_path / "pint.py").write_text("import nothing_of_this_name\n", encoding="utf-8")
+    (tmp_path / "script.py").write_text(SHADOWED, encoding="utf-8")
+    done = subprocess.run([sys.executable, tmp_path / "script.py"], capture_output=True, text=True, check=True)
+    assert "No module named 'nothing_of_this_name'" in done.stdout
+    assert "not a unit" not in done.stdout
+
+
+def test_a_package_that_is_missing_differs_from_one_that_fails() -> None:
+    missing = ModuleNotFoundError("No module named 'zarr'", name="zarr")
+    assert not_imported("zarr", missing, "pip install zarr") == "zarr is not installed: pip install zarr"
+    for broken in (ModuleNotFoundError("No module named 'dask.base'", name="dask.base"), AttributeError("x")):
+        assert "cannot be imported" in not_imported("pint", broken)
 
 
 LONG = "x" * 100_000

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import flag, insist_on, numbers, sentences, text
+from viscofric.arguments import insist_on, numbers, sentences, text
 from viscofric.errors import InputError
 from viscofric.units import checked_poisson_ratio, positive
 

@@ -18,6 +18,8 @@ def brief(value: object) -> str:
 
 def shortened(text: str) -> str:
     """Return a sentence of bearable length, and of a list of sentences, one to a line, a bearable number."""
+    if len(text) <= LONGEST_SENTENCE and text.count("\n") < _MOST_SENTENCES:
+        return text
     lines = text.split("\n", _MOST_SENTENCES)
     if len(lines) > _MOST_SENTENCES:
         lines[-1] = f"  … and {lines[-1].count(chr(10)) + 1} more."

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arguments import insist_on, sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -57,6 +58,20 @@ class TractionStep:
         what = f"step {self.number}" + (f" ({words})" if words else "")
         means = f"{self.load:.4g} N, {celsius(self.temperature):z.1f} °C, {1e3 * self.speed:.4g} mm/s"
         return f"{what}: {self.readings} readings at {means}, slip {100 * self.slip_ratio:.3g} %"
+
+
+#: No rubber has a friction coefficient above this; what is larger was read in another unit, or is damaged.
+LARGEST_FRICTION = 10.0
+
+
+def notes_on_friction(friction: ArrayLike) -> tuple[Note, ...]:
+    """Return a note where friction coefficients are larger than any rubber has."""
+    sizes = np.abs(np.asarray(friction, dtype=float))
+    count = int(np.count_nonzero(sizes > LARGEST_FRICTION))
+    if not count:
+        return ()
+    said = f"{count} of {sizes.size} friction coefficients are above {LARGEST_FRICTION:g}, up to {sizes.max():.3g}"
+    return (Note("implausible-friction", f"{said}; check the units of force and load, and the zero of the force."),)
 
 
 @dataclass(frozen=True, eq=False)

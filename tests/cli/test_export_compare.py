@@ -36,6 +36,14 @@ def test_each_format_is_written_beside_the_results(pair: tuple[Path, Path]) -> N
         assert (pair[0] / name).stat().st_size > 0
 
 
+def test_several_formats_are_written_at_once(pair: tuple[Path, Path]) -> None:
+    written = [pair[1] / "results.csv", pair[1] / "results.xlsx"]
+    done = call("export", pair[1], "--to", "csv", "--to", "excel", "--to", "csv")
+    assert done.exit_code == 0, done.output
+    assert [line.split()[1] for line in done.stdout.splitlines()] == list(map(str, written))
+    assert all(path.stat().st_size > 0 for path in written)
+
+
 def test_table_goes_into_a_pipe(pair: tuple[Path, Path], tmp_path: Path) -> None:
     printed = call("export", pair[0], "--to", "csv", "-o", "-").stdout
     call("export", pair[0], "--to", "csv", "-o", tmp_path / "a.csv")
@@ -49,6 +57,7 @@ def test_table_goes_into_a_pipe(pair: tuple[Path, Path], tmp_path: Path) -> None
         (["--to", "xml"], 2, "Invalid value"),
         (["--to", "excel", "-o", "a.csv"], 2, "must end in .xlsx"),
         (["--to", "excel", "-o", "-"], 2, "cannot be printed"),
+        (["--to", "csv", "--to", "excel", "-o", "a.csv"], 2, "several formats"),
         ([], 2, "Missing option '--to'"),
     ],
 )

@@ -89,7 +89,10 @@ def test_any_finite_numbers_come_back(
         source="made up",
     )
     vf.write_friction_curves(curves, tmp_path / "any.csv")
-    same(vf.read_friction_curves(tmp_path / "any.csv"), curves)
+    found = vf.read_friction_curves(tmp_path / "any.csv")
+    same(replace(found, notes=()), curves)  # what no rubber has is noted, once
+    vf.write_friction_curves(found, tmp_path / "any.csv")
+    same(vf.read_friction_curves(tmp_path / "any.csv"), found)
 
 
 def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:

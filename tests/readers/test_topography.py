@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
+from viscofric.notes import codes
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -94,7 +95,9 @@ def test_metres_are_taken_for_what_has_no_unit_and_that_is_told(tmp_path):
     points = write(tmp_path, "0,1e-6\n1e-5,2e-6\n2e-5,0\n")
     assert vf.read_topography(points).history[1:] == ("positions and heights taken to be in m",)
     matrix = write(tmp_path, matrix_text())
-    assert vf.read_topography(matrix, spacing="1 um").history[1:] == ("heights taken to be in m",)
+    taken, *doubt = vf.read_topography(matrix, spacing="1 um").history[1:]
+    assert taken == "heights taken to be in m"
+    assert codes(doubt) == {"implausible-heights"}  # of metres
     assert vf.read_topography(matrix, spacing="1 um", unit="nm").history[1:] == ()
 
 

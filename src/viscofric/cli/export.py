@@ -22,10 +22,11 @@ Such as
 @click.argument("results", type=click.Path(path_type=Path))
 @click.option(
     "--to",
-    "form",
+    "forms",
     required=True,
+    multiple=True,
     type=click.Choice(list(_ENDINGS)),
-    help="Excel holds all tables, the others the cases.",
+    help="Excel holds all tables, the others the cases; once for each format.",
 )
 @click.option(
     "-o",
@@ -34,15 +35,20 @@ Such as
     help="File to write; `-` prints a csv [default: results.csv, results.xlsx, prediction.nc or prediction.zarr in the "
     "folder of the results].",
 )
-def command(results: Path, form: str, output: Path | None) -> None:
+def command(results: Path, forms: tuple[str, ...], output: Path | None) -> None:
     """Write RESULTS, the folder of a study's results or the file in it, for other programs.
 
     csv: a row for each case, units in the headings.  excel: a workbook with a sheet for each table.  netcdf, zarr:
     the cases over their axes, for any program that reads labelled data.
     """
-    if output == DASH and form != "csv":
-        raise click.BadParameter(f"{form} cannot be printed; name a file.", param_hint="--output")
-    check_ending(output, "--output", (_ENDINGS[form],))
+    forms = tuple(dict.fromkeys(forms))
+    if output is not None and len(forms) > 1:
+        raise click.BadParameter(
+            "names one file, but several formats are asked for; leave it out.", param_hint="--output"
+        )
+    if output == DASH and forms != ("csv",):
+        raise click.BadParameter(f"{forms[0]} cannot be printed; name a file.", param_hint="--output")
+    check_ending(output, "--output", (_ENDINGS[forms[0]],))
     with told():
         from viscofric.study import open_results
         from viscofric.study.columns import table_text
@@ -52,4 +58,5 @@ def command(results: Path, form: str, output: Path | None) -> None:
         if output == DASH:
             click.echo(table_text(found), nl=False)
             return
-        click.echo(f"{form:<8} {export_results(found, FORMS[list(_ENDINGS).index(form)], output)}")
+        for form in forms:
+            click.echo(f"{form:<8} {export_results(found, FORMS[list(_ENDINGS).index(form)], output)}")

@@ -54,7 +54,9 @@ def _kept_input(ctx: click.Context) -> Path:
     if _INPUT not in ctx.meta:
         folder = Path(ctx.with_resource(TemporaryDirectory(prefix="viscofric-")))
         ctx.meta[_INPUT] = folder / _INPUT
-        ctx.meta[_INPUT].write_bytes(sys.stdin.buffer.read())
+        from viscofric.files import LARGEST_FILE
+
+        ctx.meta[_INPUT].write_bytes(sys.stdin.buffer.read(LARGEST_FILE + 1))  # one more is refused by its reader
     path: Path = ctx.meta[_INPUT]
     return path
 

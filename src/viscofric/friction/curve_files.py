@@ -14,6 +14,7 @@ from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note
 from viscofric.readers.table import Table, read_table
+from viscofric.traction import notes_on_friction
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -179,12 +180,13 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
     replicates = columns.pop("replicates", np.ones(len(table.rows)))
     for kind in ("viscoelastic", "coulomb"):
         _complete(columns, kind, replicates, notes)
+    doubts = notes_on_friction([columns[name] for name in ("viscoelastic", "coulomb") if name in columns])
     try:
         return FrictionCurves(
             replicates=replicates.astype(np.int64),
             source=(remarks["source"] or [str(path)])[0],
             assumption=(remarks["assumption"] or [""])[0],
-            notes=tuple(map(shortened, notes)),
+            notes=(*(shortened(note) for note in notes if note not in doubts), *doubts),
             load_unit=unit,
             **columns,
         )

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+#: Heights above this, m, were read in another unit, or are damaged.
+HIGHEST = 1e3
 _BETWEEN = re.compile(r"[,;\t ]+")
 _NUMPY = b"\x93NUMPY"
 
@@ -50,7 +52,15 @@ def read_heights(path: str | Path, unit: str = "m") -> Array:
     table = _numpy(data, path) if data.startswith(_NUMPY) else _text(decoded(data, path), path)
     if not np.all(np.isfinite(table)):
         raise DataFileError(path, "some heights are not finite numbers; fill gaps of a measurement first.")
-    return factor * table
+    return checked_heights(factor * table, path)
+
+
+def checked_heights(heights: Array, path: object) -> Array:
+    """Return heights, m, or raise `DataFileError` where they differ by more than any surface's; NaN is passed over."""
+    largest = float(np.nanmax(np.abs(heights), initial=0.0))
+    if largest > HIGHEST:
+        raise DataFileError(path, f"holds heights of up to {largest:.3g} m, which no surface has; check their unit.")
+    return heights
 
 
 def _numpy(data: bytes, path: str | Path) -> Array:

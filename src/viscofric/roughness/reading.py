@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path
+from viscofric.notes import Note
+from viscofric.readers.height_table import checked_heights
 from viscofric.readers.topography.read import read_scan
 from viscofric.readers.topography.scan import Asked
 from viscofric.roughness.topography import Topography
@@ -13,6 +17,10 @@ from viscofric.units import Quantity, to_si, two_lengths
 
 if TYPE_CHECKING:
     from os import PathLike
+
+
+#: Heights of a scan that lie further apart, m, were probably read in another unit.
+_LARGE_EXTENT = 0.1
 
 
 def read_topography(
@@ -72,8 +80,13 @@ def read_topography(
     steps = None if spacing is None else two_lengths(spacing)
     gap = None if missing is None else to_si(missing, "dimensionless", "missing")
     scan = read_scan(path, Asked(unit, steps, channel, gap, lines))
+    heights = checked_heights(scan.heights, path)
+    notes = list(scan.notes)
+    if (extent := float(np.nanmax(heights, initial=-np.inf) - np.nanmin(heights, initial=np.inf))) > _LARGE_EXTENT:
+        said = f"heights lie up to {extent:.3g} m apart, more than scans of surfaces have: check their unit"
+        notes.append(Note("implausible-heights", said))
     try:
-        found = Topography(scan.heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.told, *scan.notes))
+        found = Topography(heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.told, *notes))
     except InputError as error:
         raise DataFileError(path, str(error)) from None
     if found.missing == found.heights.size:

@@ -15,7 +15,7 @@ from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.notes import Note
 from viscofric.readers.mtm import formats
 from viscofric.readers.source import Source
-from viscofric.traction import TractionRuns, TractionStep
+from viscofric.traction import TractionRuns, TractionStep, notes_on_friction
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -105,13 +105,14 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
     time, timing = _times(parts)
     step, steps = _steps(parts)
     replicate, numbering = _replicates(parts, columns, step)
+    friction = columns["traction_force"] / columns["load"]
     several = len(parts) > 1
     told = [_of_file(part.source, note) if several else note for part in parts for note in part.notes]
     return TractionRuns(
         **columns,
         replicate=replicate,
         source=", ".join(part.source for part in parts),
-        notes=tuple(map(shortened, (*told, *numbering, *timing))),
+        notes=(*map(shortened, (*told, *numbering, *timing)), *notes_on_friction(friction)),
         zero_force=_optional(parts, "zero_force"),
         time=time,
         step=step,

@@ -14,6 +14,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.files import insist_on_size
 from viscofric.readers.dma.deformation import tools_in
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_points
@@ -106,6 +107,7 @@ def _workbook(source: Source) -> _Workbook:
 
 
 def _parse(source: Source) -> _Workbook:
+    insist_on_size(source.data, source.path)
     # -P: modules beside the script must not stand in for those of Python
     command = [sys.executable, "-P", str(_PARSER)]
     window = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # none flashes up under Windows
