@@ -106,7 +106,7 @@ def _at_other_speeds(one: Condition, others: list[Condition]) -> str:
     speed = min(near, key=lambda speed: abs(speed - one.speed))
     return (
         f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger speed_tolerance, in the "
-        "shell --speed-tolerance, takes these for one speed)"
+        "shell --speed-tolerance, joins them)"
     )
 
 
@@ -125,7 +125,7 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
     told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if not known:
         zero = "(zero= in Python, --zero in the shell)"
-        advice += f", or read the force cell with ball and disc apart and give that zero {zero}"
+        advice += f", or give its zero, read with ball and disc apart {zero}"
     elif not rolls and assumed.nothing:
         advice += ", or say what Coulomb friction to assume (coulomb= in Python, --coulomb in the shell)"
     because = "slip is zero (pure rolling) and " if rolls else ""
