@@ -18,6 +18,7 @@ from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_im
 from viscofric.files import insist_on_size, parse_toml
 from viscofric.notes import codes
 from viscofric.readers.height_table import read_heights
+from viscofric.rheology.cards.card_files import LARGEST_CARD
 from viscofric.study.store import CaseStore
 
 if TYPE_CHECKING:
@@ -148,6 +149,13 @@ def test_cards_with_endless_numbers_and_lines_are_refused(tmp_path: Path, name: 
     path = tmp_path / name
     path.write_text(CARDS[name], encoding="utf-8")
     refused(vf.read_card, path)
+
+
+def test_a_card_of_a_whole_disk_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "card.inp"
+    with path.open("wb") as file:
+        file.truncate(LARGEST_CARD + 1)  # takes no room
+    assert "such a file has at most 20 MB" in refused(vf.read_card, path)
 
 
 def test_a_card_may_hold_a_name_of_any_length(tmp_path: Path) -> None:

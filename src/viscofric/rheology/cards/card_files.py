@@ -56,6 +56,9 @@ _PROGRAMS: dict[str, _Program] = {
     ),
 }
 
+#: A material card is far smaller, even within a deck of a whole model; bytes.
+LARGEST_CARD = 20_000_000
+
 
 def write_card(
     material: Material,
@@ -279,7 +282,7 @@ def open_card(
     units = (("modulus_unit", modulus_unit), ("time_unit", time_unit), ("temperature_unit", temperature_unit))
     for name, unit in units:
         insist_on(unit, name, str, type(None), right="the text of a unit, such as 'MPa'")
-    text = read_text(path)
+    text = read_text(path, LARGEST_CARD)
     try:
         if format == "json" or (format is None and plain.recognises_json(text)):
             return Card(plain.read_json(text), plain.NAME_JSON)
