@@ -105,7 +105,7 @@ def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
     assert max(abs(one.distance) for one in check.neighbours) < 0.02
     assert (check.verdict, check.holds, check.roughly) == ("doubtful", False, False)
     assert codes(check.sentences) == {"superposition-doubtful"}
-    assert abs(check.drift.distance) > 5.0 * check.drift.standard_error
+    assert abs(check.drift.distance) > 6.0 * check.drift.standard_error
     # The errors of α hold what the vertical shift would change: the two models do not contradict each other, …
     mended = vf.superpose(measured, "30 degC", vertical="free")
     assert mended.check.verdict == "holds"
@@ -156,7 +156,9 @@ def test_a_drift_is_what_adds_up():
     # One after the other to either side, one bad sweep at an end, or noise as large: none.
     assert drift([pair(place, 0.04 * (-1) ** place) for place in range(6)]) is None
     assert drift([pair(0, 0.1), *(pair(place, 0.001) for place in range(1, 6))]) is None
-    assert drift(steady, offset=0.02) is None
+    assert (
+        drift([pair(place, distance) for place, distance in enumerate((0.02, -0.05, 0.01, -0.06, 0.02, -0.05))]) is None
+    )
     # A gap between temperatures ends a run.
     assert drift([pair(0, -0.02), pair(1, -0.02), pair(3, -0.02), pair(4, -0.02)]) is None
 
@@ -210,11 +212,26 @@ def of_file(real_data, name, reference):
     return vf.superpose(vf.read_dma(real_data / "dma" / name, deformation=deformation), reference)
 
 
-@pytest.mark.parametrize("name", ["acrylic_468mp.csv", "vinyl_nitrile_foam.csv"])
-def test_measured_rubbers_superpose(real_data, name):
-    check = check_superposition(of_file(real_data, name, "20 degC"))
+def test_an_acrylic_superposes(real_data):
+    check = check_superposition(of_file(real_data, "acrylic_468mp.csv", "20 degC"))
     assert check.holds
     assert check.kramers_kronig.holds
+
+
+def test_a_foam_drifts_within_the_reproducibility_of_its_sweeps(real_data):
+    """From 10 to 40 °C six neighbours in a row lie to one side, by 0.005 to 0.028 decades, which b would mend."""
+    fit = of_file(real_data, "vinyl_nitrile_foam.csv", "20 degC")
+    assert fit.check.figure_of_merit < 1.0
+    assert fit.check.verdict == "doubtful"
+    assert fit.check.kramers_kronig.holds
+    mended = vf.superpose(
+        vf.read_dma(real_data / "dma" / "vinyl_nitrile_foam.csv", deformation="shear"), "20 degC", vertical="free"
+    )
+    assert mended.check.figure_of_merit < 0.6 * fit.check.figure_of_merit
+    # At 30 °C the two differ by 0.56 decades, 18 errors of the points alone.
+    assert fit.shift_factors.log10("30 degC") - mended.shift_factors.log10("30 degC") > 0.4
+    away = np.abs(fit.shift_factors.log10_values - mended.shift_factors.log10_values)
+    assert np.all(away < 2.0 * fit.shift_factors.standard_errors + 1e-3)
 
 
 def test_eva_is_told_as_a_failure(real_data):

@@ -162,7 +162,7 @@ def fitted(
         parameters = _descend(problem, parameters, smoothers, noise)
         if np.max(np.abs(parameters - before)) < 10 * CONVERGED:
             break
-    offsets, expected = None, np.zeros(sweeps[0].moduli.shape[1] * problem.size)
+    offsets, expected = None, None
     for _ in range(OFFSET_PASSES if with_offsets else 0):
         offsets, gradient = _offsets(problem, parameters, smoothers, expected)
         expected = offsets.expected
@@ -241,7 +241,7 @@ def _covariance(problem: ShiftProblem, state: State) -> tuple[Array, float, Arra
 
 
 def _offsets(
-    problem: ShiftProblem, parameters: Array, smoothers: list[Smoother], expected: Array
+    problem: ShiftProblem, parameters: Array, smoothers: list[Smoother], expected: Array | None
 ) -> tuple[Offsets, Array]:
     """Find the variance of offsets of whole isotherms, and what each adds to the gradient that shifts follow."""
     information, score, gradient = problem.with_offsets(parameters, smoothers, expected)

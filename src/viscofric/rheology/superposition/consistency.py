@@ -193,7 +193,7 @@ def check_superposition(fit: Superposition) -> SuperpositionCheck:
         causal_sentence = causality.sentence
     except InputError as reason:
         causality, causal_sentence = None, f"E' was not tested against E'': {reason}"
-    drifting = drift(neighbours, 0.0 if fit.offsets is None else fit.offsets.largest)
+    drifting = drift(neighbours)
     verdict = _verdict(fit, neighbours, figure, drifting, own)
     headline, *others = _words(verdict, fit, neighbours, figure, ratio, own, drifting)
     sentences = (

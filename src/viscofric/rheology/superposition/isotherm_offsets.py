@@ -56,12 +56,6 @@ class IsothermOffsets:
         """Of log E' and of log E'', (2,), decades."""
         return np.asarray(np.sqrt(np.diag(self.covariance)))
 
-    @property
-    def largest(self) -> float:
-        """Standard deviation of log E' or of log tan δ, whichever is larger, decades."""
-        tangent = np.array([-1.0, 1.0])
-        return float(np.sqrt(max(self.covariance[0, 0], tangent @ self.covariance @ tangent)))
-
     def continued(self, gauge: Gauge, first: int, last: int) -> IsothermOffsets:
         """Return those of all isotherms of a gauge, of which these are the ones from `first` to before `last`."""
         size, part = len(gauge.weights), last - first
@@ -82,7 +76,7 @@ class Offsets:
     covariance : (2, 2) array
         Of those of log E' and log E'' of one isotherm, decades².
     expected : (2n,) array
-        Mean of each of log E' and then of log E'', given the measurement; decades.
+        Mean of each of log E' and then of log E'', given the measurement and the shifts as they were found; decades.
     """
 
     covariance: Array
@@ -122,6 +116,8 @@ def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> 
     likelihood = 0.5 * np.sum(whitened**2, axis=1) - np.sum(np.log(np.diagonal(root, axis1=1, axis2=2)), axis=1)
     weight = before * np.exp(likelihood - likelihood.max())
     weight /= weight.sum()
-    expected = spread * np.linalg.solve(np.swapaxes(root, 1, 2), whitened[..., None])[..., 0]
     variances = weight @ np.stack([sums, differences], axis=1) ** 2
-    return Offsets(TURN.T @ np.diag(variances) @ TURN, turn.T @ (weight @ expected))
+    deviations = np.repeat(np.sqrt(variances), size)
+    beside = np.eye(2 * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
+    expected = deviations * np.linalg.solve(beside, deviations * (turn @ score[free:]))
+    return Offsets(TURN.T @ np.diag(variances) @ TURN, turn.T @ expected)

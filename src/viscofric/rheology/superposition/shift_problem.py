@@ -181,10 +181,12 @@ class ShiftProblem:
             found.append(Smoother.fitted(frequency, moduli - piece.own(less), weights))
         return found
 
-    def with_offsets(self, parameters: Array, smoothers: list[Smoother], expected: Array) -> tuple[Array, Array, Array]:
+    def with_offsets(
+        self, parameters: Array, smoothers: list[Smoother], expected: Array | None
+    ) -> tuple[Array, Array, Array]:
         """Say how p parameters and offsets of the m moduli of n isotherms act together, the curves being refitted.
 
-        Points beside the expected offsets (m n) count for fewer where they are alike.
+        Once offsets (m n) are expected, points count for fewer where they are alike beside them.
 
         Returns
         -------
@@ -195,18 +197,18 @@ class ShiftProblem:
         gradient : (p, m n) array
             What each offset adds to half of the decrease of the plain squares with the parameters, 1/decades.
         """
-        count = len(self.start)
-        whole = count + len(expected)
-        information, score, gradient = np.zeros((whole, whole)), np.zeros(whole), np.zeros((count, len(expected)))
+        count, levels = len(self.start), self.pieces[0].moduli.shape[1] * self.size
+        information, score = np.zeros((count + levels, count + levels)), np.zeros(count + levels)
+        gradient = np.zeros((count, levels))
         for piece, smoother in zip(self.pieces, smoothers, strict=True):
             inside = np.arange(piece.first, piece.last)
             shifts = np.concatenate([inside, inside + self.size]) if self.gauge.free_vertical else inside
             frequency, moduli, weights = piece.reduced(*self.split(parameters))
             curves = smoother.curves(frequency, moduli, weights)
-            less = piece.own(self._of_isotherms(expected))
-            scatters = smoother.scatter * np.sqrt(
-                [_inflation(one, piece.same) for one in smoother.curves(frequency, moduli - less, weights).residual.T]
-            )
+            scatters = smoother.scatter
+            if expected is not None:
+                beside = smoother.curves(frequency, moduli - piece.own(self._of_isotherms(expected)), weights)
+                scatters = scatters * np.sqrt([_inflation(one, piece.same) for one in beside.residual.T])
             belongs = np.eye(piece.size)[piece.isotherm]
             level = belongs * curves.root
             slopes = curves.slopes_of_basis() @ curves.coefficients

@@ -232,8 +232,7 @@ def superpose(
         held = held_places(fixed or {}, temperatures, kelvin)
         found = fitted_shifts(joined, kelvin, held, free)
         log10_b = np.zeros(len(temperatures)) if known is None else np.asarray(known.log10(temperatures))
-        offset = 0.0 if found.offsets is None else found.offsets.largest
-        if not free and drift(neighbour_distances(joined.isotherms, log10_b), offset) is not None:
+        if not free and drift(neighbour_distances(joined.isotherms, log10_b)) is not None:
             found = _between_models(found, fitted_shifts(joined, kelvin, held, True))
     else:
         found = given_shifts(joined, kelvin, shift.at_reference(kelvin), free)

@@ -32,7 +32,7 @@ RUN = 3
 DRIFT = 0.045  # decades
 #: … and by more than so many standard errors.  A single distance counts for no more than this part of the above: one
 #: sweep that went wrong is no drift.
-SURE = 5.0
+SURE = 6.0
 LARGEST_PART = 2.0 / 3.0
 
 
@@ -149,24 +149,20 @@ def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[
     return tuple(found)
 
 
-def drift(neighbours: Sequence[NeighbourDistance], offset: float = 0.0) -> Drift | None:
+def drift(neighbours: Sequence[NeighbourDistance]) -> Drift | None:
     """Return the largest drift, or None where there is none.
-
-    Parameters
-    ----------
-    neighbours : sequence of NeighbourDistance
-        Of all isotherms.
-    offset : float
-        Standard deviation of what all points of an isotherm are wrong by, in log |E*| or log tan δ; decades.
 
     Notes
     -----
     Errors of single isotherms cancel in the sum over a run, but for its two ends; what changes with temperature adds
-    up: a vertical shift that was left out, a second relaxation, a sample that changes.  All runs are looked at.
+    up: a vertical shift that was left out, a second relaxation, a sample that changes.  All runs are looked at.  Errors
+    σ of single isotherms make the differences of consecutive distances scatter by √6 σ, and a sum over a run by √2 σ.
     """
+    distances = np.array([pair.distance for pair in neighbours])
+    single = float(np.mean(np.diff(distances) ** 2)) / 6.0 if len(distances) > 1 else 0.0
     found = None
     for first in range(len(neighbours)):
-        total, distance, variance = 0.0, 0.0, 2.0 * offset**2
+        total, distance, variance = 0.0, 0.0, 0.0
         for count, pair in enumerate(neighbours[first:], 1):
             if count > 1 and pair.colder != neighbours[first + count - 2].warmer:
                 break
@@ -174,8 +170,9 @@ def drift(neighbours: Sequence[NeighbourDistance], offset: float = 0.0) -> Drift
             distance += pair.distance
             variance += pair.standard_error**2
             largest = DRIFT if found is None else abs(found.distance)
-            if count >= RUN and abs(total) > DRIFT and abs(distance) > max(largest, SURE * np.sqrt(variance)):
-                found = Drift(neighbours[first].colder, pair.warmer, distance, float(np.sqrt(variance)), count)
+            error = float(np.sqrt(max(variance, 2.0 * single)))
+            if count >= RUN and abs(total) > DRIFT and abs(distance) > max(largest, SURE * error):
+                found = Drift(neighbours[first].colder, pair.warmer, distance, error, count)
     return found
 
 
