@@ -19,7 +19,7 @@ from viscofric.files import insist_on_size, parse_toml
 from viscofric.notes import codes
 from viscofric.readers.height_table import read_heights
 from viscofric.rheology.cards.card_files import LARGEST_CARD
-from viscofric.study.store import CaseStore
+from viscofric.study.store import CaseStore, Damaged, _sealed
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -58,9 +58,11 @@ def test_ordinary_keys_and_texts_with_dots_are_read() -> None:
 
 def test_a_stored_case_of_nested_lists_counts_as_not_solved(tmp_path: Path) -> None:
     store = CaseStore(tmp_path)
-    for text in ("[" * hostile.NESTED + "]" * hostile.NESTED, '{"a": ' + "1" * 5_000 + "}"):
-        (tmp_path / "a.json").write_text(text, encoding="utf-8")
-        assert store.get("a") is None
+    nested = "[" * hostile.NESTED + "]" * hostile.NESTED
+    for text in (nested, f'{{"case": {nested}}}', '{"case": ' + "1" * 5_000 + "}"):
+        for stored in (text.encode(), _sealed(text, "a")):  # with a checksum that is right, too
+            (tmp_path / "a.json").write_bytes(stored)
+            assert isinstance(store.get("a"), Damaged)
     store.put("a", sweeps.RECORD)
     assert store.get("a") == sweeps.RECORD
 

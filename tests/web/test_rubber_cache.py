@@ -32,9 +32,9 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     calls: list[object] = []
     make = rubbers.make_rubber
 
-    def make_and_count(table: Any) -> Any:
+    def make_and_count(table: Any, **options: Any) -> Any:
         calls.append(table)
-        return make(table)
+        return make(table, **options)
 
     monkeypatch.setattr(rubbers, "make_rubber", make_and_count)
     return calls
