@@ -35,6 +35,8 @@ SHARP = 0.03
 EXCLUDED = 1.5
 #: Ends of an interval are sought so many times between distances that were tried.
 HALVINGS = 3
+#: Variances of steps below this, decades², are those of steps that are held.
+SMALLEST = 1e-18
 #: Knots beyond the shifted points, decades.
 BEYOND = 1.0
 
@@ -162,10 +164,6 @@ class StepProfiles:
             penalty = penalty_of(knots, degree)
             self.knots[number] = knots, penalty
         return BSpline.design_matrix(frequency, knots, degree).toarray(), penalty
-
-
-#: Variances of steps below this, decades², are those of steps that are held.
-SMALLEST = 1e-18
 
 
 def _log_determinant(factor: Array) -> float:

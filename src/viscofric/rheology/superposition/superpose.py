@@ -173,9 +173,9 @@ def superpose(
     Standard errors hold the scatter of points about the common curves; offsets of whole isotherms, as from clamping
     anew, whose variance is found from the overlaps (`offsets`); and what the likelihood of each step leaves open when
     it is followed far from the best fit, be it over a plateau or to a second minimum (`step_profiles`).  Steps that
-    are not fixed are in `unidentified`, and a note names them.  With isotherms off by 2 %, 95 % intervals of α hold 94
-    to 100 % in planted tests (`benchmarks/rheology`).  An error of temperature is an error of α itself, and is not in
-    them.  With a free vertical shift, offsets that E' and E'' share are part of b.
+    are not fixed are in `unidentified`, and a note names them.  With isotherms off by 1 to 2 %, 95 % intervals of α
+    hold some 95 % of planted factors (`benchmarks/rheology`).  An error of temperature is an error of α itself, and is
+    not in them.  With a free vertical shift, offsets that E' and E'' share are part of b.
 
     Where isotherms drift to one side (`SuperpositionCheck.drift`), a vertical shift may be missing.  Then half of the
     squared difference to the shifts beside a free one counts as variance of α.  Below what that shows, a vertical shift
