@@ -31,6 +31,8 @@ SPACING = 0.5
 LEAST_SPACING = 0.1
 #: From and to where they stand, vτ over the length of the contact: beyond, g is at its limits to 1e-5.
 REACH = 1e-6, 1e6
+#: Of ln τ.
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +71,8 @@ class ComplianceSensitivity:
 
         first, last = self.log_tau[0], self.log_tau[-1]
         between = CubicSpline(self.log_tau, self.slope)(np.clip(log_tau, first, last))
-        return np.where(log_tau < first, self.glass, np.where(log_tau > last, 0.0, between))
+        # The nodes at the ends may be times of the material itself: rounding must not put them beyond.
+        return np.where(log_tau < first - ROUNDING, self.glass, np.where(log_tau > last + ROUNDING, 0.0, between))
 
 
 def solve_with_sensitivity(
@@ -108,15 +111,18 @@ def solve_with_sensitivity(
     glass = -found.E_inf * modes.E_inf**2
     log_tau = np.log(modes.tau)
     nodes = _apart(log_tau)
-    return solution, ComplianceSensitivity(
+    sensitivity = ComplianceSensitivity(
         friction=solution.friction_coefficient,
-        compliance_part=float(found.C @ modes.C) + glass / modes.E_inf,
+        compliance_part=0.0,
         log_tau=log_tau[nodes],
         slope=found.C[nodes],
         glass=glass,
         load=found.logarithmic.load or 0.0,
         frequency=speed / (0.5 * (solution.front + solution.rear)),
     )
+    # Interpolated like that of other materials, so that the material's own modes change nothing.
+    part = float(sensitivity.at(log_tau) @ modes.C) + glass / modes.E_inf
+    return solution, replace(sensitivity, compliance_part=part)
 
 
 def log_times(spectrum: RetardationSpectrum, time: float) -> Array:
