@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Self, TypeAlias
 
 import numpy as np
 
-from viscofric.friction.sensitivity import ComplianceSensitivity, log_times
+from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
 from viscofric.study.planning.curve import STEP
 from viscofric.study.planning.stencils import weights
 
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from viscofric.study.record import CaseRecord
 
     Array: TypeAlias = NDArray[np.float64]
-
-_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +113,7 @@ class Sensitivities:
 
 def _values_at(log_tau: Array, sensitivity: ComplianceSensitivity) -> Array:
     """Return g where it mostly is told already, so that nothing need be interpolated."""
-    rows = np.minimum(np.searchsorted(sensitivity.log_tau, log_tau - _ROUNDING), len(sensitivity.log_tau) - 1)
-    if np.all(np.abs(sensitivity.log_tau[rows] - log_tau) <= _ROUNDING):
+    rows = np.minimum(np.searchsorted(sensitivity.log_tau, log_tau - ROUNDING), len(sensitivity.log_tau) - 1)
+    if np.all(np.abs(sensitivity.log_tau[rows] - log_tau) <= ROUNDING):
         return sensitivity.slope[rows]
     return sensitivity.at(log_tau)
