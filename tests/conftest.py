@@ -21,6 +21,15 @@ settings.load_profile("viscofric")
 ROOT = Path(__file__).resolve().parent.parent
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark tests of the page, and other steps' as slow: `-m "not slow and not page"` is the inner loop."""
+    for item in items:
+        if item.path.parent.name == "web":
+            item.add_marker("page")
+        if item.get_closest_marker("apart") or item.get_closest_marker("exhaustive"):
+            item.add_marker("slow")
+
+
 @pytest.fixture(scope="session")
 def real_data() -> Path:
     """Folder of real measurements, not part of the project; tests that need it are skipped without it."""
