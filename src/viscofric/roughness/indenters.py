@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -12,19 +12,25 @@ from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
-    from viscofric.roughness.topography import Topography
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[np.float64]
 
 
-def rough_indenter(topography: Topography, shape: Indenter | None) -> HeightMap | Profile:
-    """Return roughness, or roughness on a smooth shape, as heights that grow away from the solid."""
+def rough_indenter(heights: Array, spacing: tuple[float, float], shape: Indenter | None) -> HeightMap | Profile:
+    """Return roughness, or roughness on a smooth shape, as heights that grow away from the solid.
+
+    Heights are (nx, ny), m, none of them missing; a line scan has ny = 1.
+    """
     # A summit is near to the solid, so that its height above the lowest point is small.
-    z = -topography.complete()
-    (nx, ny), (dx, dy) = topography.shape, topography.spacing
+    z = -heights
+    (nx, ny), (dx, dy) = heights.shape, spacing
+    is_line = ny == 1
     if shape is not None:
         insist_on_indenter(shape)
-        if (shape.geometry is LINE) != topography.is_line:
-            wanted = "a Cylinder" if topography.is_line else "a Ball"
-            noun = "a line scan" if topography.is_line else "a map of heights"
+        if (shape.geometry is LINE) != is_line:
+            wanted = "a Cylinder" if is_line else "a Ball"
+            noun = "a line scan" if is_line else "a map of heights"
             raise InputError(f"shape = {shape!r}: {noun} is roughness on a shape such as {wanted}.")
         # The middle of one row is the row itself.
         x = np.asarray(dx * (np.arange(nx) - nx // 2), dtype=np.float64)
@@ -34,4 +40,4 @@ def rough_indenter(topography: Topography, shape: Indenter | None) -> HeightMap 
         if not np.all(np.isfinite(smooth)):
             raise InputError("the topography reaches beyond the shape that it is roughness on; crop it.")
         z = z + smooth
-    return Profile(z[:, 0], dx) if topography.is_line else HeightMap(z, (dx, dy))
+    return Profile(z[:, 0], dx) if is_line else HeightMap(z, (dx, dy))

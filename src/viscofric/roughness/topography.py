@@ -338,7 +338,7 @@ class Topography:
         """
         from viscofric.roughness.indenters import rough_indenter
 
-        return rough_indenter(self, shape)
+        return rough_indenter(self.complete(), self.spacing, shape)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the heights as labelled data with units, and the history, in its attributes."""
