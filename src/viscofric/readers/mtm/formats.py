@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.readers.mtm import delimited, pcs_text
 
 if TYPE_CHECKING:
-    from viscofric.readers.mtm.readings import TractionReadings
+    from viscofric.readers.mtm.readings import Thermometer, TractionReadings
     from viscofric.readers.source import Source
-
-#: Which of an instrument's thermometers tells the temperature of the readings.
-Thermometer: TypeAlias = Literal["lube", "pot"]
 
 
 def read(source: Source, thermometer: Thermometer) -> TractionReadings:

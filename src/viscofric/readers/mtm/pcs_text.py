@@ -22,10 +22,9 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from datetime import datetime
 
-    from viscofric.readers.mtm.formats import Thermometer
     from viscofric.readers.mtm.pcs_rows import Rows
     from viscofric.readers.mtm.pcs_steps import Export
-    from viscofric.readers.mtm.readings import Array, Whole
+    from viscofric.readers.mtm.readings import Array, Thermometer, Whole
     from viscofric.readers.source import Source
 
 NAME = "a text export of PCS Instruments' MTM or ETM"

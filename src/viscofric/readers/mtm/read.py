@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from os import PathLike
 
-    from viscofric.readers.mtm.readings import Array, TractionReadings, Whole
+    from viscofric.readers.mtm.readings import Array, Thermometer, TractionReadings, Whole
 
 _MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature")
 
 
-def read_mtm(*paths: str | PathLike[str], thermometer: formats.Thermometer = "lube") -> TractionRuns:
+def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> TractionRuns:
     """Read signed traction readings from one or several files of a tribometer (MTM, ETM or your own tables).
 
     The format is told by the content, never by the name: text exports of PCS Instruments' MTM and ETM, and text

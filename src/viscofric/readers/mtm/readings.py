@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
     Whole: TypeAlias = NDArray[np.int64]
+
+#: Which of an instrument's thermometers gives the temperature of the readings.
+Thermometer: TypeAlias = Literal["lube", "pot"]
 
 
 @dataclass(frozen=True, eq=False)
