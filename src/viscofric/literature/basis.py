@@ -5,20 +5,22 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import singledispatch
-from typing import TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.contact.layers import Layer
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError
+from viscofric.files import parse_toml
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.literature.reference import Reference
 from viscofric.literature.references import PAPER, REFERENCES
+from viscofric.rheology.catalogue import catalogue_material
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.law_comparison import LawComparison
-from viscofric.rheology.shifts.laws import VFT, WLF, ShiftLaw, WLFArrhenius
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, ShiftLaw, WLFArrhenius
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
 from viscofric.rheology.spectra.retardation import FROM_FRICTION, RetardationSpectrum
@@ -30,7 +32,12 @@ from viscofric.roughness.persson import PerssonTheory
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
 from viscofric.study import StudyResults
 
+if TYPE_CHECKING:
+    import xarray
+
 Basis: TypeAlias = Iterator[tuple[Reference, str]]
+
+_LAWS: tuple[type[ParametricLaw], ...] = (WLF, Arrhenius, VFT, WLFArrhenius, InversePolynomial)
 
 
 @singledispatch
@@ -249,6 +256,41 @@ def _identification() -> Basis:
 
 @basis.register
 def _of_study(results: StudyResults) -> Basis:
-    from viscofric.literature.studies import study_basis
+    tables = parse_toml(str(results.tree.attrs.get("study_text", "")))
+    given = tables.get("material", {})
+    rubbers = given if isinstance(given, list) else [given]
+    for rubber, found in zip(rubbers, results.materials.values(), strict=True):
+        yield from _study_rubber(rubber, found)
+    if "indenter" in tables:
+        yield from solved_contact(line=tables["indenter"].get("shape") == "cylinder")
+    if "surface" in tables:
+        yield from solved_surface()
+    if "layer" in tables:
+        yield from basis(Layer(1.0))
+    yield from _study_friction(results.tree)
 
-    yield from study_basis(results)
+
+def _study_rubber(table: dict[str, Any], found: xarray.DataTree) -> Basis:
+    if "catalogue" in table:
+        yield from basis(catalogue_material(table["catalogue"]))
+        return
+    if "superposition" in found.children:
+        yield from superposed_sweeps()
+    yield from modes(table.get("spectrum", "non-negative") if "master_curve" in found.children else "")
+    if "shift_law" in found.children and table.get("shift", "measured") != "measured":
+        used = found["shift_law"].attrs["law"]
+        yield from shifted_by(next(law for law in _LAWS if law.title == used))
+    if table.get("shift") == "best":
+        yield from compared_laws()
+
+
+def _study_friction(tree: xarray.DataTree) -> Basis:
+    groups = tree.children
+    if "prediction" in groups and "friction_lower" in groups["prediction"].data_vars:
+        yield from banded_friction()
+    if "measurement" in groups and "coulomb" in groups["measurement"].data_vars:
+        yield from separated_friction()
+    if "measurement_master" in groups:
+        yield from shifted_friction(found="friction_shift_factors" in groups)
+    elif "prediction_master" in groups:
+        yield from one_curve()
