@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.measurement.separation import regressors, told_apart
+from viscofric.friction.measurement.least_squares import regressors, told_apart
 
 if TYPE_CHECKING:
     from viscofric.friction.measurement.conditions import Condition

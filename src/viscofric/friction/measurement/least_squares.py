@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -9,7 +10,28 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from viscofric.friction.measurement.conditions import Condition
+
     Array: TypeAlias = NDArray[np.float64]
+
+
+def regressors(group: Condition, *, offset: bool, coulomb: bool) -> Array:
+    """Signs that go with zero, viscoelastic and Coulomb friction; zeros for what is not fitted."""
+    return np.stack(
+        [np.full(group.rows.size, float(offset)), group.disc_sign, group.slip_sign * float(coulomb)], axis=1
+    )
+
+
+def told_apart(group: Condition, *, offset: bool, coulomb: bool) -> bool:
+    """Whether the signs alone, whatever the jitter of the loads, tell the unknowns apart."""
+    return _full_rank(group.signs, offset, coulomb)
+
+
+@lru_cache(maxsize=512)
+def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -> bool:
+    unknowns = 1 + offset + (coulomb and any(slip for _, slip in signs))
+    columns = [(float(offset), disc, slip * coulomb) for disc, slip in signs]
+    return int(np.linalg.matrix_rank(np.array(columns))) == unknowns
 
 
 def operators(design: Array, crossed: Array | None, parts: list[NDArray[np.intp]]) -> Array:

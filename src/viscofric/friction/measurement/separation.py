@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from viscofric.friction.measurement.entry import Entry
-from viscofric.friction.measurement.least_squares import operators, residuals
+from viscofric.friction.measurement.least_squares import operators, regressors, residuals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -28,25 +27,6 @@ _MOST_PASSES = 1_000_000_000
 _FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
 #: The force as it is read, and what may be taken from it: drift (per N/s) and changes of the recorded zero.
 FORCE, DRIFT, ZERO_CHANGES = range(3)
-
-
-def regressors(group: Condition, *, offset: bool, coulomb: bool) -> Array:
-    """Signs that go with zero, viscoelastic and Coulomb friction; zeros for what is not fitted."""
-    return np.stack(
-        [np.full(group.rows.size, float(offset)), group.disc_sign, group.slip_sign * float(coulomb)], axis=1
-    )
-
-
-def told_apart(group: Condition, *, offset: bool, coulomb: bool) -> bool:
-    """Whether the signs alone, whatever the jitter of the loads, tell the unknowns apart."""
-    return _full_rank(group.signs, offset, coulomb)
-
-
-@lru_cache(maxsize=512)
-def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -> bool:
-    unknowns = 1 + offset + (coulomb and any(slip for _, slip in signs))
-    columns = [(float(offset), disc, slip * coulomb) for disc, slip in signs]
-    return int(np.linalg.matrix_rank(np.array(columns))) == unknowns
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.measurement.separation import told_apart
+from viscofric.friction.measurement.least_squares import told_apart
 from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
