@@ -8,7 +8,7 @@ import pytest
 from readers.samples import eplexor
 from viscofric.errors import DataFileError, InputError
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.shift_files import read_shift_factors, read_vendor_law, write_shift_factors
+from viscofric.rheology.shifts.shift_files import read_shift_factors, read_vendor_law
 
 CELSIUS = np.array([-20.0, 0.0, 20.0, 40.0])
 LOG10 = np.array([4.0, 1.5, 0.0, -1.0])
@@ -32,7 +32,7 @@ def test_saved_factors_come_back_with_their_covariance(tmp_path, reference):
     kelvin[[0, -1]] = 200.1, 371.7
     root = rng.normal(size=(12, 12))
     saved = ShiftFactors(kelvin, np.sort(rng.normal(0.0, 5.0, 12))[::-1], reference, 1e-3 * root @ root.T)
-    write_shift_factors(saved, tmp_path / "saved.csv")
+    saved.save(tmp_path / "saved.csv")
     found = read_shift_factors(tmp_path / "saved.csv")
     # Values are moved by what rounding leaves at the reference; all else is exact.
     assert np.allclose(found.log10_values, saved.log10_values, rtol=0.0, atol=1e-14)
@@ -43,7 +43,7 @@ def test_saved_factors_come_back_with_their_covariance(tmp_path, reference):
 
 def test_notes_are_saved_with_the_factors(tmp_path):
     notes = ("The shift factor at 20.0 °C was corrected by hand.", "reference (degC): 3 is no reference here.")
-    write_shift_factors(ShiftFactors(CELSIUS + 273.15, LOG10, 293.15, notes=notes), tmp_path / "saved.csv")
+    ShiftFactors(CELSIUS + 273.15, LOG10, 293.15, notes=notes).save(tmp_path / "saved.csv")
     found = read_shift_factors(tmp_path / "saved.csv")
     assert found.notes == notes
     assert found.reference == 293.15
@@ -57,7 +57,7 @@ def test_table_without_uncertainty_is_told(tmp_path):
 
 def test_saved_file_is_readable_text(tmp_path):
     factors = ShiftFactors(CELSIUS + 273.15, LOG10, 293.15, np.diag([0.04, 0.01, 0.0, 0.09]))
-    write_shift_factors(factors, tmp_path / "saved.csv")
+    factors.save(tmp_path / "saved.csv")
     lines = (tmp_path / "saved.csv").read_text(encoding="utf-8").splitlines()
     assert lines[:2] == ["# viscofric shift factors", "# reference (degC): 20.0"]
     assert lines[2] == "temperature (degC),log10 shift factor,standard error,cov 1,cov 2,cov 3,cov 4"
@@ -114,7 +114,7 @@ def test_descending_temperatures_are_sorted_with_their_covariance(tmp_path):
 def test_columns_of_covariance_follow_their_rows(tmp_path):
     covariance = np.array([[4.0, 1.0, 0.5], [1.0, 9.0, 2.0], [0.5, 2.0, 16.0]])
     factors = ShiftFactors([260.0, 280.0, 300.0], [3.0, 1.0, 0.0], 300.0, covariance)
-    write_shift_factors(factors, tmp_path / "saved.csv")
+    factors.save(tmp_path / "saved.csv")
     lines = (tmp_path / "saved.csv").read_text(encoding="utf-8").splitlines()
     # Rows turned round, with the columns of covariance numbered as the rows now stand.
     turned = [line.split(",") for line in lines[:2:-1]]
@@ -186,7 +186,7 @@ def test_damaged_tables_are_told(tmp_path, text, told):
 def test_file_that_cannot_be_written_is_told(tmp_path):
     factors = ShiftFactors(CELSIUS + 273.15, LOG10, 293.15)
     with pytest.raises(DataFileError, match="cannot be written"):
-        write_shift_factors(factors, tmp_path / "nowhere" / "saved.csv")
+        factors.save(tmp_path / "nowhere" / "saved.csv")
 
 
 def test_list_of_a_workbook_is_read(tmp_path):

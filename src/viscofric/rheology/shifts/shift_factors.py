@@ -13,6 +13,7 @@ from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
+from viscofric.rheology.shifts.shift_table import ShiftTable, write_shift_table
 from viscofric.units import celsius, kelvin_hint, positive, to_si
 
 if TYPE_CHECKING:
@@ -197,9 +198,8 @@ class ShiftFactors(ShiftLaw):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged."""
-        from viscofric.rheology.shifts.shift_files import write_shift_factors
-
-        write_shift_factors(self, path)
+        table = ShiftTable(self.temperatures, self.log10_values, self.reference, self.covariance, self.notes)
+        write_shift_table(table, path)
 
     @overload
     def law(self, kind: Literal["wlf"], *, above: Quantity | None = None) -> WLF: ...

@@ -5,9 +5,6 @@ The sign is that of E(ω, T) = E(α(T) ω, T0): α falls as the temperature rise
 
 from __future__ import annotations
 
-import csv
-import io
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,7 +18,7 @@ from viscofric.readers.source import Source
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_table import ShiftTable, read_shift_table
-from viscofric.units import CELSIUS_ZERO, celsius, positive
+from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -31,8 +28,6 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
-
-_TITLE = "viscofric shift factors"
 
 
 def read_shift_factors(
@@ -125,42 +120,6 @@ def read_vendor_law(path: str | PathLike[str]) -> WLF:
         return WLF(*found.wlf, found.reference)
     except InputError as error:
         raise DataFileError(source.path, f"the constants in sheet {SHIFT_LIST!r} are no WLF law: {error}") from None
-
-
-def write_shift_factors(factors: ShiftFactors, path: str | PathLike[str]) -> None:
-    """Write shift factors so that `read_shift_factors` returns the same ones, covariance included.
-
-    Parameters
-    ----------
-    factors : ShiftFactors
-        What to write.
-    path : str or path
-        Text table, UTF-8; a file that is there is overwritten.
-
-    Raises
-    ------
-    DataFileError
-        If the file cannot be written.
-    """
-    text = io.StringIO()
-    text.write(f"# {_TITLE}\n# reference (degC): {_in_celsius(factors.reference)}\n")
-    text.writelines(f"# note: {' '.join(note.split())}\n" for note in factors.notes)
-    table = csv.writer(text, lineterminator="\n")
-    size = factors.temperatures.size
-    numbered = [f"cov {place}" for place in range(1, size + 1)]
-    table.writerow(["temperature (degC)", "log10 shift factor", "standard error", *numbered])
-    columns = (factors.temperatures, factors.log10_values, factors.standard_errors, factors.covariance)
-    for kelvin, value, error, covariance in zip(*columns, strict=True):
-        table.writerow([_in_celsius(kelvin), *(repr(float(number)) for number in (value, error, *covariance))])
-    try:
-        Path(path).write_text(text.getvalue(), encoding="utf-8")
-    except (OSError, ValueError) as error:
-        raise DataFileError(path, f"cannot be written ({getattr(error, 'strerror', None) or error}).") from None
-
-
-def _in_celsius(kelvin: float) -> str:
-    # The difference and its way back are exact between half and double of 273.15 (Sterbenz).
-    return repr(float(kelvin) - CELSIUS_ZERO)
 
 
 def _eplexor_list(source: Source) -> ShiftList | None:

@@ -1,10 +1,13 @@
-"""Text tables of shift factors as other programs write them: one column of temperatures, one of log10 aT or aT."""
+"""Text tables of shift factors, ours and those of other programs: temperatures beside log10 aT or aT."""
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +16,8 @@ from viscofric.errors import DataFileError
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
@@ -29,6 +34,7 @@ _UNITS = {"c": (1.0, CELSIUS_ZERO), "k": (1.0, 0.0), "f": (5.0 / 9.0, CELSIUS_ZE
 #: Beyond this neither α nor 1/α is a number that a computer holds.
 _LARGEST_LOGARITHM = 300.0
 
+_TITLE = "viscofric shift factors"
 _REFERENCE = re.compile(r"reference\s*\((?P<unit>[^)]*)\)\s*:\s*(?P<number>[-+0-9.eE]+)\s*$")
 _NOTE = re.compile(r"#\s*note:\s*(?P<text>.*)")
 # "T_C", "temperature (degC)", "T [°C]", "log_aT (-)"
@@ -210,3 +216,41 @@ def _covariance(names: tuple[str, ...], cells: _Cells) -> Array | None:
     if "standarderror" in names:
         return np.diag(cells.column(names.index("standarderror")) ** 2)
     return None
+
+
+def write_shift_table(table: ShiftTable, path: str | PathLike[str]) -> None:
+    """Write a table, with its reference and covariance, so that `read_shift_table` returns the same one.
+
+    Parameters
+    ----------
+    table : ShiftTable
+    path : str or path
+        Text table, UTF-8; a file that is there is overwritten.
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be written.
+    """
+    assert table.reference is not None
+    assert table.covariance is not None
+    text = io.StringIO()
+    text.write(f"# {_TITLE}\n# reference (degC): {_in_celsius(table.reference)}\n")
+    text.writelines(f"# note: {' '.join(note.split())}\n" for note in table.notes)
+    rows = csv.writer(text, lineterminator="\n")
+    size = table.temperatures.size
+    numbered = [f"cov {place}" for place in range(1, size + 1)]
+    rows.writerow(["temperature (degC)", "log10 shift factor", "standard error", *numbered])
+    errors = np.sqrt(np.diag(table.covariance))
+    columns = (table.temperatures, table.log10_values, errors, table.covariance)
+    for kelvin, value, error, covariance in zip(*columns, strict=True):
+        rows.writerow([_in_celsius(kelvin), *(repr(float(number)) for number in (value, error, *covariance))])
+    try:
+        Path(path).write_text(text.getvalue(), encoding="utf-8")
+    except (OSError, ValueError) as error:
+        raise DataFileError(path, f"cannot be written ({getattr(error, 'strerror', None) or error}).") from None
+
+
+def _in_celsius(kelvin: float) -> str:
+    # The difference and its way back are exact between half and double of 273.15 (Sterbenz).
+    return repr(float(kelvin) - CELSIUS_ZERO)
