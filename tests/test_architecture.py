@@ -115,8 +115,7 @@ def own_imports(module: str, text: str, is_package: bool = False) -> Iterator[Im
                 home = ".".join([*parents[:keep], *([home] if home else [])])
             for alias in node.names:
                 inner = f"{home}.{alias.name}"
-                if inner != "viscofric.__version__":
-                    names.append(inner if inner in MODULES else home)
+                names.append(inner if inner in MODULES else home)
         elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(("import_module", "__import__")):
             names = [str(word.value) for word in node.args[:1] if isinstance(word, ast.Constant)]
         for name in names:

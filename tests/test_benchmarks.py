@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

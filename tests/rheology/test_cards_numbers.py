@@ -14,7 +14,7 @@ from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.cards.card import number_text
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import GAS_CONSTANT, WLF, Arrhenius
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 OMEGA = np.logspace(-6, 9, 121)
 DIGITS = 1e-14  # what numbers of 15 digits and more keep

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 
 from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 
 OMEGA = np.logspace(-15, 15, 1000)
 

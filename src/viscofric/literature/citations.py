@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import textwrap
 from dataclasses import dataclass
+from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from viscofric import __version__
 from viscofric.errors import InputError
 from viscofric.literature.basis import basis
 from viscofric.literature.reference import Reference
@@ -133,5 +133,5 @@ def _software() -> Reference:
         "viscofric",
         ("the viscofric authors",),
         title="viscofric",
-        note=f"version {__version__}",
+        note=f"version {version('viscofric')}",
     )

@@ -153,7 +153,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
     dict
         Made for JSON: every number is finite, and what has no value, such as the half width of a line contact, is null.
     """
-    from viscofric import __version__
+    from importlib.metadata import version
 
     diagnostics = solution.diagnostics
     line = solution.geometry == "line"
@@ -203,7 +203,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
     record: dict[str, Any] = _plain(
         {
             "format": "viscofric contact 1",
-            "viscofric": __version__,
+            "viscofric": version("viscofric"),
             "inputs": inputs,
             "results": results,
             "errors": errors,

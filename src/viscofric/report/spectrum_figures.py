@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+    from viscofric.rheology.spectra.retardation import RelaxationSpectrum
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
     Array = NDArray[np.float64]

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.vertical_shift import VerticalShift as VerticalShift
     from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors as VerticalShiftFactors
     from viscofric.rheology.spectra.modulus_table import ModulusTable as ModulusTable
-    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum as RelaxationSpectrum
+    from viscofric.rheology.spectra.retardation import RelaxationSpectrum as RelaxationSpectrum
     from viscofric.rheology.spectra.retardation import RetardationSpectrum as RetardationSpectrum
     from viscofric.rheology.spectra.retardation import SpectrumFit as SpectrumFit
     from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
@@ -64,7 +64,7 @@ _HOME = {
     "VerticalShift": "viscofric.rheology.shifts.vertical_shift",
     "VerticalShiftFactors": "viscofric.rheology.shifts.vertical_shift",
     "ModulusTable": "viscofric.rheology.spectra.modulus_table",
-    "RelaxationSpectrum": "viscofric.rheology.spectra.relaxation",
+    "RelaxationSpectrum": "viscofric.rheology.spectra.retardation",
     "RetardationSpectrum": "viscofric.rheology.spectra.retardation",
     "SpectrumFit": "viscofric.rheology.spectra.retardation",
     "fit_retardation_spectrum": "viscofric.rheology.spectra.spectrum_fit",

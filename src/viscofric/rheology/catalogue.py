@@ -12,8 +12,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, WLFArrhenius
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Callable

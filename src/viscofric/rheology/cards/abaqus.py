@@ -25,7 +25,7 @@ from viscofric.rheology.cards.card import (
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
 from viscofric.rheology.cards.moduli import relative_series, tensile
 from viscofric.rheology.shifts.laws import GAS_CONSTANT, WLF, Arrhenius
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:

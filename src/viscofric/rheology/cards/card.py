@@ -13,7 +13,7 @@ from viscofric.units import CELSIUS_ZERO, conversion
 
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+    from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 #: How a card may count: SI, or tonne, mm, s, N and so MPa, in which density is in t/mm³.
 UnitSystem: TypeAlias = Literal["Pa", "MPa"]

@@ -16,7 +16,7 @@ from viscofric.units import CELSIUS_ZERO, celsius
 if TYPE_CHECKING:
     from viscofric.rheology.cards.card import Writing
     from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+    from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 #: Begins each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
 _MARK = "viscofric>"

@@ -17,7 +17,7 @@ from viscofric.errors import InputError
 from viscofric.rheology.cards.card import Reading, Solid, Writing, card_law, relaxation_of, written_poisson_ratio
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.units import to_si
 
 if TYPE_CHECKING:

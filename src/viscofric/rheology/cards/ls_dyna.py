@@ -29,7 +29,7 @@ from viscofric.rheology.cards.card import (
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
 from viscofric.rheology.cards.moduli import tensile
 from viscofric.rheology.shifts.laws import GAS_CONSTANT, LN10, WLF, Arrhenius
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.spectra.relaxation import RelaxationSpectrum
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 
 #: Shear and bulk modes of a card whose times and ratios agree so well are one relaxation.
 _ALIKE = 1e-9
