@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,14 @@ if TYPE_CHECKING:
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.study.record import CaseRecord
     from viscofric.study.rubber import Rubber
+
+
+class BandColumns(NamedTuple):
+    """What the rubber's uncertainty leaves on friction, a column entry for each record; NaN where that is not known."""
+
+    material_error: Any
+    viscoelastic_lower: Any
+    viscoelastic_upper: Any
 
 
 def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples | None:

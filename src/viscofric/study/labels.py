@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
     from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.study.study_rubber import BandColumns
+    from viscofric.study.bands import BandColumns
 
 #: Variable -> unit, long name.
 MEANING = {

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.errors import StudyError
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
-from viscofric.study.bands import FrictionBands, draw_rubber
+from viscofric.study.bands import BandColumns, FrictionBands, draw_rubber
 from viscofric.study.checking import shift_of
 from viscofric.study.record import CaseRecord
 from viscofric.study.rubber import Rubber, make_rubber
@@ -27,14 +27,6 @@ if TYPE_CHECKING:
     from viscofric.study.record import Record
     from viscofric.study.settings_tables import UncertaintyTable
     from viscofric.study.sweep import AnyCase
-
-
-class BandColumns(NamedTuple):
-    """What the rubber's uncertainty leaves on friction, a column entry for each record; NaN where that is not known."""
-
-    material_error: Any
-    viscoelastic_lower: Any
-    viscoelastic_upper: Any
 
 
 @dataclass(frozen=True, eq=False)

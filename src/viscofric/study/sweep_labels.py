@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.study.bands import BandColumns
     from viscofric.study.record import Failure
-    from viscofric.study.study_rubber import BandColumns
     from viscofric.study.sweep import Axis, Sweep
 
 #: What a case holds besides its numbers: flags with what stands for a case that failed.
