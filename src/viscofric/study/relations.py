@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.study.contact_tables import BallTable
 from viscofric.study.quantities import PerLength
-from viscofric.study.sweep import CONDITIONS, MOST_CASES, axes_of, count_cases
+from viscofric.study.sweep import CONDITIONS, MOST_CASES, axes_of, body_of, coordinates, count_cases
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -76,11 +76,6 @@ def _body(tables: Tables) -> Iterator[Problem]:
 _EXAMPLES = {"load": "25 N", "pressure": "50 kPa"}
 
 
-def body_of(tables: Tables) -> Any:
-    """Return the table of what slides over the rubber; None where that is not known."""
-    return tables.get("indenter") or tables.get("surface")
-
-
 def _loads(tables: Tables) -> Iterator[Problem]:
     if tables.get("indenter") is None or "conditions" not in tables:
         return
@@ -100,24 +95,6 @@ def _thickness(tables: Tables) -> Iterator[Problem]:
         yield "conditions.thickness", words
 
 
-def _known(tables: Tables) -> dict[str, tuple[Any, ...]]:
-    """Return all that can be stepped together, as far as the tables tell it."""
-    known: dict[str, tuple[Any, ...]] = {}
-    if "material" in tables:
-        known["material"] = tuple(material.name for material in tables["material"])
-    if "uncertainty" in tables:
-        known["sample"] = tuple(range(tables["uncertainty"].members + 1))
-    body = body_of(tables)
-    if body is not None:
-        known |= body.axes
-    if tables.get("layer") is not None:
-        known["thickness"] = tables["layer"].thickness
-    if "conditions" in tables:
-        given = {name: getattr(tables["conditions"], name) for name in CONDITIONS}
-        known |= {name: values for name, values in given.items() if values}
-    return known
-
-
 def _together(tables: Tables, known: dict[str, tuple[Any, ...]]) -> list[list[str]]:
     """Return what is stepped together, as far as it is known."""
     groups = tables["sweep"].together if "sweep" in tables else ()
@@ -125,7 +102,7 @@ def _together(tables: Tables, known: dict[str, tuple[Any, ...]]) -> list[list[st
 
 
 def _sweep(tables: Tables) -> Iterator[Problem]:
-    known = _known(tables)
+    known = coordinates(tables)
     whole = all(name in tables for name in ("material", "indenter", "surface", "conditions", "layer"))
     whole = whole and body_of(tables) is not None
     choices = [name for name in known if name != "sample"]
@@ -169,7 +146,7 @@ def _repeated(points: list[tuple[Any, ...]]) -> list[int]:
 
 
 def _size(tables: Tables) -> Iterator[Problem]:
-    known = _known(tables)
+    known = coordinates(tables)
     count = count_cases(axes_of(known, _together(tables, known)))
     if count > MOST_CASES:
         told = " × ".join(f"{len(values):,} {name}" for name, values in known.items() if len(values) > 1)

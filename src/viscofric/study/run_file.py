@@ -88,7 +88,12 @@ class Study(Table):
 
     def problems(self) -> Iterator[Problem]:
         """Yield what does not fit together between the tables."""
-        yield from relations({field.alias or name: getattr(self, name) for name, field in FIELDS.items()})
+        yield from relations(self._tables)
+
+    @property
+    def _tables(self) -> dict[str, Any]:
+        """The tables by their keys in a run file."""
+        return {field.alias or name: getattr(self, name) for name, field in FIELDS.items()}
 
     @property
     def material(self) -> MaterialTable:
@@ -114,7 +119,7 @@ class Study(Table):
         -------
         Sweep
         """
-        return sweep_of(self)
+        return sweep_of(self._tables)
 
 
 FIELDS = Study.model_fields

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.study.run_file import Study
     from viscofric.study.surface_source import SurfaceSource
 
     Values: TypeAlias = tuple[float | str, ...]
@@ -163,16 +162,33 @@ class Sweep:
         return tuple(axis.name for axis in self.axes)
 
 
-def coordinates(study: Study) -> dict[str, Values]:
-    """Return all that a study may vary, each with its values, in the order of the axes."""
-    layer = {} if study.layer is None else {"thickness": study.layer.thickness}
-    return {
-        "material": tuple(material.name for material in study.materials),
-        "sample": tuple(range(study.uncertainty.members + 1)),
-        **study.body.axes,
-        **layer,
-        **{name: values for name in CONDITIONS if (values := getattr(study.conditions, name))},
-    }
+def body_of(tables: Mapping[str, Any]) -> Any:
+    """Return the table of what slides over the rubber; None where that is not known."""
+    return tables.get("indenter") or tables.get("surface")
+
+
+def coordinates(tables: Mapping[str, Any]) -> dict[str, Values]:
+    """Return all that a study may vary, each with its values, in the order of the axes, as far as the tables give it.
+
+    Parameters
+    ----------
+    tables : mapping
+        Those of a run file by their keys, without those that cannot be read.
+    """
+    known: dict[str, Values] = {}
+    if "material" in tables:
+        known["material"] = tuple(material.name for material in tables["material"])
+    if "uncertainty" in tables:
+        known["sample"] = tuple(range(tables["uncertainty"].members + 1))
+    body = body_of(tables)
+    if body is not None:
+        known |= body.axes
+    if tables.get("layer") is not None:
+        known["thickness"] = tables["layer"].thickness
+    if "conditions" in tables:
+        given = {name: getattr(tables["conditions"], name) for name in CONDITIONS}
+        known |= {name: values for name, values in given.items() if values}
+    return known
 
 
 def axes_of(known: Mapping[str, Values], together: Sequence[Sequence[str]]) -> tuple[Axis, ...]:
@@ -187,19 +203,20 @@ def count_cases(axes: Sequence[Axis]) -> int:
     return math.prod(map(len, axes))
 
 
-def sweep_of(study: Study) -> Sweep:
-    """Return all cases of a study; see `Study.sweep`."""
-    axes = axes_of(coordinates(study), study.sweep_table.together)
+def sweep_of(tables: Mapping[str, Any]) -> Sweep:
+    """Return all cases that the tables of a run file ask for; see `Study.sweep`."""
+    axes = axes_of(coordinates(tables), tables["sweep"].together)
+    indenter, base = tables["indenter"], tables["layer"]
     column = _columns(axes)
     layers: dict[float, Layer] = {}
 
     def layer(thickness: float) -> Layer:
         if thickness not in layers:
-            layers[thickness] = Layer(thickness, bonded=study.layer is None or study.layer.base == "bonded")
+            layers[thickness] = Layer(thickness, bonded=base.base == "bonded")
         return layers[thickness]
 
-    body = study.body
-    make = study.indenter.indenter if study.indenter is not None else study.surface.source  # type: ignore[union-attr]
+    body = body_of(tables)
+    make = body.source if indenter is None else indenter.indenter
     made: dict[tuple[Any, ...], Any] = {}
 
     def one(*values: Any) -> Any:
@@ -211,12 +228,12 @@ def sweep_of(study: Study) -> Sweep:
     bodies = map(one, *(column[name] for name in body.axes)) if body.axes else itertools.repeat(one(), count)
     first, then = ((column["material"], bodies), (column["temperature"], column["speed"]))
     last = (
-        itertools.repeat(None) if study.layer is None else map(layer, column["thickness"]),
+        itertools.repeat(None) if base is None else map(layer, column["thickness"]),
         itertools.repeat(body.modulus),
         itertools.repeat(body.poisson_ratio),
         (number or None for number in column["sample"]),
     )
-    if study.indenter is not None:
+    if indenter is not None:
         return Sweep(axes, tuple(map(Case, *first, *then, map(float, column["load"]), *last)))
     toward = column.get("direction", itertools.repeat(0.0))
     return Sweep(axes, tuple(map(SurfaceCase, *first, *then, column["pressure"], toward, *last)))
