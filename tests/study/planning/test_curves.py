@@ -12,7 +12,8 @@ import pytest
 import viscofric as vf
 from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from viscofric.study.planning.conditions import Rubbers, Settings, task_of
-from viscofric.study.planning.families import Placing, Representative
+from viscofric.study.planning.curve_records import Representative
+from viscofric.study.planning.families import Placing
 from viscofric.study.planning.numbers import ERRORS, NAMES, Node, units_of
 from viscofric.study.planning.plan import Outcome, plan_cases
 from viscofric.study.record import CaseRecord, Failure

@@ -9,40 +9,25 @@ numbers over their units (see `viscofric.contact.free.scale`).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from viscofric.contact.counterface import indenter_compliance
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Ball, Cylinder
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid
 from viscofric.errors import InputError
-from viscofric.study.planning.between import records_between
-from viscofric.study.planning.curve import STEP, Curve
-from viscofric.study.planning.numbers import Node
-from viscofric.study.solving import Task
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    import numpy as np
-    from numpy.typing import NDArray
-
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
     from viscofric.rheology.material import Material
-    from viscofric.study.planning.conditions import Rubbers, Settings
-    from viscofric.study.planning.curve import Interval
-    from viscofric.study.record import CaseRecord, Failure
+    from viscofric.study.planning.conditions import Rubbers
     from viscofric.study.sweep import Case
 
-    Array: TypeAlias = NDArray[np.float64]
-
-# Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
-_LOW_SLOPE = 0.01
-_BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
-_NONE = 0.0  # temperature that is written down for rubbers without a shift, K
+#: Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
+LOW_SLOPE = 0.01
+_BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(LOW_SLOPE)
 
 
 @dataclass(frozen=True)
@@ -129,7 +114,7 @@ class Placing:
             modulus,
             case.indenter_poisson_ratio,
         )
-        scale = self.scale(case.indenter, _stiffness(material, family), case.load / b)
+        scale = self.scale(case.indenter, stiffness_of(material, family), case.load / b)
         return Place(family, math.log(alpha * case.speed / scale.length), scale, b, math.log(alpha))
 
     def scale(self, indenter: Indenter, stiffness: float, load: float) -> Scale:
@@ -138,75 +123,6 @@ class Placing:
         if key not in self._scales:
             self._scales[key] = Scale.for_load(*key)
         return self._scales[key]
-
-
-@dataclass(frozen=True, eq=False)
-class Representative:
-    """The contacts that are solved for a family: those of its rubber at the reference temperature.
-
-    Attributes
-    ----------
-    family : Family
-    material : Material
-    settings : Settings
-    """
-
-    family: Family
-    material: Material
-    settings: Settings
-
-    @cached_property
-    def load(self) -> float:
-        """N, or N/m."""
-        if self.family.load is not None:
-            return self.family.load
-        indenter = self.family.indenter
-        stiffness = _stiffness(self.material, self.family)
-        scale = Scale.for_indentation(indenter, stiffness, _LOW_SLOPE**2)
-        return indenter.geometry.parabolic_load * scale.force
-
-    @cached_property
-    def scale(self) -> Scale:
-        """Units of these contacts."""
-        return Scale.for_load(self.family.indenter, _stiffness(self.material, self.family), self.load)
-
-    @cached_property
-    def _unplaced(self) -> Task:
-        reference = self.material.reference
-        return Task(
-            self.material.modes_at(None),
-            self.material.poisson_ratio,
-            self.family.indenter,
-            speed=self.scale.length,
-            load=self.load,
-            temperature=_NONE if reference is None else reference,
-            accuracy=self.settings.accuracy,
-            layer=self.family.layer,
-            indenter_modulus=self.family.indenter_modulus,
-            indenter_poisson_ratio=self.family.indenter_poisson_ratio,
-            sensitive=self.settings.sensitive and self.family.rubber[1] is None,
-        )
-
-    def curve(self, places: Array) -> Curve:
-        """Return the curve on which cases lie, given s of each."""
-        return Curve(places, self.settings.accuracy)
-
-    def node(self, record: CaseRecord) -> Node:
-        """Return what was solved as a node of the curve."""
-        return Node.of(record, self.scale)
-
-    def between(
-        self, curve: Curve, one: Interval, cases: Sequence[Case], places: Sequence[Place]
-    ) -> Iterator[tuple[int, CaseRecord | Failure]]:
-        """Yield the records of the cases of a closed interval; see `records_between`."""
-        yield from records_between(curve, one, cases, places, self)
-
-    def task(self, node: int) -> Task:
-        """Return what is to be solved at a node of the curve."""
-        frequency = math.exp(STEP * node)
-        return replace(
-            self._unplaced, speed=self.scale.length * frequency, label=f"friction curve at αv/a = {frequency:.3g} 1/s"
-        )
 
 
 def representative(indenter: Indenter) -> Indenter | None:
@@ -223,7 +139,7 @@ def representative(indenter: Indenter) -> Indenter | None:
     return None
 
 
-def _stiffness(material: Material, family: Family) -> float:
+def stiffness_of(material: Material, family: Family) -> float:
     """Modulus of the relaxed contact at the reference temperature, Pa."""
     compliance = indenter_compliance(family.indenter_modulus, family.indenter_poisson_ratio)
     return 1.0 / ((1.0 - material.poisson_ratio**2) / material.modes_at(None).E0 + compliance)

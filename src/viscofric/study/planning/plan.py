@@ -9,7 +9,8 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.study.planning.conditions import Rubbers, Settings, label_of, task_of
-from viscofric.study.planning.families import Placing, Representative
+from viscofric.study.planning.curve_records import Representative
+from viscofric.study.planning.families import Placing
 from viscofric.study.planning.surfaces import SurfaceFamily, SurfaceRepresentative, surface_place
 from viscofric.study.record import Failure, Record
 from viscofric.study.sweep import SurfaceCase
