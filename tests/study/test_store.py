@@ -11,8 +11,8 @@ import pytest
 from study import sweeps
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
+from viscofric.study.keys import _sources, case_key
 from viscofric.study.record import Failure
-from viscofric.study.solving import _sources, case_key
 from viscofric.study.store import CaseStore, Damaged
 
 if TYPE_CHECKING:

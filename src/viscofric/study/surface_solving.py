@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.rheology.material import Material
-from viscofric.study.solving import case_key, modes_written, written
+from viscofric.study.keys import case_key, modes_written, written
 from viscofric.study.surface_record import SurfaceRecord
 from viscofric.study.surface_source import surface_of, unit_vector
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from viscofric.processes import Workers, as_they_come
+from viscofric.study.keys import solver_fingerprint
 from viscofric.study.running.task import Lost, attempt, take
-from viscofric.study.solving import solver_fingerprint
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence

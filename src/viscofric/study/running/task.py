@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
+from viscofric.study.keys import solver_fingerprint
 from viscofric.study.record import Failure, Record
-from viscofric.study.solving import solver_fingerprint
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
