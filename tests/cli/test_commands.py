@@ -19,7 +19,7 @@ from click.testing import CliRunner, Result
 from viscofric.cli import main
 from viscofric.cli.run import tell
 from viscofric.study import open_results
-from viscofric.study.results import save_results
+from viscofric.study.results_file import save_results
 
 if TYPE_CHECKING:
     import xarray

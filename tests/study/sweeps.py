@@ -13,7 +13,8 @@ import xarray
 import viscofric as vf
 from viscofric.study.labels import dataset
 from viscofric.study.record import CaseRecord, ContactFields, Failure
-from viscofric.study.results import StudyResults, provenance, save_results
+from viscofric.study.results import StudyResults, provenance
+from viscofric.study.results_file import save_results
 from viscofric.study.sweep import Axis, Case, Sweep
 from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 

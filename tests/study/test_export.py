@@ -14,7 +14,7 @@ import xarray
 from study.sweeps import friction_of, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
 from viscofric.study import workbook
-from viscofric.study.export import FORMS, export_results
+from viscofric.study.export import FORMS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -110,7 +110,7 @@ def test_labelled_cases_come_back_from_other_formats(tmp_path: Path, form: Any) 
         pytest.importorskip("zarr", reason="the extra zarr is not installed")
     results = made_results(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[3])
     for _ in range(2):  # the second time in place of the first
-        path = export_results(results, form)
+        path = results.export(form)
     opened = xarray.open_dataset(path, engine="h5netcdf") if form == "netcdf" else xarray.open_zarr(path)
     with opened as found:
         xarray.testing.assert_equal(found.load(), results.dataset)
@@ -123,7 +123,7 @@ def test_labelled_cases_come_back_from_other_formats(tmp_path: Path, form: Any) 
 def test_without_zarr_is_a_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "zarr", None)
     with pytest.raises(InputError, match=r"viscofric\[zarr\]"):
-        export_results(made_results(tmp_path), "zarr")
+        made_results(tmp_path).export("zarr")
 
 
 def test_nothing_else_is_replaced(tmp_path: Path) -> None:
@@ -132,12 +132,12 @@ def test_nothing_else_is_replaced(tmp_path: Path) -> None:
     (tmp_path / "folder" / "precious.txt").touch()
     for form in FORMS:
         with pytest.raises(DataFileError):
-            export_results(results, form, tmp_path / "folder")
+            results.export(form, tmp_path / "folder")
         with pytest.raises(InputError, match="the results themselves"):
-            export_results(results, form, tmp_path / "results.nc")
+            results.export(form, tmp_path / "results.nc")
     assert (tmp_path / "folder" / "precious.txt").exists()
     with pytest.raises(InputError, match="must be 'csv', 'excel'"):
-        export_results(results, "xml")  # type: ignore[arg-type]
+        results.export("xml")  # type: ignore[arg-type]
 
 
 def test_places_of_measured_points_come_first(tmp_path: Path) -> None:

@@ -18,9 +18,9 @@ from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
 from viscofric.report.messages import grouped_failures
 from viscofric.study.contacts import Solved
-from viscofric.study.export import export_results
 from viscofric.study.places import place_in
-from viscofric.study.results import input_hashes, save_results
+from viscofric.study.results import input_hashes
+from viscofric.study.results_file import save_results
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -79,7 +79,7 @@ def test_a_netcdf_file_of_others_is_told(tmp_path: Path) -> None:
 def test_exported_cases_and_the_folder_above_are_not_taken_for_results(tmp_path: Path) -> None:
     folder = tmp_path / "größe.results"
     made = made_results(folder)
-    exported = export_results(made, "netcdf")
+    exported = made.export("netcdf")
     with pytest.raises(DataFileError, match="holds the cases alone"):
         vf.open_results(exported)
     with pytest.raises(DataFileError, match=f"there are results in {folder}"):

@@ -11,7 +11,6 @@ import pytest
 import viscofric as vf
 from viscofric.study import open_results, run_study
 from viscofric.study.checking import check_study
-from viscofric.study.export import export_results
 from viscofric.study.planning import plan_cases
 from viscofric.study.record import Failure
 from viscofric.study.run_file import parse_study
@@ -131,7 +130,7 @@ def test_stored_results_are_taken_up_and_exported(results: StudyResults) -> None
     )
     assert solved == []
     assert again.dataset.equals(results.dataset)
-    table = Path(export_results(results, "csv")).read_text(encoding="utf-8")
+    table = Path(results.export("csv")).read_text(encoding="utf-8")
     heading, *rows = [line for line in table.splitlines() if not line.startswith("#")]
     assert heading.startswith("seed,pressure (Pa),temperature (degC),speed (m/s),friction_coefficient,")
     assert len(rows) == 8

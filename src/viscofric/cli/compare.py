@@ -36,7 +36,7 @@ def command(first: Path, second: Path, tolerance: float | None, as_json: bool) -
     Exit status: 0 the same cases with the same values, 1 something differs, 2 they cannot be compared.
     """
     from viscofric.errors import ViscofricError
-    from viscofric.study.compare import compare_results
+    from viscofric.study.results import compare_results
 
     try:
         found = compare_results(first, second, tolerance=tolerance)

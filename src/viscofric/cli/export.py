@@ -52,11 +52,11 @@ def command(results: Path, forms: tuple[str, ...], output: Path | None) -> None:
     with told():
         from viscofric.study import open_results
         from viscofric.study.columns import table_text
-        from viscofric.study.export import FORMS, export_results
+        from viscofric.study.export import FORMS
 
         found = open_results(results)
         if output == DASH:
-            click.echo(table_text(found), nl=False)
+            click.echo(table_text(found.dataset), nl=False)
             return
         for form in forms:
-            click.echo(f"{form:<8} {export_results(found, FORMS[list(_ENDINGS).index(form)], output)}")
+            click.echo(f"{form:<8} {found.export(FORMS[list(_ENDINGS).index(form)], output)}")

@@ -8,9 +8,9 @@ from viscofric.lazy import loaded_when_used
 
 if TYPE_CHECKING:
     from viscofric.study.compare import ResultsComparison as ResultsComparison
-    from viscofric.study.compare import compare_results as compare_results
     from viscofric.study.execution import run_study as run_study
     from viscofric.study.results import StudyResults as StudyResults
+    from viscofric.study.results import compare_results as compare_results
     from viscofric.study.results import open_results as open_results
     from viscofric.study.run_file import Study as Study
     from viscofric.study.run_file import load_study as load_study
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 # public name -> the module that defines it
 _HOME = {
     "ResultsComparison": "viscofric.study.compare",
-    "compare_results": "viscofric.study.compare",
+    "compare_results": "viscofric.study.results",
     "run_study": "viscofric.study.execution",
     "StudyResults": "viscofric.study.results",
     "open_results": "viscofric.study.results",

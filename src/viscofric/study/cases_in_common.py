@@ -10,12 +10,13 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path, read_text
 from viscofric.study.columns import PLACES, TITLE, over_all_dimensions, read_table_text
-from viscofric.study.results import StudyResults, open_results
+from viscofric.study.results_file import cases_of, open_tree
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    import xarray
     from numpy.typing import NDArray
 
     from viscofric.friction.curves import FrictionCurves
@@ -62,27 +63,20 @@ class CaseTable:
     attributes: dict[Any, Any] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, given: StudyResults | FrictionCurves | str | Path) -> CaseTable:
-        """Make a table of results or friction curves, or of the file that holds them."""
-        if isinstance(given, StudyResults):
-            return cls._of_results(given)
-        from viscofric.friction.curves import FrictionCurves
-
-        if isinstance(given, FrictionCurves):
-            return cls._of_curves(given)
-        if file_path(given).suffix.lower() in _TABLES:
-            return cls._of_table(given)
-        return cls._of_results(open_results(given))
+    def of_file(cls, path: str | Path) -> CaseTable:
+        """Read results, the table that they were exported to, or a table of friction curves."""
+        return cls._of_table(path) if file_path(path).suffix.lower() in _TABLES else cls.of_tree(*open_tree(path))
 
     @classmethod
-    def _of_results(cls, results: StudyResults) -> CaseTable:
-        dataset = results.dataset
+    def of_tree(cls, tree: xarray.DataTree, folder: Path) -> CaseTable:
+        """Return the cases of results that lie in a folder."""
+        dataset = cases_of(tree, folder)
         columns = {str(name): over_all_dimensions(dataset, str(name)).ravel() for name in dataset.variables}
         places = [str(name) for name in dataset.coords] or [name for name in _COORDINATES if name in columns]
         friction = columns["friction_coefficient"]
         units = {name: str(dataset[name].attrs.get("units", "1")) for name in columns}
         solved = np.isfinite(friction)
-        return cls(str(results.folder), tuple(places), columns, units, solved, dict(dataset.attrs))
+        return cls(str(folder), tuple(places), columns, units, solved, dict(dataset.attrs))
 
     @classmethod
     def _of_table(cls, path: str | Path) -> CaseTable:
@@ -91,7 +85,7 @@ class CaseTable:
         if not text.startswith(f"# {TITLE}"):
             from viscofric.friction.curve_files import read_friction_curves
 
-            return cls._of_curves(read_friction_curves(path), str(path))
+            return cls.of_curves(read_friction_curves(path), str(path))
         try:
             attributes, units, columns = read_table_text(text)
             solved = np.isfinite(columns["friction_coefficient"])
@@ -101,7 +95,8 @@ class CaseTable:
         return cls(str(path), places, columns, units, solved, dict(attributes))
 
     @classmethod
-    def _of_curves(cls, curves: FrictionCurves, name: str = "friction curves") -> CaseTable:
+    def of_curves(cls, curves: FrictionCurves, name: str = "friction curves") -> CaseTable:
+        """Return the points of friction curves."""
         columns = {own: np.asarray(getattr(curves, theirs), dtype=float) for own, theirs in _OF_CURVES.items()}
         units = {"speed": "m/s", "temperature": "K", "load": curves.load_unit}
         units = {own: units.get(own, "1") for own in columns}

@@ -10,10 +10,9 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.study.integrity import DIGEST
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
-from viscofric.study.results import RESULTS_FILE, open_results
+from viscofric.study.results_file import DIGEST, RESULTS_FILE, open_tree
 from viscofric.study.rubber import make_rubber
 from viscofric.study.running.folder import CASES_FOLDER
 from viscofric.study.store import CaseStore
@@ -190,7 +189,7 @@ def check_results(folder: Path) -> CheckedResults:
             damaged[file] = found.reason
     if finished:
         try:
-            if DIGEST not in open_results(folder).tree.attrs:
+            if DIGEST not in open_tree(folder)[0].attrs:
                 unverified.append(target)
         except DataFileError as error:
             damaged[target] = error.problem

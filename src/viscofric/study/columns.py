@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.study.results_file import rubbers_of
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     import xarray
-
-    from viscofric.study.results import StudyResults
 
 #: How a table of results begins, after its ``#``.
 TITLE = "viscofric results"
@@ -52,13 +51,13 @@ _TOLD = {
 }
 
 
-def table_text(results: StudyResults) -> str:
-    """Return the table of `export_results`: lines with ``#``, a line of headings, a row for each case."""
+def table_text(cases: xarray.Dataset) -> str:
+    """Return the cases of results as a table: lines with ``#``, a line of headings, a row for each case."""
     text = io.StringIO()
-    for line in about(results.dataset.attrs):
+    for line in about(cases.attrs):
         text.write(f"# {line}\n")
     writer = csv.writer(text, lineterminator="\n")
-    names, units, columns = columns_of(results.dataset)
+    names, units, columns = columns_of(cases)
     writer.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
     writer.writerows(zip(*(map(written, column) for column in columns), strict=True))
     return text.getvalue()
@@ -168,14 +167,13 @@ def written(value: Any) -> str:
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)
 
 
-def tables(results: StudyResults) -> Iterator[tuple[str, xarray.Dataset]]:
-    """Yield all tables of results with their names, the cases first; those of several rubbers named after them."""
-    yield "prediction", results.dataset
-    for name, group in _tables_of(results.tree):
+def tables(tree: xarray.DataTree) -> Iterator[tuple[str, xarray.Dataset]]:
+    """Yield the tables of results beside the cases, with their names; those of several rubbers named after them."""
+    for name, group in _tables_of(tree):
         if name != "prediction":
             yield name, group
-    if "materials" in results.tree.children:
-        for called, branch in results.materials.items():
+    if "materials" in tree.children:
+        for called, branch in rubbers_of(tree).items():
             for name, group in _tables_of(branch):
                 yield f"{called} {name}", group
 

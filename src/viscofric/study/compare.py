@@ -7,18 +7,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import number
-from viscofric.errors import InputError, brief
 from viscofric.study.cases_in_common import CaseTable, common_cases
 from viscofric.study.provenance_differences import provenance_differences
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from numpy.typing import NDArray
-
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.results import StudyResults
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -110,45 +103,8 @@ class ResultsComparison:
         return same_cases and all(difference.equal for difference in self.differences)
 
 
-def compare_results(
-    first: StudyResults | FrictionCurves | str | Path,
-    second: StudyResults | FrictionCurves | str | Path,
-    *,
-    tolerance: float | None = None,
-) -> ResultsComparison:
-    """Compare two results case by case.
-
-    Parameters
-    ----------
-    first, second : StudyResults, FrictionCurves, str or Path
-        Results, their folder or file, or friction curves, or a table of these (CSV).
-    tolerance : float, optional
-        Largest relative difference that counts as none: 0 asks for the same digits.  Without it, differences within
-        twice the combined stated errors count as none (within the accuracy, of variables without a stated error).
-
-    Returns
-    -------
-    ResultsComparison
-
-    Raises
-    ------
-    DataFileError
-        If results cannot be read.
-    InputError
-        If they have no case or no variable in common, or the tolerance is none.
-
-    Examples
-    --------
-    >>> import viscofric as vf
-    >>> rubber, ball = vf.synthetic_fluoroelastomer(), vf.Ball("9.525 mm")
-    >>> case = dict(speeds=[0.02, 0.2], temperatures="60 degC", load="5 N")
-    >>> rough, fine = (vf.predict_friction(rubber, ball, accuracy=one, **case) for one in (1e-2, 1e-3))
-    >>> vf.compare_results(rough, fine, tolerance=1e-2).equal
-    True
-    """
-    if tolerance is not None and number(tolerance, "tolerance") < 0.0:
-        raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.")
-    one, other = CaseTable.of(first), CaseTable.of(second)
+def compare_tables(one: CaseTable, other: CaseTable, tolerance: float | None) -> ResultsComparison:
+    """Compare two tables case by case; see `viscofric.compare_results`."""
     pairs = common_cases(one, other)
     accuracy = max(table.accuracy or 0.0 for table in (one, other)) or _USUAL_ACCURACY
     names = [name for name in COMPARED if name in one.columns and name in other.columns]

@@ -14,10 +14,10 @@ from viscofric.notes import Note
 from viscofric.study import labels
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.contacts import Contacts, Solved, doubts
-from viscofric.study.export import export_results
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.record import Failure
-from viscofric.study.results import StudyResults, beyond_accuracy, input_hashes, provenance, save_results
+from viscofric.study.results import StudyResults, beyond_accuracy, input_hashes, provenance
+from viscofric.study.results_file import save_results
 from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.run_file import parse_study, read_study_text
 from viscofric.study.running import Event, choose_executor, run_plan, silent, study_folder
@@ -129,7 +129,7 @@ def run_study(
         save_results(tree, folder)
         results = StudyResults(tree, folder)
         for form in study.outputs.formats:
-            export_results(results, form)
+            results.export(form)
     return results
 
 

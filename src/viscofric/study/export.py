@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING, Literal, get_args
 from viscofric.errors import DataFileError, InputError, check_choice, not_imported
 from viscofric.files import file_path, write_atomically
 from viscofric.study.columns import table_text
-from viscofric.study.results import RESULTS_FILE
+from viscofric.study.results_file import RESULTS_FILE, cases_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import xarray
-
-    from viscofric.study.results import StudyResults
 
 Form = Literal["csv", "excel", "netcdf", "zarr"]
 FORMS: tuple[Form, ...] = get_args(Form)
@@ -31,44 +29,23 @@ NAMES: dict[Form, str] = {
 }
 
 
-def export_results(results: StudyResults, form: Form, path: str | Path | None = None) -> Path:
-    """Write results for other programs.
-
-    Parameters
-    ----------
-    results : StudyResults
-        Of a study with a prediction.
-    form : {"csv", "excel", "netcdf", "zarr"}
-        A table with a row for each case; a workbook with all tables; the labelled cases alone, as netCDF or zarr.
-    path : str or Path, optional
-        File, or for zarr folder, replaced if it exists; in the folder of the results if not given.
-
-    Returns
-    -------
-    Path
-        What was written.
-
-    Raises
-    ------
-    InputError
-        If there is no prediction, the format is unknown, or zarr is not installed.
-    DataFileError
-        If it cannot be written.
-    """
+def export_results(tree: xarray.DataTree, folder: Path, form: Form, path: str | Path | None = None) -> Path:
+    """Write results that lie in a folder for other programs; see `StudyResults.export`."""
     check_choice(form, "form", *FORMS)
-    target = results.folder / NAMES[form] if path is None else file_path(path)
-    if target.resolve() == (results.folder / RESULTS_FILE).resolve():
+    target = folder / NAMES[form] if path is None else file_path(path)
+    if target.resolve() == (folder / RESULTS_FILE).resolve():
         raise InputError(f"{target} holds the results themselves; choose another name.")
+    cases = cases_of(tree, folder)
     if form == "csv":
-        write_atomically(target, table_text(results).encode())
+        write_atomically(target, table_text(cases).encode())
     elif form == "excel":
         from viscofric.study.workbook import workbook
 
-        write_atomically(target, workbook(results))
+        write_atomically(target, workbook(tree, cases))
     elif form == "netcdf":
-        _write_netcdf(results.dataset, target)
+        _write_netcdf(cases, target)
     else:
-        _write_zarr(results.dataset, target)
+        _write_zarr(cases, target)
     return target
 
 

@@ -5,48 +5,34 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import os
 import platform
-import tempfile
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import number
 from viscofric.contact.free.estimates import FRICTION_FLOOR
-from viscofric.errors import DataFileError, InputError
-from viscofric.files import file_path, insist_on_true_size
-from viscofric.study.integrity import DIGEST, digest, what_helps, what_is_wrong
+from viscofric.errors import InputError, brief
+from viscofric.study.cases_in_common import CaseTable
+from viscofric.study.compare import compare_tables
+from viscofric.study.export import export_results
+from viscofric.study.results_file import cases_of, open_tree, rubbers_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
     import xarray
     from numpy.typing import NDArray
 
+    from viscofric.friction.curves import FrictionCurves
     from viscofric.study.compare import ResultsComparison
+    from viscofric.study.export import Form
 
-RESULTS_FILE = "results.nc"
-_PREDICTION = "prediction"
 _ROUNDING = 1e-9
-#: Attributes of the whole that a data set taken out of it keeps: what it is, and where it comes from.
-_ABOUT = (
-    "title",
-    "data_origin",
-    "accuracy",
-    "seed",
-    "indenter",
-    "study_file",
-    "study_text",
-    "input_hashes",
-    "failures",
-    "viscofric_version",
-    "created",
-    "software",
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,26 +63,42 @@ class StudyResults:
         InputError
             If the results are of a rubber alone.
         """
-        if _PREDICTION not in self.tree.children:
-            raise InputError(f"{self.folder}: these are results of a rubber alone, without a prediction of friction.")
-        found = self.tree[_PREDICTION].to_dataset()
-        return found.assign_attrs({name: self.tree.attrs[name] for name in _ABOUT if name in self.tree.attrs})
+        return cases_of(self.tree, self.folder)
 
     @property
     def materials(self) -> dict[str, xarray.DataTree]:
         """What is known of each rubber, by its name: its sweeps, shift factors, master curve and spectrum."""
-        branches = self.tree.children.get("materials")
-        if branches is None:
-            return {str(self.tree.attrs.get("material", "")): self.tree}
-        told = self.dataset.coords["material"].values.tolist() if _PREDICTION in self.tree.children else []
-        names = dict(enumerate(map(str, told), 1))
-        return {names.get(int(number), number): branch for number, branch in branches.children.items()}
+        return rubbers_of(self.tree)
 
     @property
     def fields(self) -> dict[int, xarray.Dataset]:
         """Pressure and displacement of the cases that kept them, by the number of the case (from 1)."""
         kept = self.tree.children.get("fields")
         return {} if kept is None else {int(number): node.to_dataset() for number, node in kept.children.items()}
+
+    def export(self, form: Form, path: str | Path | None = None) -> Path:
+        """Write for other programs; see `viscofric.study.export.FORMS`.
+
+        Parameters
+        ----------
+        form : {"csv", "excel", "netcdf", "zarr"}
+            A table with a row for each case; a workbook with all tables; the labelled cases alone, as netCDF or zarr.
+        path : str or Path, optional
+            File, or for zarr folder, replaced if it exists; in the folder of the results if not given.
+
+        Returns
+        -------
+        Path
+            What was written.
+
+        Raises
+        ------
+        InputError
+            If there is no prediction, the format is unknown, or zarr is not installed.
+        DataFileError
+            If it cannot be written.
+        """
+        return export_results(self.tree, self.folder, form, path)
 
     def to_csv(self, path: str | Path) -> Path:
         """Write the cases as a table (CSV): a row each, units in the headings, provenance in lines with ``#``.
@@ -111,20 +113,14 @@ class StudyResults:
         DataFileError
             If it cannot be written.
         """
-        from viscofric.study.export import export_results
-
-        return export_results(self, "csv", path)
+        return self.export("csv", path)
 
     def to_excel(self, path: str | Path) -> Path:
         """Write everything as a workbook (.xlsx), a sheet for each table; see `to_csv`."""
-        from viscofric.study.export import export_results
-
-        return export_results(self, "excel", path)
+        return self.export("excel", path)
 
     def compare(self, other: StudyResults, *, tolerance: float | None = None) -> ResultsComparison:
         """Compare with other results; see `viscofric.compare_results`."""
-        from viscofric.study.compare import compare_results
-
         return compare_results(self, other, tolerance=tolerance)
 
     @property
@@ -207,64 +203,57 @@ def open_results(path: str | Path) -> StudyResults:
     >>> float(results.dataset["indentation"].sel(temperature=333.15)) > 0.0
     True
     """
-    import h5netcdf  # noqa: F401 - what is wrong with it is nothing of the file's
-    import xarray
-
-    file = file_path(path)
-    if file.is_dir():
-        file = file / RESULTS_FILE
-        solved = 0 if file.is_file() else sum(1 for _ in file.parent.glob("cases/*.json"))
-        if solved:
-            raise DataFileError(
-                file,
-                f"no such file: the study has not been finished.  Contacts solved so far: {solved}.  Running it with "
-                "--resume completes it; with --finished-only, it puts together what is there.",
-            )
-    if not file.is_file():
-        raise DataFileError(file, f"no such results file; {_where_they_are(file.parent)}")
-    try:
-        insist_on_true_size(file)
-        with xarray.open_datatree(file, engine="h5netcdf", phony_dims="access") as stored:
-            tree = stored.load()
-            found = digest(tree)
-    except Exception as error:  # h5py raises many kinds; the file tells more than they do
-        raise DataFileError(file, what_is_wrong(file, error)) from error
-    if "viscofric_version" not in tree.attrs:
-        raise DataFileError(file, "is a netCDF file, but not one of results of viscofric.")
-    if not tree.children:
-        raise DataFileError(
-            file,
-            "holds the cases alone, as exported for other programs (xarray.open_dataset reads it); give the folder of "
-            "the study's results.",
-        )
-    if tree.attrs.get(DIGEST, found) != found:
-        raise DataFileError(file, f"is damaged: it does not hold what was written into it.{what_helps(file)}")
-    return StudyResults(tree, file.parent)
+    return StudyResults(*open_tree(path))
 
 
-def _where_they_are(folder: Path) -> str:
-    """Say what to do where a folder holds no results."""
-    near = sorted(other.parent for other in folder.glob(f"*/{RESULTS_FILE}"))
-    return f"there are results in {near[0]}." if near else "run the study first."
+def compare_results(
+    first: StudyResults | FrictionCurves | str | Path,
+    second: StudyResults | FrictionCurves | str | Path,
+    *,
+    tolerance: float | None = None,
+) -> ResultsComparison:
+    """Compare two results case by case.
+
+    Parameters
+    ----------
+    first, second : StudyResults, FrictionCurves, str or Path
+        Results, their folder or file, or friction curves, or a table of these (CSV).
+    tolerance : float, optional
+        Largest relative difference that counts as none: 0 asks for the same digits.  Without it, differences within
+        twice the combined stated errors count as none (within the accuracy, of variables without a stated error).
+
+    Returns
+    -------
+    ResultsComparison
+
+    Raises
+    ------
+    DataFileError
+        If results cannot be read.
+    InputError
+        If they have no case or no variable in common, or the tolerance is none.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber, ball = vf.synthetic_fluoroelastomer(), vf.Ball("9.525 mm")
+    >>> case = dict(speeds=[0.02, 0.2], temperatures="60 degC", load="5 N")
+    >>> rough, fine = (vf.predict_friction(rubber, ball, accuracy=one, **case) for one in (1e-2, 1e-3))
+    >>> vf.compare_results(rough, fine, tolerance=1e-2).equal
+    True
+    """
+    if tolerance is not None and number(tolerance, "tolerance") < 0.0:
+        raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.")
+    return compare_tables(_table_of(first), _table_of(second), tolerance)
 
 
-def save_results(tree: xarray.DataTree, folder: Path) -> Path:
-    """Write a tree to a folder's ``results.nc``; the file is there whole or not at all."""
-    target = folder / RESULTS_FILE
-    tree.attrs[DIGEST] = digest(tree)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder, prefix=".results.") as temporary:
-            path = Path(temporary) / RESULTS_FILE
-            tree.to_netcdf(path, engine="h5netcdf")
-            with path.open("rb+") as file:
-                os.fsync(file.fileno())
-            path.replace(target)
-    except (OSError, RuntimeError) as error:  # RuntimeError: HDF5, where it closes a file on a full disk
-        # h5py buries the reason in a long text of its own, and gives only the number apart.
-        number = getattr(error, "errno", None)
-        raise DataFileError(target, f"cannot be written ({os.strerror(number) if number else error}).") from error
-    return target
+def _table_of(given: StudyResults | FrictionCurves | str | Path) -> CaseTable:
+    """Return the cases of results or friction curves, or of the file that holds them."""
+    if isinstance(given, StudyResults):
+        return CaseTable.of_tree(given.tree, given.folder)
+    from viscofric.friction.curves import FrictionCurves
+
+    return CaseTable.of_curves(given) if isinstance(given, FrictionCurves) else CaseTable.of_file(given)
 
 
 def input_hashes(inputs: Iterable[Path], beside: Path | None = None) -> str:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from viscofric.rheology.cards import CardFormat, CardLaw, write_card
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.bands import draw_rubber
-from viscofric.study.results import StudyResults, input_hashes, provenance, save_results
+from viscofric.study.results import StudyResults, input_hashes, provenance
+from viscofric.study.results_file import save_results
 from viscofric.study.rubber import make_rubber
 from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.tables import write_master_curve, write_spectrum

@@ -12,9 +12,9 @@ from viscofric.errors import InputError
 from viscofric.study.columns import about, columns_of, tables
 
 if TYPE_CHECKING:
-    import xarray
+    from collections.abc import Mapping
 
-    from viscofric.study.results import StudyResults
+    import xarray
 
 #: Rows that a sheet of this format has at most.
 MOST_ROWS = 1_048_576
@@ -24,12 +24,15 @@ _NARROWEST, _WIDEST = 8, 60
 _SENTENCES = ("warnings", "notes")
 
 
-def workbook(results: StudyResults) -> bytes:
+def workbook(tree: xarray.DataTree, cases: xarray.Dataset) -> bytes:
     """Return results as the bytes of a workbook, the same each time.
 
     Parameters
     ----------
-    results : StudyResults
+    tree : DataTree
+        Of the results.
+    cases : Dataset
+        The predicted ones of them.
 
     Returns
     -------
@@ -39,7 +42,7 @@ def workbook(results: StudyResults) -> bytes:
     Raises
     ------
     InputError
-        If there are more cases than a sheet has rows, or no prediction.
+        If there are more cases than a sheet has rows.
     """
     import xlsxwriter  # type: ignore[import-untyped]
 
@@ -48,11 +51,11 @@ def workbook(results: StudyResults) -> bytes:
     options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}
     with xlsxwriter.Workbook(target, options) as book:
         made = _Made(book)
-        made.summary(results)
-        for name, dataset in tables(results):
+        made.summary(tree.attrs)
+        for name, dataset in [("prediction", cases), *tables(tree)]:
             made.table(name, dataset)
         made.variables()
-        attributes = results.tree.attrs
+        attributes = tree.attrs
         book.set_properties(
             {
                 "title": str(attributes.get("title", "")),
@@ -83,9 +86,8 @@ class _Made:
         self.names.add(called.lower())
         return self.book.add_worksheet(called)
 
-    def summary(self, results: StudyResults) -> None:
+    def summary(self, attributes: Mapping[Any, Any]) -> None:
         """Say what the results are, what is doubtful, and how to make them again."""
-        attributes = results.tree.attrs
         rows = [tuple(line.partition(": ")[::2]) for line in about(attributes)]
         for name in _SENTENCES:
             rows += [(name[:-1], sentence) for sentence in json.loads(str(attributes.get(name, "[]")))]

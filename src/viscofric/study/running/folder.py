@@ -13,6 +13,7 @@ from datetime import UTC, datetime
 from typing import IO, TYPE_CHECKING
 
 from viscofric.errors import DataFileError, StudyError
+from viscofric.study.results_file import RESULTS_FILE
 from viscofric.study.store import CaseStore
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 CASES_FOLDER = "cases"
-RESULTS_FILE = "results.nc"
 _LOCK = ".lock"
 # What a study writes into its folder, with what begins like its results files.
 _PARTS = (_LOCK, CASES_FOLDER, "figures", "report.html")
