@@ -11,14 +11,18 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from collections import defaultdict
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
 import pytest
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "viscofric"
@@ -58,6 +62,11 @@ ORDER = list(ROOMS)
 FORBIDDEN = [
     ("viscofric.rheology", "viscofric.readers", ("viscofric.rheology.shifts.shift_files",)),
     ("viscofric.contact", "viscofric.rheology", ("viscofric.contact.steady",)),
+]
+#: Circles of imports that are still there; none may be added.
+CIRCLES_STILL_THERE = [
+    [f"viscofric.contact.free.{name}" for name in ("estimates", "footprint", "problem")],
+    [f"viscofric.rheology.superposition.{name}" for name in ("consistency", "superpose")],
 ]
 FOLDERS_OF_FILES = {"example"}
 SLOW_TO_IMPORT = ("matplotlib", "xarray", "pint", "scipy.optimize")
@@ -144,6 +153,17 @@ def is_forbidden(found: Import) -> bool:
     )
 
 
+def circles(imports: Sequence[Import]) -> list[list[str]]:
+    """Return the modules of each circle of imports (strongly connected ones), whatever each import is for."""
+    names = sorted({name for found in imports for name in (found.importer, found.imported)})
+    rows, columns = np.array([[names.index(f.importer), names.index(f.imported)] for f in imports]).T
+    graph = csr_array((np.ones(len(rows)), (rows, columns)), shape=(len(names), len(names)))
+    groups = defaultdict(list)
+    for name, label in zip(names, connected_components(graph, connection="strong")[1], strict=True):
+        groups[label].append(name)
+    return [group for group in groups.values() if len(group) > 1]
+
+
 def test_every_module_has_one_room() -> None:
     homeless = [module for module in MODULES if len(rooms_of(module)) != 1]
     assert not homeless, f"name their room in {Path(__file__).name}: {homeless}"
@@ -163,6 +183,31 @@ def test_data_moves_left_to_right() -> None:
     """No module imports one to its right, not even for the types of its arguments."""
     wrong = [str(found) for found in all_imports() if goes_right(found)]
     assert not wrong, "\n".join(["imports from right to left:", *wrong])
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    """Inside rooms too, and for types or within functions too: what is read first can be understood first."""
+    found = [" -> ".join(circle) for circle in circles(all_imports()) if circle not in CIRCLES_STILL_THERE]
+    assert not found, "\n".join(["circles of imports:", *found])
+
+
+@pytest.mark.parametrize(
+    "way_back",
+    [
+        "from viscofric.study.sweep import Sweep",
+        "def f():\n    from viscofric.study import sweep",
+        "if TYPE_CHECKING:\n    import viscofric.study.sweep",
+    ],
+    ids=["plain", "within a function", "for types"],
+)
+def test_a_circle_is_found_however_it_is_closed(way_back: str) -> None:
+    there = [
+        *own_imports("viscofric.study.sweep", "from viscofric.study.relations import relations"),
+        *own_imports("viscofric.study.relations", "from viscofric.study.table import Table"),
+    ]
+    assert circles(there) == []
+    closed = [*there, *own_imports("viscofric.study.table", way_back)]
+    assert circles(closed) == [[f"viscofric.study.{name}" for name in ("relations", "sweep", "table")]]
 
 
 def test_contact_knows_no_temperature_and_rheology_no_files() -> None:
