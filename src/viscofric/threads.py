@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import functools
+import sys
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from threadpoolctl import ThreadpoolController
 
 _Parameters = ParamSpec("_Parameters")
 _Result = TypeVar("_Result")
@@ -17,9 +20,15 @@ def one_blas_thread(function: Callable[_Parameters, _Result]) -> Callable[_Param
 
     @functools.wraps(function)
     def limited(*args: _Parameters.args, **kwargs: _Parameters.kwargs) -> _Result:
-        from threadpoolctl import threadpool_limits
-
-        with threadpool_limits(limits=1, user_api="blas"):
+        with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
             return function(*args, **kwargs)
 
     return limited
+
+
+@functools.lru_cache(maxsize=1)
+def _libraries(modules: int) -> ThreadpoolController:
+    """Look for libraries of threads, which takes milliseconds: once, and again when more modules are imported."""
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()

@@ -160,7 +160,7 @@ def _fit(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> 
     gauge = Gauge(1.0 / temperatures, weights, weights, {})
     joins = [Join(float(step), 0.0, 0.0) for step in -np.diff(start)]
     weight = np.median(np.concatenate([1.0 / isotherm.variance for isotherm in chosen]))
-    found, _ = fitted([isotherm.sweep(float(weight)) for isotherm in chosen], joins, gauge)
+    found = fitted([isotherm.sweep(float(weight)) for isotherm in chosen], joins, gauge)
     # The scatter is found from few points: shifts in units of their errors follow Student's t, whose variance is this.
     few = found.freedom / (found.freedom - 2.0) if found.freedom > 2.5 else LARGEST_FACTOR
     return found.values, min(few, LARGEST_FACTOR) * found.covariance

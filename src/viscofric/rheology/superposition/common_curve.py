@@ -68,26 +68,23 @@ class Smoother:
         weights : (n,) array, optional
             Inverse variances of the points relative to each other; all alike if left out.
         """
-        from scipy.interpolate import BSpline
-
         knots, degree = _knots(frequency)
-        penalty = penalty_of(knots, degree)
-        basis = BSpline.design_matrix(frequency, knots, degree).toarray()
+        penalty = _penalty(knots, degree)
+        basis = _splines(knots, degree, frequency)[0]
         root = _roots(frequency, weights)
         smoothing, scatter = _restricted_likelihood(basis * root, penalty, moduli * root)
         return cls(knots, degree, penalty, smoothing, scatter)
 
     def curves(self, frequency: Array, moduli: Array, weights: Array | None = None) -> Curves:
         """Draw the curves through points; shapes as for `fitted`."""
-        from scipy.interpolate import BSpline
-
         root = _roots(frequency, weights)
-        basis = BSpline.design_matrix(frequency, self.knots, self.degree, extrapolate=True).toarray() * root
+        splines = _splines(self.knots, self.degree, frequency) * root
+        basis = splines[0]
         moduli = moduli * root
         square = _ridged(basis.T @ basis)
         inverse = np.linalg.inv(square + self.smoothing[:, None, None] * self.penalty)
         coefficients = np.einsum("mij,jm->im", inverse, basis.T @ moduli)
-        return Curves(self, frequency, root, basis, np.asarray(inverse), coefficients, moduli - basis @ coefficients)
+        return Curves(self, root, splines, np.asarray(inverse), coefficients, moduli - basis @ coefficients)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,12 +97,10 @@ class Curves:
     ----------
     smoother : Smoother
         How they were drawn.
-    frequency : (n,) array
-        Of the points.
     root : (n, 1) array
         √w.
-    basis : (n, K) array
-        Basis functions B at the points, times √w.
+    splines : (3, n, K) array
+        Basis functions B at the points, and their first and second derivatives, times √w.
     inverse : (m, K, K) array
         (BᵀB + λP)⁻¹ of each quantity.
     coefficients : (K, m) array
@@ -115,9 +110,8 @@ class Curves:
     """
 
     smoother: Smoother
-    frequency: Array
     root: Array
-    basis: Array
+    splines: Array
     inverse: Array
     coefficients: Array
     residual: Array
@@ -134,26 +128,20 @@ class Curves:
         used = np.sum(self.inverse * (self.basis.T @ self.basis))
         return float(self.residual.size - used)
 
-    def bends(self) -> Array:
-        """Return the second derivatives of the curves at the points, times √w (n, m)."""
-        from scipy.interpolate import BSpline
+    @property
+    def basis(self) -> Array:
+        """Basis functions B at the points, times √w (n, K)."""
+        return np.asarray(self.splines[0])
 
-        if self.smoother.degree < 2:
-            return np.zeros_like(self.residual)
-        curve = BSpline(self.smoother.knots, self.coefficients, self.smoother.degree)
-        return np.asarray(self.root * curve.derivative(2)(self.frequency))
-
+    @property
     def slopes_of_basis(self) -> Array:
-        """Return the first derivatives of the basis functions at the points, times √w (n, K)."""
-        from scipy.interpolate import BSpline
+        """First derivatives of the basis functions at the points, times √w (n, K)."""
+        return np.asarray(self.splines[1])
 
-        knots, degree = self.smoother.knots, self.smoother.degree
-        lower = BSpline.design_matrix(self.frequency, knots[1:-1], degree - 1, extrapolate=True).toarray()
-        scaled = lower * (degree / (knots[degree + 1 : -1] - knots[1 : -degree - 1]))
-        slopes = np.zeros_like(self.basis)
-        slopes[:, 1:] = scaled
-        slopes[:, :-1] -= scaled
-        return slopes * self.root
+    @property
+    def bends(self) -> Array:
+        """Second derivatives of the curves at the points, times √w (n, m)."""
+        return np.asarray(self.splines[2] @ self.coefficients)
 
 
 def _roots(frequency: Array, weights: Array | None) -> Array:
@@ -173,16 +161,39 @@ def _knots(frequency: Array) -> tuple[Array, int]:
     return np.concatenate([frequency[0] * ends, inner[1:], frequency[-1] * ends]), degree
 
 
-def penalty_of(knots: Array, degree: int) -> Array:
-    """Integrate products of third derivatives, which are step functions for cubics."""
-    from scipy.interpolate import BSpline
+def _splines(knots: Array, degree: int, at: Array) -> Array:
+    """Return basis functions at points (n,), and their first and second derivatives: (3, n, K).
 
+    Beyond the ends the outermost polynomials go on.  C. de Boor, J. Approx. Theory 6 (1972) 50.
+    """
+    size, count = len(knots) - degree - 1, len(at)
+    interval = np.clip(np.searchsorted(knots, at, side="right") - 1, degree, size - 1)
+    around = knots[interval + np.arange(1 - degree, degree + 1)[:, None]]  # from `degree` before to as many after
+    found = np.zeros((3, 1, count))  # values, slopes and bends of the functions that are not zero, order by order
+    found[0] = 1.0
+    for order in range(1, degree + 1):
+        starts, ends = around[degree - order : degree], around[degree : degree + order]
+        parts = found / (ends - starts)
+        found = np.zeros((3, order + 1, count))
+        found[1:, :-1] = -order * parts[:-1]
+        found[1:, 1:] += order * parts[:-1]
+        found[0, :-1] = (ends - at) * parts[0]
+        found[0, 1:] += (at - starts) * parts[0]
+    every = np.zeros((3, count * size))
+    every[:, np.arange(count) * size + interval + np.arange(-degree, 1)[:, None]] = found
+    return every.reshape(3, count, size)
+
+
+def _penalty(knots: Array, degree: int) -> Array:
+    """Integrate products of third derivatives, which are step functions for cubics."""
     size = len(knots) - degree - 1
     if degree < ROUGHNESS:
         return np.zeros((size, size))
-    ends = np.unique(knots)
-    rough = BSpline(knots, np.eye(size), degree).derivative(ROUGHNESS)(0.5 * (ends[1:] + ends[:-1]))
-    return np.asarray((rough * np.diff(ends)[:, None]).T @ rough)
+    rough, inner = np.eye(size), knots
+    for order in range(degree, degree - ROUGHNESS, -1):
+        inner = inner[1:-1]
+        rough = order * np.diff(rough, axis=0) / (inner[order:] - inner[:-order])[:, None]
+    return np.asarray((rough * np.diff(inner)[:, None]).T @ rough)
 
 
 def _ridged(square: Array) -> Array:

@@ -16,12 +16,10 @@ import numpy as np
 from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets, Offsets, estimated
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, parted
 from viscofric.rheology.superposition.plateau import continued, continued_covariance, told
-from viscofric.rheology.superposition.shift_problem import ShiftProblem, State
+from viscofric.rheology.superposition.shift_problem import ShiftProblem
 from viscofric.rheology.superposition.step_profiles import StepProfiles
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from numpy.typing import NDArray
 
     from viscofric.rheology.superposition.common_curve import Smoother
@@ -84,15 +82,14 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
     CommonShifts
         E' and E'' count equally; the covariance is found from the scatter that is left in each.
     """
-    joins, apart, signal = _torn_apart(sweeps, joins, gauge)
-    inside = told(signal, gauge)
+    search, apart = _torn_apart(sweeps, joins, gauge)
+    inside = told(search.signal, gauge)
     if inside is None:
-        found, _ = fitted(sweeps, joins, gauge, apart, with_offsets=True)
-        return replace(found, parted=tuple(sorted(apart)))
+        return replace(_with_offsets(search, sweeps), parted=tuple(sorted(apart)))
     first, last = inside
-    part, within = sweeps[first:last], gauge.within(first, last)
-    joins, apart, _ = _torn_apart(part, joins[first : last - 1], within)
-    found, _ = fitted(part, joins, within, apart, with_offsets=True)
+    part = sweeps[first:last]
+    search, apart = _torn_apart(part, joins[first : last - 1], gauge.within(first, last))
+    found = _with_offsets(search, part)
     nothing = np.zeros(len(sweeps))
     return replace(
         found,
@@ -106,25 +103,46 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
     )
 
 
-def _torn_apart(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[list[Join], set[int], Array]:
+def fitted(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
+    """Fit all isotherms as they are, of moduli or of any other quantities; errors from the scatter of the points."""
+    search = _search(ShiftProblem(sweeps, joins, gauge), joins)
+    covariance, freedom, _ = _covariance(search)
+    return _result(search, covariance, freedom)
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Where a search for the shifts has come to, the curves that belong to it, and the scatter about them."""
+
+    problem: ShiftProblem
+    parameters: Array
+    smoothers: list[Smoother]
+    noise: float
+
+    @property
+    def signal(self) -> Array:
+        """How clearly the curves slope at each isotherm (n,): their squared slope in units of its noise."""
+        return self.problem.signal(self.parameters, self.smoothers)
+
+
+def _torn_apart(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[_Search, set[int]]:
     """Fit all isotherms; find those that are moved past each other and are to be joined pair by pair instead.
 
     Returns
     -------
-    joins : list of Join
-        With the uncertainty that such pairs have.
+    search : _Search
+        With such pairs joined, with the uncertainty that they have.
     apart : set of int
         Their places.
-    signal : (n,) array
-        As `fitted` returns it.
     """
     apart: set[int] = set()
     held = {place for place in gauge.held if place + 1 in gauge.held}
     while True:
-        found, signal = fitted(sweeps, joins, gauge, apart)
-        more = set(parted(sweeps, found.values)) - apart - held
+        search = _search(ShiftProblem(sweeps, joins, gauge, apart), joins)
+        values, _ = search.problem.split(search.parameters)
+        more = set(parted(sweeps, values)) - apart - held
         if not more:
-            return joins, apart, signal
+            return search, apart
         apart |= more
         joins = [
             replace(one, uncertainty=max(one.uncertainty, PAIR_UNCERTAINTY)) if place in more else one
@@ -132,28 +150,9 @@ def _torn_apart(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tupl
         ]
 
 
-def fitted(
-    sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, apart: Iterable[int] = (), *, with_offsets: bool = False
-) -> tuple[CommonShifts, Array]:
-    """Fit all isotherms as they are, of moduli or of any other quantities.
-
-    Parameters
-    ----------
-    sweeps, joins, gauge
-        As for `common_shifts`.
-    apart : iterable of int
-        Places of neighbours that get curves of their own on each side.
-    with_offsets : bool
-        Whether the errors hold offsets of whole isotherms, and what profiles of the steps show; of two moduli only.
-
-    Returns
-    -------
-    CommonShifts
-    (n,) array
-        How clearly the curves slope at each isotherm: their squared slope in units of its noise.
-    """
-    problem = ShiftProblem(sweeps, joins, gauge, apart)
-    shifts = gauge.brought_to(-np.concatenate([[0.0], np.cumsum([found.step for found in joins])]))
+def _search(problem: ShiftProblem, joins: list[Join]) -> _Search:
+    """Find the shifts, from where neighbours were joined pair by pair."""
+    shifts = problem.gauge.brought_to(-np.concatenate([[0.0], np.cumsum([found.step for found in joins])]))
     parameters = np.concatenate([shifts, np.zeros(len(problem.start) - problem.size)])
     for _ in range(PASSES):
         smoothers = problem.smoothers(parameters)
@@ -162,35 +161,38 @@ def fitted(
         parameters = _descend(problem, parameters, smoothers, noise)
         if np.max(np.abs(parameters - before)) < 10 * CONVERGED:
             break
-    offsets, expected = None, None
-    for _ in range(OFFSET_PASSES if with_offsets else 0):
-        offsets, gradient = _offsets(problem, parameters, smoothers, expected)
+    return _Search(problem, parameters, smoothers, noise)
+
+
+def _with_offsets(search: _Search, sweeps: list[LogSweep]) -> CommonShifts:
+    """Go on with offsets of whole isotherms; errors hold these too, and what profiles of the steps show."""
+    problem, expected = search.problem, None
+    for _ in range(OFFSET_PASSES):
+        offsets, gradient = _offsets(search, expected)
         expected = offsets.expected
-        smoothers = problem.smoothers(parameters, expected)
+        smoothers = problem.smoothers(search.parameters, expected)
         noise = _noise(problem, smoothers)
-        parameters = _descend(problem, parameters, smoothers, noise)
-    covariance, freedom, inverse = _covariance(problem, problem.state(parameters, smoothers, noise, expected))
+        search = _Search(problem, _descend(problem, search.parameters, smoothers, noise), smoothers, noise)
+    covariance, freedom, inverse = _covariance(search, expected)
     size = problem.size
     both = np.zeros((2 * size, 2 * size))
-    if offsets is not None:
-        gain = inverse @ gradient / noise**2
-        spread = np.kron(offsets.covariance, np.eye(size))
-        both[: len(gain)] = gain @ spread
-        profiles = StepProfiles(problem, smoothers, sweeps, spread + np.kron(np.ones((2, 2)), problem.vertical_prior()))
-        covariance = profiles.widened(parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
-    values, vertical = problem.split(parameters)
+    gain = inverse @ gradient / search.noise**2
+    spread = np.kron(offsets.covariance, np.eye(size))
+    both[: len(gain)] = gain @ spread
+    levels = spread + np.kron(np.ones((2, 2)), problem.vertical_prior())
+    profiles = StepProfiles(problem, search.smoothers, sweeps, levels)
+    covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
+    return replace(_result(search, covariance, freedom), offsets=IsothermOffsets(offsets.covariance, both))
+
+
+def _result(search: _Search, covariance: Array, freedom: float) -> CommonShifts:
+    """Part what belongs to horizontal from what belongs to vertical shifts."""
+    problem, size = search.problem, search.problem.size
+    values, vertical = problem.split(search.parameters)
     nothing = np.zeros((size, size))
-    spread, cross = (covariance[size:, size:], covariance[:size, size:]) if gauge.free_vertical else (nothing, nothing)
-    found = CommonShifts(
-        values,
-        covariance[:size, :size],
-        vertical,
-        spread,
-        cross,
-        freedom=freedom,
-        offsets=None if offsets is None else IsothermOffsets(offsets.covariance, both),
-    )
-    return found, problem.signal(parameters, smoothers)
+    free = problem.gauge.free_vertical
+    spread, cross = (covariance[size:, size:], covariance[:size, size:]) if free else (nothing, nothing)
+    return CommonShifts(values, covariance[:size, :size], vertical, spread, cross, freedom=freedom)
 
 
 def _noise(problem: ShiftProblem, smoothers: list[Smoother]) -> float:
@@ -218,14 +220,15 @@ def _descend(problem: ShiftProblem, parameters: Array, smoothers: list[Smoother]
     return parameters
 
 
-def _covariance(problem: ShiftProblem, state: State) -> tuple[Array, float, Array]:
+def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, float, Array]:
     """Return the covariance of the shifts, the curvature of what is minimised around real scatter, and its freedom.
 
     The exact second derivatives are taken, not those of Gauss and Newton: these count the noise in the slope of
     the curves for information.  Where they are small or negative (a plateau, far from quadratic), a part of the
     latter is kept.
     """
-    ways = problem.ways
+    problem, ways = search.problem, search.problem.ways
+    state = problem.state(search.parameters, search.smoothers, search.noise, expected, exact=True)
     normal, curvature, score = (ways.T @ matrix @ ways for matrix in (state.normal, state.curvature, state.score))
     root = np.linalg.cholesky(normal)
     whitened = np.linalg.solve(root, np.linalg.solve(root, curvature).T)
@@ -240,12 +243,10 @@ def _covariance(problem: ShiftProblem, state: State) -> tuple[Array, float, Arra
     return np.asarray(ways @ inverse @ (score + prior) @ inverse @ ways.T), left, np.asarray(ways @ inverse @ ways.T)
 
 
-def _offsets(
-    problem: ShiftProblem, parameters: Array, smoothers: list[Smoother], expected: Array | None
-) -> tuple[Offsets, Array]:
+def _offsets(search: _Search, expected: Array | None) -> tuple[Offsets, Array]:
     """Find the variance of offsets of whole isotherms, and what each adds to the gradient that shifts follow."""
-    information, score, gradient = problem.with_offsets(parameters, smoothers, expected)
-    ways = problem.ways
+    problem, ways = search.problem, search.problem.ways
+    information, score, gradient = problem.with_offsets(search.parameters, search.smoothers, expected)
     turned = np.eye(len(score))[:, len(ways) - ways.shape[1] :]
     turned[: len(ways), : ways.shape[1]] = ways
     prior = ways.T @ problem.prior.T @ problem.prior @ ways

@@ -105,19 +105,39 @@ def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> 
     gain = np.linalg.solve(information[:free, :free] + prior, information[:free, free:]).T
     left = turn @ (information[free:, free:] - gain @ information[:free, free:]) @ turn.T
     wish = turn @ (score[free:] - gain @ score[:free])
-    sums, differences = (grid.ravel() for grid in np.meshgrid(SIZES, SIZES))
+    sums, differences = SIZES[:, None], SIZES
     ratio = np.log2(sums / differences)
     before = np.exp(-0.5 * ratio**2) if not tied else np.where(ratio == 0.0, 1.0, 0.0)
-    before = np.concatenate([[NONE], before / before.sum()])
-    sums, differences = np.concatenate([[0.0], sums]), np.concatenate([[0.0], differences])
-    spread = np.repeat(np.stack([sums, differences], axis=1), size, axis=1)  # (tried, 2n)
-    root = np.linalg.cholesky(np.eye(2 * size) + spread[:, :, None] * left * spread[:, None, :])
-    whitened = np.linalg.solve(root, (spread * wish)[..., None])[..., 0]
-    likelihood = 0.5 * np.sum(whitened**2, axis=1) - np.sum(np.log(np.diagonal(root, axis1=1, axis2=2)), axis=1)
-    weight = before * np.exp(likelihood - likelihood.max())
-    weight /= weight.sum()
-    variances = weight @ np.stack([sums, differences], axis=1) ** 2
+    likelihood = _likelihood(left, wish)
+    weight = before / before.sum() * np.exp(likelihood - max(float(likelihood.max()), 0.0))
+    weight /= weight.sum() + NONE * np.exp(-max(float(likelihood.max()), 0.0))
+    variances = np.array([np.sum(weight * sums**2), np.sum(weight * differences**2)])
     deviations = np.repeat(np.sqrt(variances), size)
     beside = np.eye(2 * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
     expected = deviations * np.linalg.solve(beside, deviations * (turn @ score[free:]))
     return Offsets(TURN.T @ np.diag(variances) @ TURN, turn.T @ expected)
+
+
+def _likelihood(left: Array, wish: Array) -> Array:
+    """Return the log of the likelihood of sizes of sums (rows) and of differences (columns) over that of none.
+
+    Parameters
+    ----------
+    left : (2n, 2n) array
+        Information on sums and then on differences of offsets.
+    wish : (2n,) array
+        The score that goes with it.
+    """
+    size = len(wish) // 2
+    variance = SIZES[:, None] ** 2
+    known, modes = np.linalg.eigh(left[:size, :size])
+    part = variance / (1.0 + variance * known)  # of each size and mode of the sums
+    across, score = modes.T @ left[:size, size:], modes.T @ wish[:size]
+    sums = 0.5 * np.sum(part * score**2 - np.log1p(variance * known), axis=1)
+    beside = left[size:, size:] - (across.T * part[:, None, :]) @ across
+    remaining = wish[size:] - (part * score) @ across
+    known, modes = np.linalg.eigh(beside)  # of the differences, beside sums of each size
+    score = np.einsum("smk,sm->sk", modes, remaining)[:, None]
+    found = variance * known[:, None]
+    differences = 0.5 * np.sum(variance * score**2 / (1.0 + found) - np.log1p(found), axis=2)
+    return np.asarray(sums[:, None] + differences)

@@ -98,8 +98,14 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
     frequency = colder.frequency + steps[:, None]
     inside = warmer.covers(frequency)
     count = 2 * np.sum(inside, axis=1)
-    differences = inside[..., None] * (warmer.at(frequency) - colder.moduli)
-    misfit = np.sqrt(np.sum(differences**2, axis=(1, 2)) / np.maximum(count, 1))
+    squares = np.stack(
+        [
+            np.sum((inside * (np.interp(frequency, warmer.frequency, there) - here)) ** 2, axis=1)
+            for here, there in zip(colder.moduli.T, warmer.moduli.T, strict=True)
+        ],
+        axis=1,
+    )
+    misfit = np.sqrt(np.sum(squares, axis=1) / np.maximum(count, 1))
     misfit[count < 4] = np.inf  # two points of each modulus are the least that show a curve
     best = int(np.argmin(misfit))
     as_good = steps[misfit <= 1.05 * misfit[best] + 1e-4]
@@ -110,10 +116,8 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
     found = join_at(colder, warmer, float(steps[best]))
     allowed = (found.misfit + SMALLEST_NOISE) ** 2 * (1.0 + LEVEL_95**2 / colder.moduli.shape[1])
     half = allowed_half_width(steps - found.step, misfit**2, allowed)
-    squares = (
-        np.where(np.isfinite(misfit)[:, None], np.sum(differences**2, axis=1), np.inf) / np.maximum(count, 1)[:, None]
-    )
-    away = steps[np.argmin(squares, axis=0)] - found.step
+    means = np.where(np.isfinite(misfit)[:, None], squares, np.inf) / np.maximum(count, 1)[:, None]
+    away = steps[np.argmin(means, axis=0)] - found.step
     return replace(found, uncertainty=max(found.uncertainty, half / LEVEL_95, float(np.sqrt(np.mean(away**2)))))
 
 

@@ -31,8 +31,8 @@ VERTICAL_PRIOR = 0.03  # decades
 
 
 @dataclass(frozen=True, eq=False)
-class _Piece:
-    """Isotherms that share their curves: their places, and points (n,), moduli (n, m) and weights (n,) of all."""
+class Piece:
+    """Isotherms that share curves: their places; points (n,), moduli (n, m), weights (n,); the first point of each."""
 
     first: int
     last: int
@@ -40,18 +40,21 @@ class _Piece:
     frequency: Array
     moduli: Array
     weights: Array
+    starts: NDArray[np.intp]
 
     @classmethod
-    def of(cls, sweeps: list[LogSweep], first: int, last: int) -> _Piece:
+    def of(cls, sweeps: list[LogSweep], first: int, last: int) -> Piece:
         """Stack the points of the isotherms from `first` to before `last`."""
         chosen = sweeps[first:last]
+        counts = [len(sweep) for sweep in chosen]
         return cls(
             first,
             last,
-            np.repeat(np.arange(last - first), [len(sweep) for sweep in chosen]),
+            np.repeat(np.arange(last - first), counts),
             np.concatenate([sweep.frequency for sweep in chosen]),
             np.concatenate([sweep.moduli for sweep in chosen]),
             np.concatenate([np.ones(len(sweep)) if sweep.weights is None else sweep.weights for sweep in chosen]),
+            np.concatenate([[0], np.cumsum(counts[:-1])]).astype(np.intp),
         )
 
     @property
@@ -61,6 +64,7 @@ class _Piece:
 
     @property
     def size(self) -> int:
+        """Number of isotherms."""
         return self.last - self.first
 
     def reduced(self, shifts: Array, vertical: Array) -> tuple[Array, Array, Array]:
@@ -81,7 +85,7 @@ class _Piece:
 
     def gathered(self, values: Array) -> Array:
         """Add up what points of the same isotherm have: (n, …) to (isotherms, …)."""
-        return np.asarray(np.add.reduceat(values, np.searchsorted(self.isotherm, np.arange(self.size)), axis=0))
+        return np.asarray(np.add.reduceat(values, self.starts, axis=0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,12 +98,16 @@ class State:
         What is minimised: squares, in standard deviations.
     gradient : (m,) array
         Half of its decrease with the shifts.
-    normal, curvature : (m, m) array
-        Half of its second derivatives, by Gauss and Newton, and exactly.
+    normal : (m, m) array
+        Half of its second derivatives, by Gauss and Newton.
+    curvature : (m, m) array
+        The same, exactly.
     score : (m, m) array
         Covariance of the gradient that the scatter of the points makes.
     freedom : float
         Degrees of freedom left in the residuals.
+
+    The last three are zero where they were not asked for.
     """
 
     cost: float
@@ -119,7 +127,7 @@ class ShiftProblem:
         apart = {place for place, found in enumerate(joins) if found.uncertainty == np.inf}
         broken = sorted(apart.union(failures(joins), parted))
         starts = [0, *(place + 1 for place in broken), self.size]
-        self.pieces = [_Piece.of(sweeps, first, last) for first, last in pairwise(starts)]
+        self.pieces = [Piece.of(sweeps, first, last) for first, last in pairwise(starts)]
         self.start, self.ways = gauge.free()
         self.prior, self.wanted = self._prior(joins, broken)
 
@@ -161,7 +169,7 @@ class ShiftProblem:
         ratios = []
         for piece, smoother in zip(self.pieces, smoothers, strict=True):
             curves = smoother.curves(*piece.reduced(*self.split(parameters)))
-            slopes_of_basis = curves.slopes_of_basis()
+            slopes_of_basis = curves.slopes_of_basis
             squares = piece.gathered((slopes_of_basis @ curves.coefficients / smoother.scatter) ** 2)
             noise = piece.gathered(np.einsum("ni,mij,nj->nm", slopes_of_basis, curves.inverse, slopes_of_basis))
             ratios.append(squares.sum(axis=1) / noise.sum(axis=1))
@@ -211,10 +219,10 @@ class ShiftProblem:
                 scatters = scatters * np.sqrt([_inflation(one, piece.same) for one in beside.residual.T])
             belongs = np.eye(piece.size)[piece.isotherm]
             level = belongs * curves.root
-            slopes = curves.slopes_of_basis() @ curves.coefficients
+            slopes = curves.slopes_of_basis @ curves.coefficients
             for modulus, scatter in enumerate(scatters):
                 moved = belongs * slopes[:, modulus : modulus + 1]
-                moved -= moved.mean(axis=1, keepdims=True)  # see `_Piece.reduced`
+                moved -= moved.mean(axis=1, keepdims=True)  # see `Piece.reduced`
                 columns = np.concatenate([moved, level, level] if self.gauge.free_vertical else [moved, level], axis=1)
                 offsets = modulus * self.size + inside
                 places = np.concatenate([shifts, count + offsets])
@@ -225,8 +233,16 @@ class ShiftProblem:
                 gradient[np.ix_(shifts, offsets)] += found[: len(shifts), len(shifts) :]
         return information, score, gradient
 
-    def state(self, parameters: Array, smoothers: list[Smoother], noise: float, offsets: Array | None = None) -> State:
-        """Draw the curves at these shifts and say how what is minimised changes with them.
+    def state(
+        self,
+        parameters: Array,
+        smoothers: list[Smoother],
+        noise: float,
+        offsets: Array | None = None,
+        *,
+        exact: bool = False,
+    ) -> State:
+        """Draw the curves at these shifts and find how what is minimised changes with them.
 
         With offsets (m n) of the isotherms given, `score` is that of the scatter which is left beside them.
         """
@@ -241,7 +257,7 @@ class ShiftProblem:
             if self.gauge.free_vertical:
                 places = np.concatenate([places, places + self.size])
             reduced = piece.reduced(*self.split(parameters))
-            found = _derivatives(piece, smoother, reduced, self.gauge.free_vertical, piece.own(less))
+            found = _derivatives(piece, smoother, reduced, self.gauge.free_vertical, piece.own(less), exact)
             square = np.ix_(places, places)
             cost += found.cost / noise**2
             gradient[places] += found.gradient / noise**2
@@ -253,50 +269,44 @@ class ShiftProblem:
 
 
 def _derivatives(
-    piece: _Piece, smoother: Smoother, reduced: tuple[Array, Array, Array], free_vertical: bool, offsets: Array
+    piece: Piece,
+    smoother: Smoother,
+    reduced: tuple[Array, Array, Array],
+    free_vertical: bool,
+    offsets: Array,
+    exact: bool,
 ) -> State:
     """Return cost, gradient and curvature of one piece, the curves being refitted wherever the shifts go.
 
     With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y the moduli and s a shift, the cost is yᵀMy.  Both its derivatives are exact.
     """
     curves = smoother.curves(*reduced)
-    lifted = (
-        smoother.curves(reduced[0], reduced[1] - offsets, reduced[2]).residual if np.any(offsets) else curves.residual
-    )
-    basis_slopes = curves.slopes_of_basis()
-    slopes = basis_slopes @ curves.coefficients
-    bends = curves.bends()
-    belongs = np.eye(piece.size)[piece.isotherm]
+    slopes = curves.slopes_of_basis @ curves.coefficients
     count = 2 * piece.size if free_vertical else piece.size
     gradient, normal = np.zeros(count), np.zeros((count, count))
-    curvature, score = np.zeros((count, count)), np.zeros((count, count))
-    for modulus in range(curves.residual.shape[1]):
-        residual = curves.residual[:, modulus]
-        moved = belongs * slopes[:, modulus : modulus + 1]
-        turned = piece.gathered(basis_slopes * residual[:, None])
-        if free_vertical:
-            moved = np.concatenate([moved, belongs * curves.root], axis=1)
-            turned = np.concatenate([turned, np.zeros_like(turned)])
-        onto = curves.basis.T @ moved
-        inverse = curves.inverse[modulus]
-        square = moved.T @ moved
-        information = square - onto.T @ inverse @ onto
-        bent = turned - onto.T
-        gradient += moved.T @ residual
+    curvature, score, freedom = np.zeros((count, count)), np.zeros((count, count)), 0.0
+    if exact:
+        lifted, bends, freedom = curves.residual, curves.bends, curves.freedom
+        if np.any(offsets):
+            lifted = smoother.curves(reduced[0], reduced[1] - offsets, reduced[2]).residual
+    for modulus, (residual, slope) in enumerate(zip(curves.residual.T, slopes.T, strict=True)):
+        moved = [slope, curves.root[:, 0]] if free_vertical else [slope]
+        onto = np.concatenate([piece.gathered(curves.basis * one[:, None]) for one in moved])
+        square = np.block([[np.diag(piece.gathered(one * other)) for other in moved] for one in moved])
+        information = square - onto @ curves.inverse[modulus] @ onto.T
+        gradient += np.concatenate([piece.gathered(one * residual) for one in moved])
         normal += information
-        second = square - bent @ inverse @ bent.T
-        second[: piece.size, : piece.size] -= np.diag(piece.gathered(bends[:, modulus] * residual))
-        curvature += second
-        score += smoother.scatter[modulus] ** 2 * _inflation(lifted[:, modulus], piece.same) * information
+        if exact:
+            bent = -onto
+            bent[: piece.size] += piece.gathered(curves.slopes_of_basis * residual[:, None])
+            second = square - bent @ curves.inverse[modulus] @ bent.T
+            second[: piece.size, : piece.size] -= np.diag(piece.gathered(bends[:, modulus] * residual))
+            curvature += second
+            score += smoother.scatter[modulus] ** 2 * _inflation(lifted[:, modulus], piece.same) * information
     moves = np.eye(count)
-    moves[: piece.size, : piece.size] -= 1.0 / piece.size  # see `_Piece.reduced`
-    gradient, normal, curvature, score = (
-        moves @ gradient,
-        moves @ normal @ moves,
-        moves @ curvature @ moves,
-        moves @ score @ moves,
-    )
-    return State(curves.cost, gradient, normal, curvature, score, curves.freedom)
+    moves[: piece.size, : piece.size] -= 1.0 / piece.size  # see `Piece.reduced`
+    normal, curvature, score = (moves @ matrix @ moves for matrix in (normal, curvature, score))
+    return State(curves.cost, moves @ gradient, normal, curvature, score, freedom)
 
 
 def _inflation(residual: Array, same: NDArray[np.bool_]) -> float:

@@ -9,11 +9,13 @@ are pulled apart gain nothing from the freedom of their curves.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, penalty_of
+from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, ROUGHNESS
 from viscofric.rheology.superposition.overlap import LEVEL_95, allowed_half_width, steps_that_overlap
 
 if TYPE_CHECKING:
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 
     from viscofric.rheology.superposition.common_curve import Smoother
     from viscofric.rheology.superposition.overlap import LogSweep
-    from viscofric.rheology.superposition.shift_problem import ShiftProblem
+    from viscofric.rheology.superposition.shift_problem import Piece, ShiftProblem
 
     Array = NDArray[np.float64]
 
@@ -37,12 +39,60 @@ EXCLUDED = 1.5
 HALVINGS = 3
 #: Variances of steps below this, decades², are those of steps that are held.
 SMALLEST = 1e-18
-#: Knots beyond the shifted points, decades.
-BEYOND = 1.0
+#: Cubic splines that are not zero at a point.
+LOCAL = 4
+#: So many points are evaluated at once, which bounds the memory.
+AT_ONCE = 100_000
+
+
+@dataclass
+class _Profile:
+    """The likelihood along one step: moves that were tried, and −2 log of it there."""
+
+    follow: Array  # (p,), how parameters follow the step
+    variance: float
+    threshold: float
+    reach: tuple[float, float]  # how far it may go to either side, decades
+    moves: list[float] = field(default_factory=list)
+    falls: list[float] = field(default_factory=list)
+
+    def outwards(self) -> list[float]:
+        """Return the next move to either side, as far as one is needed."""
+        error, found = float(np.sqrt(self.variance)), []
+        for side, far in zip((-1.0, 1.0), self.reach, strict=True):
+            place = int(np.argmax(side * np.array(self.moves)))
+            last, move = side * self.moves[place], NEAR * error
+            if last > 0.0:
+                excluded = self.falls[place] - self.falls[0] > EXCLUDED * self.threshold
+                if excluded and error < SHARP:
+                    continue
+                move = last + COARSE if excluded else 2.0 * last
+            if last < far and last < move:
+                found.append(side * min(move, far))
+        return found
+
+    def halves(self) -> list[float]:
+        """Return the middles of the gaps that the interval ends in, beyond what a parabola makes."""
+        moves, rise = self._sorted()
+        allowed = np.flatnonzero(rise <= self.threshold)
+        gaps = (allowed[0] - 1, allowed[0]), (allowed[-1], allowed[-1] + 1)
+        ends = [(moves[low], moves[high]) for low, high in gaps if low >= 0 and high < len(rise)]
+        return [float(0.5 * (low + high)) for low, high in ends if 0.0 not in (low, high)]
+
+    def half_width(self) -> float:
+        """Return half of the 95 % interval."""
+        return allowed_half_width(*self._sorted(), self.threshold)
+
+    def _sorted(self) -> tuple[Array, Array]:
+        order = np.argsort(self.moves)
+        rise = np.array(self.falls)[order]
+        return np.array(self.moves)[order], rise - rise.min()
 
 
 class StepProfiles:
     """−2 log of the likelihood of shifts, with curves and levels of isotherms integrated over.
+
+    Curves are cubic splines with equal intervals, so that all shifts are judged by the same ones.
 
     Parameters
     ----------
@@ -58,10 +108,7 @@ class StepProfiles:
         self.problem = problem
         self.smoothers = smoothers
         self.sweeps = sweeps
-        self.middle = [piece.moduli.mean(axis=0) for piece in problem.pieces]
-        self.knots: dict[int, tuple[Array, Array]] = {}
-        values, vectors = np.linalg.eigh(levels)
-        self.root = vectors * np.sqrt(np.maximum(values, 0.0))
+        self.levels = levels
 
     def widened(self, parameters: Array, inverse: Array, noise: Array, covariance: Array) -> Array:
         """Return the covariance (p, p) with the variance that profiles of the steps add.
@@ -73,99 +120,128 @@ class StepProfiles:
         inverse, noise, covariance : (p, p) array
             The inverse of the curvature, the covariance that the scatter of the points makes with it, and the whole.
         """
-        size = self.problem.size
         broken = {piece.last - 1 for piece in self.problem.pieces}
-        best = self(parameters)
-        more = np.zeros_like(covariance)
-        for place in range(size - 1):
+        profiles = []
+        for place in range(self.problem.size - 1):
             step = np.zeros(len(parameters))
             step[place], step[place + 1] = 1.0, -1.0
             curvature = float(step @ inverse @ step)
             if place in broken or curvature < SMALLEST:
                 continue
-            follow = inverse @ step / curvature
-            variance = float(step @ covariance @ step)
-            threshold = LEVEL_95**2 * float(step @ noise @ step) / curvature
-            half = self._half_width(parameters, follow, place, np.sqrt(variance), best, threshold)
-            more += max((half / LEVEL_95) ** 2 - variance, 0.0) * np.outer(follow, follow)
-        return covariance + more
+            now = float(parameters[place] - parameters[place + 1])
+            lowest, highest = steps_that_overlap(self.sweeps[place], self.sweeps[place + 1])
+            profiles.append(
+                _Profile(
+                    inverse @ step / curvature,
+                    float(step @ covariance @ step),
+                    LEVEL_95**2 * float(step @ noise @ step) / curvature,
+                    (max(now - lowest, 0.0), max(highest - now, 0.0)),
+                )
+            )
+        self._try(parameters, [(profile, 0.0) for profile in profiles])
+        while asked := [(profile, move) for profile in profiles for move in profile.outwards()]:
+            self._try(parameters, asked)
+        for _ in range(HALVINGS):
+            self._try(parameters, [(profile, move) for profile in profiles for move in profile.halves()])
+        widened = covariance.copy()
+        for profile in profiles:
+            more = max((profile.half_width() / LEVEL_95) ** 2 - profile.variance, 0.0)
+            widened += more * np.outer(profile.follow, profile.follow)
+        return widened
 
-    def _half_width(
-        self, parameters: Array, follow: Array, place: int, error: float, best: float, threshold: float
-    ) -> float:
-        """Return half of the interval of one step."""
-        now = float(parameters[place] - parameters[place + 1])
-        lowest, highest = steps_that_overlap(self.sweeps[place], self.sweeps[place + 1])
-        moves, falls = [0.0], [best]
-        for side, far in ((-1.0, max(now - lowest, 0.0)), (1.0, max(highest - now, 0.0))):
-            move = min(NEAR * error, far)
-            while move > 0.0:
-                moves.append(side * move)
-                falls.append(self(parameters + side * move * follow))
-                excluded = falls[-1] - best > EXCLUDED * threshold
-                if move >= far or (excluded and error < SHARP):
-                    break
-                move = min(move + COARSE if excluded else 2.0 * move, far)
-        for _ in range(HALVINGS):  # of gaps that the interval ends in, beyond what a parabola makes
-            order = np.argsort(moves)
-            sorted_moves, rise = np.array(moves)[order], np.array(falls)[order] - min(falls)
-            allowed = np.flatnonzero(rise <= threshold)
-            gaps = (allowed[0] - 1, allowed[0]), (allowed[-1], allowed[-1] + 1)
-            ends = [(sorted_moves[low], sorted_moves[high]) for low, high in gaps if low >= 0 and high < len(rise)]
-            halves = [0.5 * (low + high) for low, high in ends if 0.0 not in (low, high)]
-            moves += halves
-            falls += [self(parameters + half * follow) for half in halves]
-        order = np.argsort(moves)
-        rise = np.array(falls)[order]
-        return allowed_half_width(np.array(moves)[order], rise - rise.min(), threshold)
+    def _try(self, parameters: Array, asked: list[tuple[_Profile, float]]) -> None:
+        """Evaluate moves of steps, and note what was found; all that have not moved at once."""
+        moved = np.array([parameters + move * profile.follow for profile, move in asked if move])
+        still = self(parameters[None])[0] if len(moved) < len(asked) else 0.0
+        size = max(AT_ONCE // sum(len(piece.frequency) for piece in self.problem.pieces), 1)
+        found = [fall for first in range(0, len(moved), size) for fall in self(moved[first : first + size])]
+        for profile, move in asked:
+            profile.moves.append(move)
+            profile.falls.append(float(found.pop(0) if move else still))
 
-    def __call__(self, parameters: Array) -> float:
-        """Return −2 log of the likelihood, but for a constant."""
-        problem, size = self.problem, self.problem.size
-        shifts = parameters[:size]
-        expected = np.zeros(len(parameters))  # vertical shifts are among the levels
-        expected[:size] = shifts
-        away = problem.wanted - problem.prior @ expected
-        moduli = problem.pieces[0].moduli.shape[1]
-        total = float(away @ away)
-        left, wish = np.zeros((moduli * size, moduli * size)), np.zeros(moduli * size)
-        for number, (piece, smoother) in enumerate(zip(problem.pieces, self.smoothers, strict=True)):
-            frequency, values, weights = piece.reduced(shifts, np.zeros(size))
-            root = np.sqrt(weights)[:, None]
-            basis, penalty = self._basis(number, frequency, smoother.degree)
-            basis, values = basis * root, (values - self.middle[number]) * root
-            square = basis.T @ basis
-            square[np.diag_indices(len(square))] += RIDGE * np.trace(square) / len(square)
-            factors = np.linalg.cholesky(square + smoother.smoothing[:, None, None] * penalty)
-            known = np.concatenate([piece.gathered(basis * root).T, basis.T @ values], axis=1)
-            inner = np.linalg.solve(factors, known)
-            level, count = piece.gathered(values * root), piece.gathered(weights)
-            for modulus, scatter in enumerate(smoother.scatter):
-                levels, value = inner[modulus, :, : piece.size], inner[modulus, :, piece.size + modulus]
-                total += float(values[:, modulus] @ values[:, modulus] - value @ value) / scatter**2
-                total += _log_determinant(factors[modulus])
-                own = slice(modulus * size + piece.first, modulus * size + piece.last)
-                left[own, own] += (np.diag(count) - levels.T @ levels) / scatter**2
-                wish[own] += (level[:, modulus] - levels.T @ value) / scatter**2
-        factor = np.linalg.cholesky(np.eye(self.root.shape[1]) + self.root.T @ left @ self.root)
-        gained = np.linalg.solve(factor, self.root.T @ wish)
-        return total + _log_determinant(factor) - float(gained @ gained)
-
-    def _basis(self, number: int, frequency: Array, degree: int) -> tuple[Array, Array]:
-        """Return the basis at frequencies, and its penalty; knots reach farther where frequencies do."""
-        from scipy.interpolate import BSpline
-
-        knots, penalty = self.knots.get(number, (np.zeros(1), np.zeros((0, 0))))
-        low, high = float(frequency.min()), float(frequency.max())
-        if low < knots[0] or high > knots[-1]:
-            low, high = low - BEYOND, high + BEYOND
-            inner = np.linspace(low, high, int((high - low) / KNOT_SPACING) + 2)
-            knots = np.concatenate([low * np.ones(degree), inner, high * np.ones(degree)])
-            penalty = penalty_of(knots, degree)
-            self.knots[number] = knots, penalty
-        return BSpline.design_matrix(frequency, knots, degree).toarray(), penalty
+    def __call__(self, parameters: Array) -> Array:
+        """Return −2 log of the likelihood of each of several parameters (k, p), but for a constant: (k,)."""
+        problem, count, size = self.problem, len(parameters), self.problem.size
+        steps = parameters.copy()
+        steps[:, size:] = 0.0  # vertical shifts are among the levels
+        total = np.sum((problem.wanted - steps @ problem.prior.T) ** 2, axis=1)
+        rank = len(self.levels)
+        inner, wish = np.zeros((count, rank, rank)), np.zeros((count, rank))
+        for piece, smoother in zip(problem.pieces, self.smoothers, strict=True):
+            inside = slice(piece.first, piece.last)
+            shifts = parameters[:, inside] - parameters[:, inside].mean(axis=1, keepdims=True)
+            values = piece.moduli - piece.moduli.mean(axis=0)
+            known, square = _reduced(piece, piece.frequency + shifts[:, piece.isotherm], values)
+            weighted = values * piece.weights[:, None]
+            level, weight = piece.gathered(weighted), np.diag(piece.gathered(piece.weights))
+            for modulus in range(values.shape[1]):
+                products, logarithm = _eliminated(known, square, float(smoother.smoothing[modulus]))
+                own, scatter = piece.size + modulus, smoother.scatter[modulus]
+                left = (weight - products[:, : piece.size, : piece.size]) / scatter**2
+                gained = (level[:, modulus] - products[:, own, : piece.size]) / scatter**2
+                total += (weighted[:, modulus] @ values[:, modulus] - products[:, own, own]) / scatter**2 + logarithm
+                places = slice(modulus * size + piece.first, modulus * size + piece.last)
+                inner[:, places] = left @ self.levels[places]
+                wish[:, places] = gained
+        inner += np.eye(rank)
+        expected = np.linalg.solve(inner, wish[..., None])[..., 0] @ self.levels
+        return np.asarray(total + np.linalg.slogdet(inner)[1] - np.sum(wish * expected, axis=1))
 
 
-def _log_determinant(factor: Array) -> float:
-    """Of a matrix, from its Cholesky factor."""
-    return 2.0 * float(np.sum(np.log(np.diag(factor))))
+def _reduced(piece: Piece, frequency: Array, values: Array) -> tuple[Array, Array]:
+    """Put points at frequencies (k, n) into sums over them with K cubic splines B of equal intervals.
+
+    Returns
+    -------
+    known : (k, isotherms + m, K) array
+        Of each isotherm Σ w B, and of each modulus Σ w y B.
+    square : (k, 4, K) array
+        The lower diagonals of Σ w B Bᵀ.
+    """
+    count, rows = len(frequency), piece.size + values.shape[1]
+    place = frequency / KNOT_SPACING
+    first = np.floor(place)
+    t = place - first
+    number = (first - first.min()).astype(np.intp)
+    K = int(number.max()) + LOCAL
+    splines = np.array([(1.0 - t) ** 3, (3.0 * t - 6.0) * t**2 + 4.0, 3.0 * (t + t**2 - t**3) + 1.0, t**3]) / 6.0
+    weighted = splines * piece.weights
+    number = number + np.arange(LOCAL)[:, None, None]
+    at = number + (np.arange(count)[:, None] * rows + piece.isotherm) * K
+    sums = np.bincount(at.ravel(), weighted.ravel(), count * rows * K)
+    known = np.asarray(sums, dtype=float).reshape(count, rows, K)
+    at = (number + np.arange(count)[:, None] * K).reshape(LOCAL, -1)
+
+    def gathered(products: Array) -> Array:
+        sums = np.bincount(at[: len(products)].ravel(), products.ravel(), count * K)
+        return np.asarray(sums, dtype=float).reshape(count, K)
+
+    for modulus, value in enumerate(values.T):
+        known[:, piece.size + modulus] = gathered(weighted * value)
+    square = [gathered(weighted[: LOCAL - below] * splines[below:]) for below in range(LOCAL)]
+    return known, np.stack(square, axis=1)
+
+
+def _eliminated(known: Array, square: Array, smoothing: float) -> tuple[Array, Array]:
+    """Integrate over the curves: known A⁻¹ knownᵀ and log |A| − log |λP|, with A = square + λP.
+
+    Splines that no point reaches add as much to one of the logarithms as to the other.
+    """
+    from scipy.linalg.lapack import dpbtrf, dpbtrs
+
+    K = square.shape[2]
+    stiffness = smoothing / KNOT_SPACING**5
+    banded = square + stiffness * _third_differences(K)
+    banded[:, 0] += RIDGE * np.mean(square[:, 0], axis=1, keepdims=True)
+    factors = [dpbtrf(one, lower=1)[0] for one in banded]
+    solved = np.array([dpbtrs(factor, one.T, lower=1)[0].T for factor, one in zip(factors, known, strict=True)])
+    logarithm = 2.0 * np.sum(np.log([factor[0] for factor in factors]), axis=1)
+    return known @ np.swapaxes(solved, 1, 2), logarithm - (K - ROUGHNESS) * np.log(stiffness)
+
+
+@lru_cache(maxsize=64)
+def _third_differences(K: int) -> Array:
+    """Return the lower diagonals (4, K) of DᵀD, with D the third differences of K coefficients."""
+    rough = np.diff(np.eye(K), ROUGHNESS, axis=0)
+    square = rough.T @ rough
+    return np.array([np.append(np.diag(square, -below), np.zeros(below)) for below in range(LOCAL)])

@@ -8,6 +8,7 @@ shift factors are.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 _DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)
 #: Segments of the curve that distances are taken to; their length leaves an error below 1e-4 decades.
 _SEGMENTS = 40
+_KNOTS = np.linspace(-1.0, 1.0, _SEGMENTS + 1)
 #: Isotherms drift apart if so many neighbours or more lie to the same side of each other on the whole …
 RUN = 3
 #: … by more than this in all, which two isotherms differ by that repeat to 0.02 decades …
@@ -94,16 +96,26 @@ class _Curve:
     inverse: Array  # (m, m)
     scatter: Array  # (2,)
 
+    @cached_property
+    def points(self) -> Array:
+        """The curve at the measured parameters (n, 2)."""
+        return np.asarray(self.basis @ self.coefficients)
+
+    @cached_property
+    def line(self) -> Array:
+        """The curve at the ends of its segments."""
+        return np.asarray(self.rows(_KNOTS) @ self.coefficients)
+
     @classmethod
     def of(cls, isotherm: Isotherm, log10_b: float) -> _Curve:
         decades = np.log10(isotherm.angular_frequency)
         parameter = 2.0 * (decades - decades[0]) / np.ptp(decades) - 1.0
         count = len(decades)
         degree = next(degree for points, degree in _DEGREE if count >= points)
-        basis = np.polynomial.legendre.legvander(parameter, degree)
+        basis = _legendre(parameter, degree)
         size = np.log10(np.hypot(isotherm.storage_modulus, isotherm.loss_modulus)) - log10_b
         points = np.stack([size, np.log10(isotherm.loss_modulus / isotherm.storage_modulus)], axis=1)
-        inverse = np.linalg.inv(basis.T @ basis)
+        inverse = np.asarray(np.linalg.inv(basis.T @ basis), dtype=float)
         coefficients = inverse @ (basis.T @ points)
         freedom = max(count - degree - 1, 1)
         scatter = np.sqrt(np.sum((points - basis @ coefficients) ** 2, axis=0) / freedom)
@@ -111,12 +123,18 @@ class _Curve:
 
     def rows(self, parameter: Array) -> Array:
         """Return the basis at other parameters."""
-        return np.asarray(np.polynomial.legendre.legvander(parameter, self.basis.shape[1] - 1))
+        return _legendre(parameter, self.basis.shape[1] - 1)
 
     def variance(self, normals: Array, rows: Array) -> float:
         """Return the variance of the mean of the curve's components along normals (k, 2) at basis rows (k, m)."""
         weights = (normals[:, :, None] * rows[:, None, :]).mean(axis=0)
         return float(np.einsum("c,ci,ij,cj->", self.scatter**2, weights, self.inverse, weights))
+
+
+def _legendre(x: Array, degree: int) -> Array:
+    """Return Legendre polynomials up to a degree, 3 at most, in columns."""
+    every = [np.ones_like(x), x, 1.5 * x**2 - 0.5, (2.5 * x**2 - 1.5) * x]
+    return np.asarray(np.stack(every[: degree + 1], axis=1), dtype=float)
 
 
 def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[NeighbourDistance, ...]:
@@ -178,14 +196,12 @@ def drift(neighbours: Sequence[NeighbourDistance]) -> Drift | None:
 
 def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:
     """Return the mean distance of one smoothed isotherm from the other, its standard error, and how many points."""
-    knots = np.linspace(-1.0, 1.0, _SEGMENTS + 1)
-    line = other.rows(knots) @ other.coefficients
-    points = one.basis @ one.coefficients
+    line, points = other.line, one.points
     along = np.diff(line, axis=0)
     length = np.sum(along**2, axis=1) + 1e-300
     away = points[:, None, :] - line[None, :-1, :]
     place = np.sum(away * along, axis=2) / length
-    offset = away - np.clip(place, 0.0, 1.0)[..., None] * along
+    offset = away - np.minimum(np.maximum(place, 0.0), 1.0)[..., None] * along
     nearest = np.argmin(np.sum(offset**2, axis=2), axis=1)
     each = np.arange(len(points))
     place = place[each, nearest]
@@ -197,6 +213,6 @@ def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:
     normals = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
     normals = (normals * np.where(normals[:, 1:] < 0.0, -1.0, 1.0))[beside]
     distance = float(np.mean(np.sum(offset[each, nearest][beside] * normals, axis=1)))
-    feet = other.rows((knots[nearest] + place * (knots[1] - knots[0]))[beside])
+    feet = other.rows((_KNOTS[nearest] + place * (_KNOTS[1] - _KNOTS[0]))[beside])
     variance = one.variance(normals, one.basis[beside]) + other.variance(normals, feet)
     return distance, float(np.sqrt(variance)), int(np.count_nonzero(beside))
