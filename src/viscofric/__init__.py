@@ -94,9 +94,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import SpectrumFit as SpectrumFit
     from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
     from viscofric.rheology.superposition.consistency import SuperpositionCheck as SuperpositionCheck
-    from viscofric.rheology.superposition.consistency import check_superposition as check_superposition
     from viscofric.rheology.superposition.overlap import OverlapQuality as OverlapQuality
-    from viscofric.rheology.superposition.superpose import Superposition as Superposition
+    from viscofric.rheology.superposition.result import Superposition as Superposition
+    from viscofric.rheology.superposition.result import check_superposition as check_superposition
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
@@ -217,11 +217,11 @@ _HOME = {
     "RetardationSpectrum": "viscofric.rheology.spectra.retardation",
     "SpectrumFit": "viscofric.rheology.spectra.retardation",
     "fit_retardation_spectrum": "viscofric.rheology.spectra.spectrum_fit",
-    "check_superposition": "viscofric.rheology.superposition.consistency",
+    "check_superposition": "viscofric.rheology.superposition.result",
     "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
     "OverlapQuality": "viscofric.rheology.superposition.overlap",
     "superpose": "viscofric.rheology.superposition.superpose",
-    "Superposition": "viscofric.rheology.superposition.superpose",
+    "Superposition": "viscofric.rheology.superposition.result",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
     "RoughFriction": "viscofric.roughness.ensemble",

@@ -18,7 +18,7 @@ from viscofric.errors import InputError
 from viscofric.report import consistency_figures, house_style, rubber_figures, shift_figures, spectrum_figures
 from viscofric.report.figure_data import ModulusBand, moduli_of_sweeps, modulus_band
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
-from viscofric.rheology.superposition.consistency import check_superposition
+from viscofric.rheology.superposition.result import check_superposition
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,8 +8,9 @@ import pytest
 import viscofric as vf
 from rheology.planted import planted_sweeps
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
-from viscofric.rheology.superposition.consistency import ONE_PAIR, REPRODUCIBILITY, check_superposition
+from viscofric.rheology.superposition.consistency import ONE_PAIR, REPRODUCIBILITY
 from viscofric.rheology.superposition.kramers_kronig import SURE, kramers_kronig
+from viscofric.rheology.superposition.result import check_superposition
 
 RUBBER = vf.synthetic_fluoroelastomer()
 

@@ -16,7 +16,7 @@ from viscofric.errors import InputError
 from viscofric.rheology import RetardationSpectrum, ShiftFactors, fit_retardation_spectrum
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 from viscofric.rheology.superposition.overlap import OverlapQuality
-from viscofric.rheology.superposition.superpose import Superposition
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.uncertainty.residuals import Residuals
 from viscofric.rheology.uncertainty.sampling import sample_materials
 

@@ -23,7 +23,7 @@ from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, ShiftLaw, WLFArrhenius
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import FROM_FRICTION, RelaxationSpectrum, RetardationSpectrum
-from viscofric.rheology.superposition.superpose import Superposition
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.roughness.ensemble import RoughFriction
 from viscofric.roughness.patches import ContactStatistics

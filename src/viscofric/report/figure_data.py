@@ -11,7 +11,7 @@ from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
 from viscofric.report.results import number, values
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.superposition.superpose import Superposition
+from viscofric.rheology.superposition.result import Superposition
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

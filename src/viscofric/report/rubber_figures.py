@@ -19,7 +19,7 @@ from viscofric.report.house_style import (
     temperature_scale,
 )
 from viscofric.report.results import nearest, nominal_temperatures, values
-from viscofric.rheology.superposition.superpose import Superposition
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.units import celsius
 
 if TYPE_CHECKING:

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import SpectrumFit as SpectrumFit
     from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
     from viscofric.rheology.superposition.consistency import SuperpositionCheck as SuperpositionCheck
-    from viscofric.rheology.superposition.consistency import check_superposition as check_superposition
-    from viscofric.rheology.superposition.superpose import Superposition as Superposition
+    from viscofric.rheology.superposition.result import Superposition as Superposition
+    from viscofric.rheology.superposition.result import check_superposition as check_superposition
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
@@ -69,8 +69,8 @@ _HOME = {
     "SpectrumFit": "viscofric.rheology.spectra.retardation",
     "fit_retardation_spectrum": "viscofric.rheology.spectra.spectrum_fit",
     "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
-    "check_superposition": "viscofric.rheology.superposition.consistency",
-    "Superposition": "viscofric.rheology.superposition.superpose",
+    "check_superposition": "viscofric.rheology.superposition.result",
+    "Superposition": "viscofric.rheology.superposition.result",
     "superpose": "viscofric.rheology.superposition.superpose",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",

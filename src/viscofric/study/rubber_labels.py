@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from viscofric.data import IsothermalSweeps, MasterCurve
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.law_comparison import LawComparison
-    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.rheology.superposition.result import Superposition
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.study.rubber import Rubber
 

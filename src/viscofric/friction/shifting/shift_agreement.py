@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.rheology.superposition.result import Superposition
 
     Array: TypeAlias = NDArray[np.float64]
 

@@ -21,7 +21,7 @@ from viscofric.units import positive
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.rheology.superposition.result import Superposition
 
     Array = NDArray[np.float64]
 

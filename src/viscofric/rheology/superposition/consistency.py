@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viscofric.arguments import insist_on
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
@@ -15,13 +14,16 @@ from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep
 from viscofric.rheology.superposition.own_shifts import OwnShifts, own_shifts
-from viscofric.rheology.superposition.superpose import Superposition
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
-from viscofric.threads import one_blas_thread
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from viscofric.data import Isotherm, MasterCurve
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.rheology.superposition.overlap import OverlapQuality
 
     Verdict = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
     Array = NDArray[np.float64]
@@ -144,73 +146,48 @@ class SuperpositionCheck:
         return self.kramers_kronig is None or self.kramers_kronig.holds
 
 
-@one_blas_thread
-def check_superposition(fit: Superposition) -> SuperpositionCheck:
-    """Say whether time–temperature superposition holds, and whether E' and E'' belong to each other.
-
-    Parameters
-    ----------
-    fit : Superposition
-        As `superpose` returns it.
-
-    Returns
-    -------
-    SuperpositionCheck
-
-    Notes
-    -----
-    Isotherms that superpose lie on one curve of tan δ against |E*|, whatever their shifts (H. C. Booij, J. H. M.
-    Palmen, Theoretical and Applied Rheology, 1992, 321; M. van Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5).  Each is
-    compared with its neighbour, at right angles to that curve, so that plateaus, where it runs steeply, count as
-    well; the noise is the scatter of each isotherm about its own smooth curve.  Distances within reproducibility that
-    add up over a run of isotherms are no errors of single isotherms: a vertical shift is missing, or superposition
-    fails slowly (`Drift`).
-
-    Examples
-    --------
-    >>> from importlib.resources import files
-    >>> import viscofric as vf
-    >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
-    >>> sweeps = vf.read_dma(path, deformation="tension")
-    >>> fit = vf.superpose(sweeps, reference="30 degC")
-    >>> vf.check_superposition(fit).holds
-    True
-    """
-    insist_on(fit, "fit", Superposition, right="what superpose(…) returned")
-    vertical = fit.vertical_shift
-    temperatures = np.array([isotherm.temperature for isotherm in fit.isotherms])
-    log10_b = np.zeros(len(temperatures)) if vertical is None else np.asarray(vertical.log10(temperatures))
-    neighbours = neighbour_distances(fit.isotherms, log10_b)
+def check(
+    isotherms: tuple[Isotherm, ...],
+    shift_factors: ShiftFactors,
+    vertical_shift: VerticalShift | None,
+    unidentified: tuple[tuple[float, float], ...],
+    quality: OverlapQuality,
+    master_curve: MasterCurve,
+) -> SuperpositionCheck:
+    """Check isotherms with their factors, vertical shift and overlap, as `Superposition` has them."""
+    temperatures = shift_factors.temperatures
+    log10_b = np.zeros(len(temperatures)) if vertical_shift is None else np.asarray(vertical_shift.log10(temperatures))
+    neighbours = neighbour_distances(isotherms, log10_b)
     distance = np.array([pair.distance for pair in neighbours])
     error = np.array([pair.standard_error for pair in neighbours])
     explained = np.hypot(REPRODUCIBILITY, LEVEL_95 * error)
     ratio = np.abs(distance) / explained
     figure = max(_rms(ratio), float(np.max(ratio, initial=0.0)) / ONE_PAIR)
-    logs = [LogSweep.of(one, float(by)) for one, by in zip(fit.isotherms, log10_b, strict=True)]
-    own = own_shifts(logs, fit.shift_factors.log10_values)
+    logs = [LogSweep.of(one, float(by)) for one, by in zip(isotherms, log10_b, strict=True)]
+    own = own_shifts(logs, shift_factors.log10_values)
     try:
-        causality = kramers_kronig(fit.master_curve)
+        causality = kramers_kronig(master_curve)
         causal_sentence = causality.sentence
     except InputError as reason:
         causality, causal_sentence = None, f"E' was not tested against E'': {reason}"
     drifting = drift(neighbours)
-    verdict = _verdict(fit, neighbours, figure, drifting, own)
-    headline, *others = _words(verdict, fit, neighbours, figure, ratio, own, drifting)
+    verdict = _verdict(neighbours, figure, drifting, unidentified, own)
+    headline, *others = _words(verdict, neighbours, figure, ratio, own, drifting, unidentified, vertical_shift)
     sentences = (
         Note(f"superposition-{verdict.replace(' ', '-')}", headline),
         *others,
-        *_overlap(figure, fit.quality.joint),
-        *_gaps(fit),
+        *_overlap(figure, quality.joint),
+        *_gaps(isotherms, quality),
         causal_sentence,
     )
-    storage, loss, temperature = _points(fit, log10_b)
+    storage, loss, temperature = _points(isotherms, log10_b)
     size, angle, tangent = np.hypot(storage, loss), np.arctan2(loss, storage), loss / storage
     return SuperpositionCheck(
         neighbours,
         figure,
         _rms(distance),
         _median(error),
-        fit.quality.joint,
+        quality.joint,
         causality,
         Diagram(size, angle, temperature, "|E*|", "δ"),
         Diagram(size, tangent, temperature, "|E*|", "tan δ"),
@@ -230,20 +207,20 @@ def _median(values: Array) -> float:
     return float(np.median(values)) if values.size else 0.0
 
 
-def _points(fit: Superposition, log10_b: Array) -> tuple[Array, Array, Array]:
+def _points(isotherms: tuple[Isotherm, ...], log10_b: Array) -> tuple[Array, Array, Array]:
     """Return E' and E'' of all isotherms without their vertical shift, and the temperature of each."""
     b = 10.0**log10_b
-    storage = np.concatenate([one.storage_modulus / by for one, by in zip(fit.isotherms, b, strict=True)])
-    loss = np.concatenate([one.loss_modulus / by for one, by in zip(fit.isotherms, b, strict=True)])
-    temperature = np.concatenate([np.full(len(one), one.temperature) for one in fit.isotherms])
+    storage = np.concatenate([one.storage_modulus / by for one, by in zip(isotherms, b, strict=True)])
+    loss = np.concatenate([one.loss_modulus / by for one, by in zip(isotherms, b, strict=True)])
+    temperature = np.concatenate([np.full(len(one), one.temperature) for one in isotherms])
     return storage, loss, temperature
 
 
 def _verdict(
-    fit: Superposition,
     neighbours: tuple[NeighbourDistance, ...],
     figure: float,
     drifting: Drift | None,
+    unidentified: tuple[tuple[float, float], ...],
     own: OwnShifts,
 ) -> Verdict:
     """Return the verdict in a word: the worst that was found."""
@@ -253,19 +230,20 @@ def _verdict(
         return "fails" if figure > ROUGH_FIGURE else "roughly"
     if drifting is not None:
         return "doubtful"
-    if fit.unidentified:
+    if unidentified:
         return "not identified"
     return "other factors" if own.wrong else "holds"
 
 
 def _words(
     verdict: Verdict,
-    fit: Superposition,
     neighbours: tuple[NeighbourDistance, ...],
     figure: float,
     ratio: Array,
     own: OwnShifts,
     drifting: Drift | None,
+    unidentified: tuple[tuple[float, float], ...],
+    vertical_shift: VerticalShift | None,
 ) -> tuple[str, ...]:
     """Say whether superposition holds, and whether it does with these shift factors."""
     wrong = (f"The shift factors do not join the isotherms: {own.clause}.",) if own.wrong else ()
@@ -279,12 +257,12 @@ def _words(
     between, noise = _rms(distance), _median(np.array([pair.standard_error for pair in neighbours]))
     apart = f"neighbouring isotherms lie {_decades(between)} apart (rms) in tan δ against |E*|"
     merit = f"figure of merit {figure:.2g}, up to {LARGEST_FIGURE:g} counts as sound"
-    free = isinstance(fit.vertical_shift, VerticalShiftFactors)
+    free = isinstance(vertical_shift, VerticalShiftFactors)
     drifts = () if drifting is None else (f"{_drift(drifting)}.",)
     if verdict in ("roughly", "fails"):
         worst = [neighbours[place] for place in np.argsort(-ratio)[:_NAMED] if ratio[place] > LARGEST_FIGURE]
         where = ", ".join(f"{celsius(pair.colder):z.0f} and {celsius(pair.warmer):z.0f} °C" for pair in worst)
-        cure = "" if fit.vertical_shift else "; a free vertical shift may mend what is a change of modulus alone"
+        cure = "" if vertical_shift else "; a free vertical shift may mend what is a change of modulus alone"
         how = "does not hold" if verdict == "fails" else "holds only roughly"
         sentence = (
             f"Superposition {how}: {apart} ({merit}, above {ROUGH_FIGURE:g} as failed), whatever the shift factors, "
@@ -297,7 +275,7 @@ def _words(
         return sentence, *wrong
     beyond = "" if between <= LEVEL_95 * noise else f"; the noise is {noise:.1g} decades, so that some of it is real"
     if verdict == "not identified":
-        where = ranges(fit.unidentified)
+        where = ranges(unidentified)
         sentence = (
             f"Superposition is tested only in part: α is not identified from {where}, where the sweeps join about as "
             f"well over a wide range of shifts; elsewhere {apart} ({merit}{beyond})."
@@ -327,12 +305,11 @@ def _overlap(figure: float, misfit: float) -> tuple[str, ...]:
     return (sentence,)
 
 
-def _gaps(fit: Superposition) -> tuple[str, ...]:
+def _gaps(isotherms: tuple[Isotherm, ...], quality: OverlapQuality) -> tuple[str, ...]:
     """Say that what does not overlap is not tested."""
-    quality = fit.quality
     if not quality.gaps:
         return ()
-    at = [fit.isotherms[place : place + 2] for place in quality.gaps[:_NAMED]]
+    at = [isotherms[place : place + 2] for place in quality.gaps[:_NAMED]]
     where = ", ".join(f"{celsius(one.temperature):z.0f} and {celsius(other.temperature):z.0f} °C" for one, other in at)
     more = " and others" if quality.without_overlap > _NAMED else ""
     sentence = (

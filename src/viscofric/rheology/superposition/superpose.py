@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -28,6 +27,7 @@ from viscofric.rheology.superposition.joined_isotherms import (
 )
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, LogSweep, OverlapQuality, overlap_quality
 from viscofric.rheology.superposition.own_shifts import own_shifts
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius, checked_poisson_ratio, kelvin_hint, positive
@@ -37,66 +37,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.data import Isotherm
     from viscofric.rheology.superposition.common_shifts import CommonShifts
-    from viscofric.rheology.superposition.consistency import SuperpositionCheck
-    from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
     from viscofric.units import Quantity
 
     Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Superposition:
-    """What `superpose` finds.
-
-    Parameters
-    ----------
-    shift_factors : ShiftFactors
-        α at the temperatures that were joined, with standard errors.
-    master_curve : MasterCurve
-        Tensile, at the reference, free of vertical shift: E(ω, T)/b(T) against α(T) ω.
-    quality : OverlapQuality
-        How well neighbours overlap: rms of log10 E' and of log10 E''.
-    notes : tuple of str
-        What the reader noted, and what was converted, left out or not identified here: one sentence each.
-    isotherms : tuple of Isotherm
-        Those that were joined, tensile and as measured (no vertical shift taken off), in ascending temperature:
-        one for each entry of `shift_factors.temperatures`.
-    vertical_shift : VerticalShift or None
-        b(T), where one was asked for.
-    cross_covariance : (n, n) array or None
-        Of log10 α (rows) with log10 b (columns), where b was fitted.
-    offsets : IsothermOffsets or None
-        How far whole isotherms are off, found from their overlaps where shifts were fitted.
-    unidentified : tuple of (float, float)
-        Colder and warmer temperature (K) of the steps of α that the sweeps do not fix.
-    """
-
-    shift_factors: ShiftFactors
-    master_curve: MasterCurve
-    quality: OverlapQuality
-    notes: tuple[str, ...] = ()
-    isotherms: tuple[Isotherm, ...] = ()
-    vertical_shift: VerticalShift | None = None
-    cross_covariance: Array | None = None
-    offsets: IsothermOffsets | None = None
-    unidentified: tuple[tuple[float, float], ...] = ()
-
-    def __repr__(self) -> str:
-        shifts = self.shift_factors
-        return (
-            f"Superposition({len(shifts.temperatures)} isotherms, {shown(float(shifts.temperatures[0]))} to "
-            f"{shown(float(shifts.temperatures[-1]))}, reference {shown(shifts.reference)}, overlap misfit "
-            f"{self.quality.joint:.4f} decades)"
-        )
-
-    @cached_property
-    def check(self) -> SuperpositionCheck:
-        """Whether superposition holds, found when first asked for; see `check_superposition`."""
-        from viscofric.rheology.superposition.consistency import check_superposition
-
-        return check_superposition(self)
 
 
 #: Weight of the model with a free vertical shift beside the one without, where isotherms drift.

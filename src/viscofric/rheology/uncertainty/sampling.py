@@ -15,7 +15,7 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShif
 from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
-from viscofric.rheology.superposition.superpose import Superposition
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.refit import Refit
 from viscofric.rheology.uncertainty.residuals import Residuals

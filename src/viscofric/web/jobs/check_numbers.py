@@ -12,7 +12,7 @@ from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
     from viscofric.rheology.superposition.consistency import Diagram, SuperpositionCheck
-    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.rheology.superposition.result import Superposition
 
 _HEADLINES = {
     "holds": "Superposition holds",

@@ -13,7 +13,7 @@ from viscofric.web.jobs.context import JobError, plain
 from viscofric.web.jobs.rubbers import made_rubber
 
 if TYPE_CHECKING:
-    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.rheology.superposition.result import Superposition
     from viscofric.web.jobs.context import Context
 
 #: An isotherm is named to this, K.

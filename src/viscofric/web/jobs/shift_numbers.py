@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.law_comparison import LawRow
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.rheology.superposition.superpose import Superposition
+    from viscofric.rheology.superposition.result import Superposition
     from viscofric.study.rubber import Rubber
 
     Array = NDArray[np.float64]

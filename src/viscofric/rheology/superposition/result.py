@@ -1,0 +1,119 @@
+"""What a superposition of isotherms finds, and whether it holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from viscofric.arguments import insist_on
+from viscofric.rheology.superposition import consistency
+from viscofric.rheology.superposition.joined_isotherms import shown
+from viscofric.threads import one_blas_thread
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from viscofric.data import Isotherm, MasterCurve
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.rheology.superposition.consistency import SuperpositionCheck
+    from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
+    from viscofric.rheology.superposition.overlap import OverlapQuality
+
+    Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Superposition:
+    """What `superpose` finds.
+
+    Parameters
+    ----------
+    shift_factors : ShiftFactors
+        α at the temperatures that were joined, with standard errors.
+    master_curve : MasterCurve
+        Tensile, at the reference, free of vertical shift: E(ω, T)/b(T) against α(T) ω.
+    quality : OverlapQuality
+        How well neighbours overlap: rms of log10 E' and of log10 E''.
+    notes : tuple of str
+        What the reader noted, and what was converted, left out or not identified here: one sentence each.
+    isotherms : tuple of Isotherm
+        Those that were joined, tensile and as measured (no vertical shift taken off), in ascending temperature:
+        one for each entry of `shift_factors.temperatures`.
+    vertical_shift : VerticalShift or None
+        b(T), where one was asked for.
+    cross_covariance : (n, n) array or None
+        Of log10 α (rows) with log10 b (columns), where b was fitted.
+    offsets : IsothermOffsets or None
+        How far whole isotherms are off, found from their overlaps where shifts were fitted.
+    unidentified : tuple of (float, float)
+        Colder and warmer temperature (K) of the steps of α that the sweeps do not fix.
+    """
+
+    shift_factors: ShiftFactors
+    master_curve: MasterCurve
+    quality: OverlapQuality
+    notes: tuple[str, ...] = ()
+    isotherms: tuple[Isotherm, ...] = ()
+    vertical_shift: VerticalShift | None = None
+    cross_covariance: Array | None = None
+    offsets: IsothermOffsets | None = None
+    unidentified: tuple[tuple[float, float], ...] = ()
+
+    def __repr__(self) -> str:
+        shifts = self.shift_factors
+        return (
+            f"Superposition({len(shifts.temperatures)} isotherms, {shown(float(shifts.temperatures[0]))} to "
+            f"{shown(float(shifts.temperatures[-1]))}, reference {shown(shifts.reference)}, overlap misfit "
+            f"{self.quality.joint:.4f} decades)"
+        )
+
+    @cached_property
+    @one_blas_thread
+    def check(self) -> SuperpositionCheck:
+        """Whether superposition holds, found when first asked for; see `check_superposition`."""
+        return consistency.check(
+            self.isotherms,
+            self.shift_factors,
+            self.vertical_shift,
+            self.unidentified,
+            self.quality,
+            self.master_curve,
+        )
+
+
+def check_superposition(fit: Superposition) -> SuperpositionCheck:
+    """Say whether time–temperature superposition holds, and whether E' and E'' belong to each other.
+
+    Parameters
+    ----------
+    fit : Superposition
+        As `superpose` returns it.
+
+    Returns
+    -------
+    SuperpositionCheck
+
+    Notes
+    -----
+    Isotherms that superpose lie on one curve of tan δ against |E*|, whatever their shifts (H. C. Booij, J. H. M.
+    Palmen, Theoretical and Applied Rheology, 1992, 321; M. van Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5).  Each is
+    compared with its neighbour, at right angles to that curve, so that plateaus, where it runs steeply, count as
+    well; the noise is the scatter of each isotherm about its own smooth curve.  Distances within reproducibility that
+    add up over a run of isotherms are no errors of single isotherms: a vertical shift is missing, or superposition
+    fails slowly (`Drift`).
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> import viscofric as vf
+    >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
+    >>> sweeps = vf.read_dma(path, deformation="tension")
+    >>> fit = vf.superpose(sweeps, reference="30 degC")
+    >>> vf.check_superposition(fit).holds
+    True
+    """
+    insist_on(fit, "fit", Superposition, right="what superpose(…) returned")
+    return fit.check
