@@ -18,7 +18,8 @@ from viscofric.contact.free.control import GivenIndentation, GivenLoad
 from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.grids import Window
 from viscofric.contact.free.nested import find_window
-from viscofric.contact.free.problem import Problem, Stage
+from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
 from viscofric.contact.indenters.shapes import Cone
 from viscofric.contact.influence.layer_potentials import LayerCell
@@ -179,7 +180,7 @@ def friction(stage: Stage, way: str, **changed: float | Array) -> float:
     assert result.converged
     assert np.array_equal(result.pressure > 0.0, stage.result.pressure > 0.0)
     there = Stage(stage.problem, stage.window, operator, result)
-    return there.balanced_friction.value if way == "balance" else there.pressure_friction
+    return there.balanced_friction if way == "balance" else there.pressure_friction
 
 
 @pytest.mark.parametrize("way", ["pressure", "balance"])

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from viscofric.contact.derivatives.friction import FrictionDerivatives
     from viscofric.contact.free.control import Control
     from viscofric.contact.free.grids import Extent
-    from viscofric.contact.free.problem import Stage
+    from viscofric.contact.free.stage import Stage
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.geometry import LINE, POINT
-from viscofric.contact.free.problem import Problem, Stage
+from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
 from viscofric.errors import ConvergenceError
 from viscofric.verification.ball import ball_references

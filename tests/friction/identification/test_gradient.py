@@ -11,8 +11,9 @@ import viscofric as vf
 from viscofric.contact.derivatives.adjoint import friction_adjoint, friction_way
 from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.nested import find_window, refine
-from viscofric.contact.free.problem import Problem, Stage
+from viscofric.contact.free.problem import Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.friction.identification.response import friction_response
 
@@ -62,7 +63,7 @@ def friction_on_its_cells(stage: Stage, way: str, scale: Scale, logarithms: Arra
     assert result.converged
     assert np.array_equal(result.pressure > 0.0, stage.result.pressure > 0.0)
     there = Stage(problem, stage.window, operator, result)
-    return scale.slope * (there.pressure_friction if way == "pressure" else there.balanced_friction.value)
+    return scale.slope * (there.pressure_friction if way == "pressure" else there.balanced_friction)
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from viscofric.contact.free.problem import Stage
+    from viscofric.contact.free.stage import Stage
     from viscofric.contact.operators.convolution import ConvolutionOperator
 
     Array: TypeAlias = NDArray[np.float64]
@@ -136,7 +136,7 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
         value = stage.pressure_friction
         by_pressure = stage.problem.shape.slope(window.x[:, None], window.y) / total
     else:
-        value = stage.balanced_friction.value
+        value = stage.balanced_friction
         by_pressure = operator.bent_dissipated_force_gradient(pressure) / (window.cell_area * total)
         scale = lag(material, window.spacing, CUTS[1]) / (window.spacing**2 * total)
         gap = free_gap(pressure, stage.gap)

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.derivatives.adjoint import Gradient
-    from viscofric.contact.free.problem import Stage
     from viscofric.contact.free.scale import Scale
+    from viscofric.contact.free.stage import Stage
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     Array: TypeAlias = NDArray[np.float64]

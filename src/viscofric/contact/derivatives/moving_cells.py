@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.derivatives.adjoint import Gradient, Way
-    from viscofric.contact.free.problem import Stage
+    from viscofric.contact.free.stage import Stage
 
     Array: TypeAlias = NDArray[np.float64]
 

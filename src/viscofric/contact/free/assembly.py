@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.free.control import GivenLoad
-from viscofric.contact.free.estimates import FRICTION_FLOOR, SLOW_FADING, friction_estimate, settled
-from viscofric.contact.free.footprint import FootprintErrors
+from viscofric.contact.free.estimates import FRICTION_FLOOR, SLOW_FADING, FootprintErrors, friction_estimate, settled
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
 
 if TYPE_CHECKING:
-    from viscofric.contact.free.problem import Stage
     from viscofric.contact.free.scale import Scale
+    from viscofric.contact.free.stage import Stage
 
 
 def assemble(

@@ -1,8 +1,9 @@
-"""Numbers on nested grids: how well they have settled, and which way to the friction has settled best."""
+"""Errors of numbers on nested grids: how well each has settled, and which way to the friction has settled best."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.contact.free.problem import Stage
+    from viscofric.contact.free.stage import Stage
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -29,6 +30,13 @@ _SHARES = (0.0, 0.5)
 _SHIFTED_SHARES = (0.5, 0.1)
 _UNEXPLAINED_SHARE, _LEAN_TRUST = 0.5, 3.0
 _FALL_OF_LEAN = 5.0
+
+# The largest pressure counts as resolved this far from the edge (in cells) and settled this well.
+_RESOLVED_CELLS = 3
+_RESOLVED_CHANGE = 0.02
+# No edge is claimed to be known better than to this part of a cell: twice what the extrapolation misses on Hertz's
+# contact.
+_LEAST_EDGE_ERROR = 0.5
 
 
 class Estimate(NamedTuple):
@@ -55,10 +63,10 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     """
     last = stages[-1]
     if len(stages) < FEWEST_GRIDS:
-        return Estimate(last.balanced_friction.value, math.inf)
+        return Estimate(last.balanced_friction, math.inf)
     if len(last.operator.material.compliances) == 0:
         return Estimate(0.0, 0.0)  # an elastic contact dissipates nothing, however its pressure leans on the grid
-    energy = np.array([stage.balanced_friction.value for stage in stages])
+    energy = np.array([stage.balanced_friction for stage in stages])
     lean = np.array([stage.pressure_friction for stage in stages])
     difference = abs(float(lean[-1] - energy[-1]))
     shares = _SHIFTED_SHARES if last.operator.shift > 0.0 else _SHARES
@@ -78,7 +86,7 @@ def _uncertainty(stages: list[Stage]) -> float:
     """
     last = stages[-1]
     most = max(stage.opening * last.window.spacing / stage.window.spacing for stage in stages[-FEWEST_GRIDS:])
-    return last.balanced_friction.error * most / last.opening if last.opening > 0.0 else 0.0
+    return last.left_out_range(last.window.spacing) * most / last.opening if last.opening > 0.0 else 0.0
 
 
 def least_error(stages: list[Stage], halvings: int) -> float:
@@ -91,7 +99,7 @@ def least_error(stages: list[Stage], halvings: int) -> float:
     last = stages[-1]
     uncertain = last.left_out_range(last.window.spacing / 2.0**halvings) / 2.0**halvings
     lean = settled(np.array([stage.pressure_friction for stage in stages])).error / _FALL_OF_LEAN**halvings
-    scale = max(abs(last.balanced_friction.value), FRICTION_FLOOR)
+    scale = max(abs(last.balanced_friction), FRICTION_FLOOR)
     return last.problem.geometry.scatter * min(uncertain, lean) / scale
 
 
@@ -115,3 +123,69 @@ def settled(values: Array, fading: float = 0.25) -> Estimate:
     ratio = max(before / last, 1.25) if last > 0.0 else math.inf
     faded = changes * fading ** np.arange(len(changes) - 1.0, -1.0, -1.0)
     return Estimate(float(values[-1]), float(max(last / (ratio - 1.0), *faded)))
+
+
+@dataclass(frozen=True)
+class FootprintErrors:
+    """Error estimates of the finest footprint from its changes on the nested grids.
+
+    Attributes
+    ----------
+    edge, area, peak : float
+        Of a peak that is not resolved, at least itself and what the leading edge may hide.
+    least : float
+        Least error of an edge: a part of a cell.
+    peak_resolved : bool
+    """
+
+    edge: float
+    area: float
+    peak: float
+    least: float
+    peak_resolved: bool
+
+    @classmethod
+    def of(cls, stages: list[Stage]) -> FootprintErrors:
+        """Estimate from all stages, coarsest first."""
+        footprints = [stage.footprint for stage in stages]
+        last = footprints[-1]
+
+        def error(name: str) -> float:
+            return settled(np.array([getattr(one, name) for one in footprints]), SLOW_FADING).error
+
+        shift, cell = stages[-1].operator.shift, max(stages[-1].window.spacing, stages[-1].window.width)
+        least = cell * max(_LEAST_EDGE_ERROR, 2.0 * shift)
+        sides = [name for name in ("front", "rear", "side") if math.isfinite(getattr(last, name))]
+        rim = last.area / max(last.front + last.rear, cell)  # the contact's width across, one for a line contact
+        peak = error("peak")
+        # A layer at the leading edge that is thinner than a cell may hide a pressure that no grid so far has seen.
+        deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
+        hidden = _hidden_peak(stages[-1])
+        seen = shift == 0.0 and hidden < last.peak
+        resolved = deep and still and seen
+        # The edge lies between the last loaded cell's centre and the next one's, wherever a coarser grid had it.
+        most = cell if seen else math.inf
+        return cls(
+            edge=max(least, min(most, max(error(name) for name in sides))),
+            area=max(least * rim, error("area")),
+            peak=peak if resolved else max(peak, hidden, last.peak),
+            least=least,
+            peak_resolved=resolved,
+        )
+
+
+def _hidden_peak(stage: Stage) -> float:
+    """Largest pressure that the leading edge may hide from the cells, in order of magnitude.
+
+    The pressure that a cell sees rises as B √s with the distance s from the edge.  Where the solid yields by a
+    factor less to waves as short as s than to those that the cells resolve, the pressure at s is higher by that
+    factor: for one retardation time √(k l)/2 at s = l/k, where the exact layer, a Dawson function, has 0.54 √(k l).
+    """
+    spacing, pressure = stage.window.spacing, stage.result.pressure
+    along = pressure[:, int(np.argmax(pressure.max(axis=0)))]
+    last = int(np.flatnonzero(along)[-1])
+    outer, inner = along[last] ** 2, along[last - 1] ** 2
+    steepness = math.sqrt((max(inner - outer, outer) if inner > outer else 2.0 * outer) / spacing)  # as in `edges`
+    distance = spacing * np.logspace(-12.0, 0.0, 49)
+    yielding = np.abs(stage.operator.material.symbol(1.0 / distance))
+    return steepness * float(np.max(np.sqrt(distance[:-1]) * yielding[-1] / yielding[:-1]))

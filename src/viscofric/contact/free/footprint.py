@@ -12,22 +12,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.free.estimates import SLOW_FADING, settled
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.free.grids import Grid
-    from viscofric.contact.free.problem import Stage
 
     Array: TypeAlias = NDArray[np.float64]
-
-# The largest pressure counts as resolved this far from the edge (in cells) and settled this well.
-_RESOLVED_CELLS = 3
-_RESOLVED_CHANGE = 0.02
-# No edge is claimed to be known better than to this part of a cell: twice what the extrapolation misses on Hertz's
-# contact.
-_LEAST_EDGE_ERROR = 0.5
 
 
 @dataclass(frozen=True)
@@ -70,72 +60,6 @@ class Footprint:
         empty = np.flatnonzero(pressure[:, row] == 0.0)
         depth = int(np.abs(empty - place).min()) if len(empty) else len(pressure)
         return cls(front, -rear, 0.5 * (left - right), contact_area(window, pressure), float(pressure.max()), depth)
-
-
-@dataclass(frozen=True)
-class FootprintErrors:
-    """Error estimates of the finest footprint from its changes on the nested grids.
-
-    Attributes
-    ----------
-    edge, area, peak : float
-        Of a peak that is not resolved, at least itself and what the leading edge may hide.
-    least : float
-        Least error of an edge: a part of a cell.
-    peak_resolved : bool
-    """
-
-    edge: float
-    area: float
-    peak: float
-    least: float
-    peak_resolved: bool
-
-    @classmethod
-    def of(cls, stages: list[Stage]) -> FootprintErrors:
-        """Estimate from all stages, coarsest first."""
-        footprints = [stage.footprint for stage in stages]
-        last = footprints[-1]
-
-        def error(name: str) -> float:
-            return settled(np.array([getattr(one, name) for one in footprints]), SLOW_FADING).error
-
-        shift, cell = stages[-1].operator.shift, max(stages[-1].window.spacing, stages[-1].window.width)
-        least = cell * max(_LEAST_EDGE_ERROR, 2.0 * shift)
-        sides = [name for name in ("front", "rear", "side") if math.isfinite(getattr(last, name))]
-        rim = last.area / max(last.front + last.rear, cell)  # the contact's width across, one for a line contact
-        peak = error("peak")
-        # A layer at the leading edge that is thinner than a cell may hide a pressure that no grid so far has seen.
-        deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
-        hidden = _hidden_peak(stages[-1])
-        seen = shift == 0.0 and hidden < last.peak
-        resolved = deep and still and seen
-        # The edge lies between the last loaded cell's centre and the next one's, wherever a coarser grid had it.
-        most = cell if seen else math.inf
-        return cls(
-            edge=max(least, min(most, max(error(name) for name in sides))),
-            area=max(least * rim, error("area")),
-            peak=peak if resolved else max(peak, hidden, last.peak),
-            least=least,
-            peak_resolved=resolved,
-        )
-
-
-def _hidden_peak(stage: Stage) -> float:
-    """Largest pressure that the leading edge may hide from the cells, in order of magnitude.
-
-    The pressure that a cell sees rises as B √s with the distance s from the edge.  Where the solid yields by a
-    factor less to waves as short as s than to those that the cells resolve, the pressure at s is higher by that
-    factor: for one retardation time √(k l)/2 at s = l/k, where the exact layer, a Dawson function, has 0.54 √(k l).
-    """
-    spacing, pressure = stage.window.spacing, stage.result.pressure
-    along = pressure[:, int(np.argmax(pressure.max(axis=0)))]
-    last = int(np.flatnonzero(along)[-1])
-    outer, inner = along[last] ** 2, along[last - 1] ** 2
-    steepness = math.sqrt((max(inner - outer, outer) if inner > outer else 2.0 * outer) / spacing)  # as in `edges`
-    distance = spacing * np.logspace(-12.0, 0.0, 49)
-    yielding = np.abs(stage.operator.material.symbol(1.0 / distance))
-    return steepness * float(np.max(np.sqrt(distance[:-1]) * yielding[-1] / yielding[:-1]))
 
 
 def edges(position: Array, pressure: Array) -> tuple[float, float]:

@@ -17,8 +17,8 @@ import numpy as np
 
 from viscofric.contact.free.estimates import FEWEST_GRIDS, friction_estimate, least_error
 from viscofric.contact.free.given_grid import GivenGrid
-from viscofric.contact.free.problem import Problem, Stage
 from viscofric.contact.free.proximal import proximal_points
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import collocation_shift
 from viscofric.errors import ConvergenceError, InputError
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.free.grids import Grid
+    from viscofric.contact.free.problem import Problem
 
     Array: TypeAlias = NDArray[np.float64]
 
