@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from viscofric.contact.free.control import GivenLoad
-from viscofric.contact.free.estimates import FRICTION_FLOOR, SLOW_FADING, FootprintErrors, friction_estimate, settled
+from viscofric.contact.free.estimates import FRICTION_FLOOR, FootprintErrors, error_of, friction_estimate
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
 
 if TYPE_CHECKING:
@@ -78,8 +76,8 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
     lean, energy = fine.pressure_friction, fine.energy_friction
     errors = FootprintErrors.of(stages)
     loaded = isinstance(fine.problem.control, GivenLoad)
-    # The level that an indentation is counted from may be that of the leading edge.
-    indentation = max(_error(stages, "indentation"), fine.level_slope * errors.least)
+    # The level that an indentation is counted from may be that of the leading edge, and is known no better than it.
+    indentation = max(error_of(stages, "indentation"), fine.level_slope * errors.edge)
     return Diagnostics(
         shape=fine.window.shape,
         spacing=scale.length * fine.window.spacing,
@@ -89,11 +87,11 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
         energy=(lean - energy) / max(abs(lean), abs(energy), FRICTION_FLOOR),
         friction_error=scale.slope * friction_estimate(stages).error,
         indentation_error=scale.depth * (indentation if loaded else 0.0),
-        load_error=scale.force * (0.0 if loaded else _error(stages, "load")),
+        load_error=scale.force * (0.0 if loaded else error_of(stages, "load")),
         edge_error=scale.length * errors.edge,
         contact_area_error=scale.area * errors.area,
         max_pressure_error=scale.pressure * errors.peak,
-        centre_of_pressure_error=scale.length * _error(stages, "centre_of_pressure"),
+        centre_of_pressure_error=scale.length * error_of(stages, "centre_of_pressure"),
         peak_resolved=errors.peak_resolved,
         levels=tuple(
             Level(
@@ -110,8 +108,3 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
         products=products,
         ffts=2 * products + 2 * linear,
     )
-
-
-def _error(stages: list[Stage], name: str) -> float:
-    """Error estimate of a number that each stage has, from its changes."""
-    return settled(np.array([getattr(stage, name) for stage in stages]), SLOW_FADING).error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -18,8 +19,9 @@ if TYPE_CHECKING:
 FEWEST_GRIDS = 3  # one change alone may be small by chance
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
 FRICTION_FLOOR = 1e-6
-#: Of numbers other than friction: they settle with the first power of the cell at the least.
-SLOW_FADING = 0.5
+# By which changes fall from grid to grid at the least: those of the friction with the power 3/2 of the cell, since the
+# pressure rises like a square root at the edges; those of other numbers with its first power.
+_FADING, _SLOW_FADING = 0.5**1.5, 0.5
 
 # Parts of the difference between the two ways to friction that are claimed as error at the least, of the balanced
 # energy and of the lean; where the gap is looked at behind the cell centres, since friction then settles more slowly
@@ -103,7 +105,7 @@ def least_error(stages: list[Stage], halvings: int) -> float:
     return last.problem.geometry.scatter * min(uncertain, lean) / scale
 
 
-def settled(values: Array, fading: float = 0.25) -> Estimate:
+def settled(values: Array, fading: float = _FADING) -> Estimate:
     """Return the last of three or more values on nested grids, with an estimate of its error.
 
     With changes d1 (the last) and d0 before it, a geometric sequence has d1/(d0/d1 − 1) still to go.  No less than
@@ -115,14 +117,19 @@ def settled(values: Array, fading: float = 0.25) -> Estimate:
     values : (n,) array
         From the coarsest grid on.
     fading : float
-        By which changes are expected to fall from grid to grid: `SLOW_FADING` where nothing but these changes tells of
-        the error.
+        By which changes fall from grid to grid at the least.
     """
     changes = np.abs(np.diff(values))[-3:]
     before, last = changes[-2:]
     ratio = max(before / last, 1.25) if last > 0.0 else math.inf
     faded = changes * fading ** np.arange(len(changes) - 1.0, -1.0, -1.0)
     return Estimate(float(values[-1]), float(max(last / (ratio - 1.0), *faded)))
+
+
+def error_of(stages: list[Stage], name: str) -> float:
+    """Error estimate of a number of each stage that depends on where the edges are, such as "footprint.area"."""
+    values = np.array([attrgetter(name)(stage) for stage in stages])
+    return stages[-1].problem.geometry.scatter * settled(values, _SLOW_FADING).error
 
 
 @dataclass(frozen=True)
@@ -132,33 +139,25 @@ class FootprintErrors:
     Attributes
     ----------
     edge, area, peak : float
-        Of a peak that is not resolved, at least itself and what the leading edge may hide.
-    least : float
-        Least error of an edge: a part of a cell.
+        Of a peak that is not resolved, at least itself and what the leading edge or a tip may hide.
     peak_resolved : bool
     """
 
     edge: float
     area: float
     peak: float
-    least: float
     peak_resolved: bool
 
     @classmethod
     def of(cls, stages: list[Stage]) -> FootprintErrors:
         """Estimate from all stages, coarsest first."""
-        footprints = [stage.footprint for stage in stages]
-        last = footprints[-1]
-
-        def error(name: str) -> float:
-            return settled(np.array([getattr(one, name) for one in footprints]), SLOW_FADING).error
-
-        shift, cell = stages[-1].operator.shift, max(stages[-1].window.spacing, stages[-1].window.width)
-        least = cell * max(_LEAST_EDGE_ERROR, 2.0 * shift)
+        last, shift = stages[-1].footprint, stages[-1].operator.shift
+        cell = max(stages[-1].window.spacing, stages[-1].window.width)
+        least = stages[-1].problem.geometry.scatter * cell * max(_LEAST_EDGE_ERROR, 2.0 * shift)
         sides = [name for name in ("front", "rear", "side") if math.isfinite(getattr(last, name))]
         rim = last.area / max(last.front + last.rear, cell)  # the contact's width across, one for a line contact
-        peak = error("peak")
-        # A layer at the leading edge that is thinner than a cell may hide a pressure that no grid so far has seen.
+        peak = settled(np.array([stage.footprint.peak for stage in stages]), _SLOW_FADING).error
+        # A layer at the leading edge that is thinner than a cell, and a tip, hide a pressure that no grid has seen.
         deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
         hidden = _hidden_peak(stages[-1])
         seen = shift == 0.0 and hidden < last.peak
@@ -166,20 +165,22 @@ class FootprintErrors:
         # The edge lies between the last loaded cell's centre and the next one's, wherever a coarser grid had it.
         most = cell if seen else math.inf
         return cls(
-            edge=max(least, min(most, max(error(name) for name in sides))),
-            area=max(least * rim, error("area")),
+            edge=max(least, min(most, max(error_of(stages, f"footprint.{name}") for name in sides))),
+            area=max(least * rim, error_of(stages, "footprint.area")),
             peak=peak if resolved else max(peak, hidden, last.peak),
-            least=least,
             peak_resolved=resolved,
         )
 
 
 def _hidden_peak(stage: Stage) -> float:
-    """Largest pressure that the leading edge may hide from the cells, in order of magnitude.
+    """Largest pressure that the leading edge or a tip may hide from the cells, in order of magnitude.
 
     The pressure that a cell sees rises as B √s with the distance s from the edge.  Where the solid yields by a
     factor less to waves as short as s than to those that the cells resolve, the pressure at s is higher by that
     factor: for one retardation time √(k l)/2 at s = l/k, where the exact layer, a Dawson function, has 0.54 √(k l).
+
+    At a tip the pressure is infinite: it rises as half the slope times ln(1/s), over the factor by which the solid
+    yields (see `sneddon_cone`).  What it reaches at the shortest distance counts.
     """
     spacing, pressure = stage.window.spacing, stage.result.pressure
     along = pressure[:, int(np.argmax(pressure.max(axis=0)))]
@@ -188,4 +189,8 @@ def _hidden_peak(stage: Stage) -> float:
     steepness = math.sqrt((max(inner - outer, outer) if inner > outer else 2.0 * outer) / spacing)  # as in `edges`
     distance = spacing * np.logspace(-12.0, 0.0, 49)
     yielding = np.abs(stage.operator.material.symbol(1.0 / distance))
-    return steepness * float(np.max(np.sqrt(distance[:-1]) * yielding[-1] / yielding[:-1]))
+    pressure_at = steepness * np.sqrt(distance) * yielding[-1]
+    if stage.problem.shape.has_tip:
+        slope = abs(float(stage.problem.shape.slope(np.array([spacing]), np.zeros(1))[0]))
+        pressure_at += stage.footprint.peak * yielding[-1] + 0.5 * slope * np.log(spacing / distance)
+    return float(np.max((pressure_at / yielding)[:-1]))
