@@ -130,7 +130,7 @@ def check_assumptions(
         said = f"What warming changes in friction cannot be told: {error}"
         isothermal = AssumptionCheck("one temperature", None, CHANGE, None, said)
     thick = None if thickness is None else positive(thickness, "m", "thickness")
-    coupled = check_coupling(curves, sizes, material.poisson_ratio, thick)
+    coupled = check_coupling(curves, material.poisson_ratio, thick, sizes)
     return (
         check_half_space(material, curves, sizes, thick, CHANGE),
         _small_contact(steepest, indenter.noun),

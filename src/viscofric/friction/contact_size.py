@@ -44,7 +44,7 @@ class ContactSize:
         spectrum = material.modes_at(float(curves.temperature[row]))
         plane_strain = 1.0 - material.poisson_ratio**2
         scale = Scale.for_load(indenter, spectrum.E0 / plane_strain, float(curves.load[row]))
-        curvature, where = scale.slope / scale.length, _at(curves, row)
+        curvature, where = scale.slope / scale.length, place_of(curves, row)
         if solved is not None:
             return cls(solved, solved, scale.length, curvature, where)
         # Hertz: a³ ~ F R/E of a ball, a² ~ F R/E of a cylinder.
@@ -66,6 +66,7 @@ class ContactSize:
         )
 
 
-def _at(curves: FrictionCurves, row: int) -> str:
+def place_of(curves: FrictionCurves, row: int) -> str:
+    """Return temperature, speed and load of a point of friction curves, in words."""
     load = f"{plain(float(curves.load[row]), 3)} {curves.load_unit}"
     return f"at {celsius(float(curves.temperature[row])):.0f} °C, {told_speed(float(curves.speed[row]), 3)} and {load}"

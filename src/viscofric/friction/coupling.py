@@ -19,6 +19,7 @@ import numpy as np
 
 from viscofric.contact.layers import Layer
 from viscofric.friction.assumption_check import AssumptionCheck, verdict
+from viscofric.friction.contact_size import place_of
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
@@ -61,19 +62,19 @@ def coupling(poisson_ratio: float, thickness: float | None = None) -> float:
 
 
 def check_coupling(
-    curves: FrictionCurves, sizes: Sequence[ContactSize], poisson_ratio: float, thickness: float | None
+    curves: FrictionCurves, poisson_ratio: float, thickness: float | None = None, sizes: Sequence[ContactSize] = ()
 ) -> AssumptionCheck | None:
-    """Check it for points of friction curves whose Coulomb friction is known, and tell of the worst; None if none is.
+    """Check it for points of friction curves whose Coulomb friction is known, at the worst; None if none is.
 
     Parameters
     ----------
     curves : FrictionCurves
-    sizes : sequence of ContactSize
-        Of the contact at each point.
     poisson_ratio : float
         Of the rubber.
-    thickness : float or None
-        Of the rubber, m.
+    thickness : float, optional
+        Of the rubber, m; a half-space without it.
+    sizes : sequence of ContactSize
+        Of the contact at each point; what the thickness is compared with.
     """
     if curves.coulomb is None or not np.any(np.isfinite(curves.coulomb)):
         return None
@@ -96,7 +97,7 @@ def check_coupling(
     on = "a half-space" if thickness is None else f"a bonded layer of {1e3 * thickness:.3g} mm"
     said = (
         f"Coulomb friction of {rubbed[row]:.2g} moves the surface of {on} (ν = {poisson_ratio:g}) up and down by about "
-        f"{size} of what the pressure does ({sizes[row].where}), which contacts solved without shear leave out"
+        f"{size} of what the pressure does ({place_of(curves, row)}), which contacts solved without shear leave out"
     )
     said += {
         True: f"; up to {LARGEST:g} counts as none.",

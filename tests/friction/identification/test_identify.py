@@ -170,6 +170,19 @@ def test_nothing_is_identified_from_friction_that_no_rubber_makes(friction, expe
 
 
 @pytest.mark.usefixtures("closed_form")
+@pytest.mark.parametrize(("poisson_ratio", "expected"), [(0.5, set()), (0.4, {"tangential-coupling"})])
+def test_coulomb_friction_on_compressible_rubber_is_noted(poisson_ratio: float, expected: set[str]) -> None:
+    """Shear of μ_c = 0.3 moves the surface by 0.3 (1 − 2ν)/(2(1 − ν)) of what the pressure does: 0.05 for ν = 0.4."""
+    curves = closed_form_curves(*WARM)
+    rubbed = replace(curves, coulomb=np.full(len(curves), 0.3), slip=0.2 * curves.speed)
+    found = vf.identify_material(
+        rubbed, anchor=planted_anchor(), shift=RUBBER.shift, poisson_ratio=poisson_ratio, **SETTINGS
+    )
+    assert codes(found.notes) == expected
+    assert found.identified.decades > 0.0
+
+
+@pytest.mark.usefixtures("closed_form")
 def test_residuals_that_follow_each_other_are_told() -> None:
     """A cold curve that lies 5 % above the warm ones, as after a change of sample: missed, but not by scatter."""
     curves = closed_form_curves(*WARM)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band
 from viscofric.friction.identification.fitting import Weighed, most_evident, weighed
@@ -146,10 +147,15 @@ def _with_honest_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
     return weighed(replace(best.problem, observations=larger), best.minimum.place), scale
 
 
-def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -> tuple[Note, ...]:
+def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -> tuple[str, ...]:
     """Say what the residuals, and the friction itself, leave in doubt."""
     points = outcome.start.observations.points
-    notes = list(implausible(points.at_one_load(outcome.curves)))
+    measured = points.at_one_load(outcome.curves)
+    notes: list[str] = list(implausible(measured))
+    measured = replace(measured, load=points.forces, load_unit=outcome.contacts.indenter.geometry.load_unit)
+    coupled = check_coupling(measured, outcome.contacts.poisson_ratio)
+    if coupled is not None and not coupled.holds:
+        notes.append(coupled.sentence)
     if error_scale == 1.0:
         return tuple(notes)
     scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"

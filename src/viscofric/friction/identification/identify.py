@@ -129,7 +129,9 @@ def identify_material(
     likelihood).
 
     Errors of the points are taken to be independent.  Those of replicates are drawn towards a common scatter.  What all
-    speeds of a run share, which `separate` notes with its size, is not modelled.
+    speeds of a run share, which `separate` notes with its size, is not modelled.  Shear is not part of the contacts: a
+    note gives what measured Coulomb friction changes on a half-space of the Poisson ratio; for thin rubber call
+    `check_assumptions` with the material found, and its thickness.
 
     Examples
     --------
