@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import pickle
 import subprocess
@@ -17,7 +18,9 @@ from study import sweeps
 from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_imported, shortened
 from viscofric.files import insist_on_size, parse_toml
 from viscofric.notes import codes
+from viscofric.processes import LimitedProcess
 from viscofric.readers.height_table import read_heights
+from viscofric.readers.topography import package
 from viscofric.rheology.cards.card_files import LARGEST_CARD
 from viscofric.study.store import CaseStore, Damaged, _sealed
 
@@ -79,6 +82,21 @@ def test_workbooks_are_no_surfaces(tmp_path: Path) -> None:
     torn = tmp_path / "torn.xlsx"
     torn.write_bytes(hostile.workbook(tmp_path / "book.xlsx").read_bytes()[:3_000])
     refused(vf.read_topography, torn)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limit of address space")
+@pytest.mark.parametrize(("seconds", "memory", "words"), [(0.01, 10**9, "takes longer"), (60.0, 10**8, "takes more")])
+def test_surfaces_of_instruments_are_read_within_limits(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seconds: float, memory: int, words: str
+) -> None:
+    """With limits so small that importing a package goes beyond them, whatever is in the file."""
+    if importlib.util.find_spec("SurfaceTopography") is None:
+        pytest.skip("the package SurfaceTopography is not installed")
+    process = LimitedProcess(seconds, memory, needed=package.__name__)
+    monkeypatch.setattr(package, "_APART", process)
+    path = tmp_path / "scan.sur"
+    path.write_bytes(b"DIGITAL SURF\0" + bytes(1_000))
+    assert words in refused(vf.read_topography, path)
 
 
 @pytest.mark.slow  # a workbook of 600,000 cells takes seconds to write and to parse

@@ -7,12 +7,13 @@ import pprint
 import statistics
 import subprocess
 import sys
+import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from viscofric.errors import InputError, ViscofricError
-from viscofric.processes import Workers, call_all
+from viscofric.processes import LimitedProcess, Workers, call_all
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -185,7 +186,7 @@ def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text(
         "import statistics\n"
-        "from viscofric.processes import Workers, call_all\n"
+        "from viscofric.processes import LimitedProcess, Workers, call_all\n"
         "with Workers(2) as workers:\n"
         "    for _ in range(2):\n"
         "        print(call_all(statistics.fmean, [{'data': [1.0]}, {'data': [2.0]}], workers=workers))\n"
@@ -243,3 +244,58 @@ def test_what_calls_need_is_imported_before_the_first_of_them(
     assert (tmp_path / "told").read_text() == "here"
     with Workers(1, needed="needed_calls"):
         assert len(children) == 2
+
+
+ROOM = 10**9  # bytes; Python with its modules takes a tenth
+
+
+@pytest.fixture
+def limited(children: list[subprocess.Popen[bytes]]) -> Any:
+    process = LimitedProcess(seconds=30.0, memory=ROOM)
+    yield process
+    process.close()
+    assert all(child.returncode is not None for child in children)
+
+
+def test_calls_with_limits_share_one_process_that_stays(limited: LimitedProcess, children: list[Any]) -> None:
+    assert limited.call(statistics.fmean, data=[1.0, 3.0]) == 2.0
+    with pytest.raises(statistics.StatisticsError):
+        limited.call(statistics.fmean, data=[])
+    assert limited.call(os.getpid) == children[0].pid
+    assert len(children) == 1
+
+
+def test_a_call_beyond_its_time_is_ended(children: list[Any]) -> None:
+    limited = LimitedProcess(seconds=0.5, memory=ROOM)
+    before = time.monotonic()
+    with pytest.raises(TimeoutError):
+        limited.call(subprocess.check_call, args=[sys.executable, "-c", "import time; time.sleep(60)"])
+    assert time.monotonic() - before < 10.0  # the limit, and what a busy machine adds
+    assert children[0].returncode is not None
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems may have no limit of address space")
+def test_a_call_beyond_its_memory_fails_and_the_next_one_works(limited: LimitedProcess, children: list[Any]) -> None:
+    with pytest.raises(MemoryError):
+        limited.call(repeated, times=3 * ROOM)
+    with pytest.raises(MemoryError):  # as where a library ends its process
+        limited.call(os._exit, status=1)
+    assert limited.call(statistics.fmean, data=[1.0]) == 1.0
+    assert len(children) == 3
+
+
+def repeated(times: int) -> int:
+    return len(b"a" * times)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there are no forks on this system")
+@pytest.mark.filterwarnings("ignore:.*multi-threaded, use of fork:DeprecationWarning")
+def test_a_fork_has_a_process_of_its_own(limited: LimitedProcess) -> None:
+    first = limited.call(os.getpid)
+    fork = os.fork()
+    if fork == 0:
+        own = limited.call(os.getpid)
+        limited.close()
+        os._exit(0 if own != first else 1)
+    assert os.waitpid(fork, 0)[1] == 0
+    assert limited.call(os.getpid) == first

@@ -1,4 +1,4 @@
-"""Independent calls shared out among processes, which give the same digits as one process would.
+"""Independent calls shared out among processes, which give the same digits as one process would; and calls with limits.
 
 Starting a process takes most of a second, importing above all: `Workers` live on from one set of calls to the next.
 
@@ -8,6 +8,7 @@ user's script need not guard its first lines against being run again, nor a note
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import pickle
@@ -16,6 +17,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections import deque
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 
     Child: TypeAlias = subprocess.Popen[bytes]
 
-_SERVE = "from viscofric.serving import serve; serve({parent}, {needed})"
+_SERVE = "from viscofric.serving import serve; serve({parent}, {needed!r}, {memory})"
 _ENDED = "a process ended before its contact was solved, for want of memory as a rule; use fewer workers."
 # Waiting without an end cannot be interrupted everywhere (Windows).
 _LONGEST_WAIT = 1.0  # s
@@ -113,18 +115,122 @@ class Workers:
 
     def _start(self) -> Child:
         assert self._started is not None
-        program = _SERVE.format(parent=os.getpid(), needed=repr(self._needed))
-        with _interrupts_wait():
-            child = subprocess.Popen(
-                # -P: modules in the working folder must not stand in for those of this process
-                [sys.executable, "-P", "-c", program],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
-                creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # none flashes up under Windows
-            )
-            self._started.callback(_end, child)
+        child = _started(self._needed)
+        self._started.callback(_end, child)
         return child
+
+
+class LimitedProcess:
+    """A process for calls that may never end or fill the memory; started for the first call, it waits for the next.
+
+    Parameters
+    ----------
+    seconds : float
+        Time that a call may take.
+    memory : int
+        Address space of the process in bytes, where the system has such a limit (Windows has none).
+    needed : str, optional
+        Module that the calls need, imported when the process starts.
+
+    Notes
+    -----
+    Calls from several threads each get a process of their own; one of these stays.
+    """
+
+    def __init__(self, seconds: float, memory: int, needed: str = "") -> None:
+        self.seconds, self.memory, self.needed = seconds, memory, needed
+        self._idle: deque[Child] = deque(maxlen=1)
+        self._owner = 0
+
+    def call(self, function: Callable[..., Any], **arguments: Any) -> Any:
+        """Call a function, which is importable by its name, with arguments that can be pickled.
+
+        Raises
+        ------
+        TimeoutError
+            If the call takes longer than the limit.
+        MemoryError
+            If it needs more memory than the limit, or its process ends for another reason.
+        OSError
+            If the process cannot be started.
+        Exception
+            What the call raises.
+        """
+        message = pickle.dumps((f"{function.__module__}:{function.__qualname__}", arguments))
+        child = self._free() or _started(
+            self.needed,
+            self.memory,
+            OMP_NUM_THREADS="1",
+            OPENBLAS_NUM_THREADS="1",  # each thread takes address space
+        )
+        end = time.monotonic() + self.seconds
+        alarm = threading.Timer(self.seconds, child.kill)
+        alarm.daemon = True
+        alarm.start()
+        try:
+            kind, value = _answer_of(child, message)
+        except BaseException:
+            _end(child)
+            raise
+        finally:
+            alarm.cancel()
+        if kind == "ended" or isinstance(value, MemoryError):  # what is left of it may be damaged
+            _end(child)
+            raise TimeoutError if time.monotonic() >= end else MemoryError
+        self._keep(child)
+        if kind != "result":
+            raise value if kind == "error" else InputError(value)
+        return value
+
+    def _free(self) -> Child | None:
+        if self._owner != os.getpid():  # a fork must not speak to the process of its parent
+            for child in self._idle:
+                child.returncode = 0
+            self._idle.clear()
+            self._owner = os.getpid()
+            atexit.register(self.close)
+        with contextlib.suppress(IndexError):
+            child = self._idle.pop()
+            if child.poll() is None:
+                return child
+        return None
+
+    def _keep(self, child: Child) -> None:
+        if self._idle:
+            _end(child)
+        else:
+            self._idle.append(child)
+
+    def close(self) -> None:
+        """End the process that waits."""
+        while self._idle:
+            _end(self._idle.pop())
+
+
+def _started(needed: str, memory: int = 0, **environment: str) -> Child:
+    program = _SERVE.format(parent=os.getpid(), needed=needed, memory=memory)
+    path = os.pathsep.join(path for path in sys.path if path)
+    with _interrupts_wait():
+        return subprocess.Popen(
+            # -P: modules in the working folder must not stand in for those of this process
+            [sys.executable, "-P", "-c", program],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**os.environ, **environment, "PYTHONPATH": path},
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # none flashes up under Windows
+        )
+
+
+def _answer_of(child: Child, message: bytes) -> tuple[str, Any]:
+    """Have a process make a call; return what became of it."""
+    assert child.stdin is not None
+    assert child.stdout is not None
+    try:
+        pickle.dump(message, child.stdin)
+        child.stdin.flush()
+        return pickle.loads(pickle.load(child.stdout))  # type: ignore[no-any-return]
+    except (OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError):
+        return "ended", ViscofricError(_ENDED)
 
 
 @contextlib.contextmanager
@@ -332,15 +438,7 @@ class _SharedCalls:
                 self.waiting.clear()
 
     def _ask(self, child: Child, index: int) -> tuple[str, Any]:
-        """Have a process make a call; return what became of it."""
-        assert child.stdin is not None
-        assert child.stdout is not None
-        try:
-            pickle.dump(self.messages[index], child.stdin)
-            child.stdin.flush()
-            kind, value = pickle.loads(pickle.load(child.stdout))
-        except (OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError):
-            return "ended", ViscofricError(_ENDED)
+        kind, value = _answer_of(child, self.messages[index])
         if kind == "not understood":
             return "error", _not_handed_over(self.workers.number, value)
         return kind, value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pickle
 import signal
@@ -15,7 +16,7 @@ from viscofric.errors import ViscofricError
 _BETWEEN_LOOKS = 0.5  # s
 
 
-def serve(parent: int, needed: str = "") -> None:
+def serve(parent: int, needed: str = "", memory: int = 0) -> None:
     """Answer calls from standard input on standard output until there are no more; run in a process of its own.
 
     Parameters
@@ -24,7 +25,11 @@ def serve(parent: int, needed: str = "") -> None:
         Number of the process that asks; without it, this one ends at once, whatever it is doing.
     needed : str
         Module that the calls need, imported before the first of them comes.
+    memory : int
+        Address space that it may have in bytes; 0 for no limit.
     """
+    if memory:
+        limit_memory(memory)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the business of the process that asks
     if sys.platform != "win32":  # where a process that lost its parent gets another
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
@@ -42,6 +47,22 @@ def serve(parent: int, needed: str = "") -> None:
             answers.flush()
         except BrokenPipeError:  # nobody asks any more
             os._exit(1)
+
+
+def limit_memory(most: int) -> None:
+    """Let this process have no more address space, in bytes, where the system knows how; calls that want more fail."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    with contextlib.suppress(OSError, ValueError):
+        resource.setrlimit(resource.RLIMIT_AS, (at_most(most, hard), hard))
+
+
+def at_most(wanted: int, hard: int) -> int:
+    """Return a limit that the system, which may set one already, lets a process have."""
+    return wanted if hard < 0 else min(wanted, hard)  # below zero: there is none
 
 
 def _end_with(parent: int) -> None:

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from viscofric.errors import ViscofricError, brief
+from viscofric.serving import at_most, limit_memory
 from viscofric.web.cache_folder import look_after
 from viscofric.web.jobs import WARM
 from viscofric.web.jobs.context import Context, plain
@@ -91,7 +92,7 @@ def _keep_from_jobs() -> None:
         import resource
 
         _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (_at_most(_LARGEST_FILE, most), most))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (at_most(_LARGEST_FILE, most), most))
 
 
 class Desk:
@@ -176,29 +177,13 @@ class Desk:
 
 
 def _result(job: dict[str, Any], tell: Any) -> Any:
-    _limit_memory(job["memory"])
+    limit_memory(job["memory"])
     module = import_module(job["module"])
     check_confined(job["study"])
     folder = Path(job["folder"])
     look_after(folder / "cache")
     context = Context(folder / "files", folder / "downloads", folder / "cache", tell)
     return module.run(job["study"], module.Options.model_validate(job["options"]), context)
-
-
-def _limit_memory(most: int) -> None:
-    """Let this process have no more address space, where the system knows how; a job that wants more fails."""
-    if sys.platform == "win32":
-        return
-    import resource
-
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    with contextlib.suppress(OSError, ValueError):
-        resource.setrlimit(resource.RLIMIT_AS, (_at_most(most, hard), hard))
-
-
-def _at_most(wanted: int, hard: int) -> int:
-    """Return a limit that the system, which may set one already, lets a process have."""
-    return wanted if hard < 0 else min(wanted, hard)  # below zero: there is none
 
 
 def _json(message: dict[str, Any]) -> bytes:

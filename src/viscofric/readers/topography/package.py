@@ -4,25 +4,35 @@ from __future__ import annotations
 
 import io
 import math
+import sys
 import warnings
 import zipfile
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
+from viscofric.processes import LimitedProcess
 from viscofric.readers.dma.tables.workbook import is_workbook, sheets
+from viscofric.readers.source import Source
 from viscofric.readers.topography.scan import Asked, Scan, name_of
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.readers.source import Source
-
     Array: TypeAlias = NDArray[np.float64]
 
+#: The package takes what a file says of itself at its word, so that a crafted one may never end or ask for any memory.
+LONGEST_READ = 120.0  # s, importing the package included, which takes seconds
+LARGEST_MEMORY = 6_000_000_000  # bytes
+_APART = LimitedProcess(LONGEST_READ, LARGEST_MEMORY, needed=__name__)
+_BY_PACKAGE = (
+    "is neither a table of numbers nor a NumPy array; the formats of instruments are read by the package "
+    "SurfaceTopography, but {why}."
+)
 #: Elevations of the globe without any header: whatever has the size of a square would pass for them.
 _BY_SIZE = ("hgt",)
 #: Of workbooks that a Mitutoyo SurfTest writes, of one line scan each.
@@ -32,32 +42,48 @@ _MOST_CELLS = 500_000
 
 
 def read_with_package(source: Source, asked: Asked) -> Scan:
-    """Read a file in whatever format the package recognises by its content.
+    """Read a file in whatever format the package recognises by its content, in a process with limits.
 
     Raises
     ------
     DataFileError
         If the package is not installed, does not know the format, finds the file damaged, there is no such channel,
-        or what the file says contradicts what was asked.
+        what the file says contradicts what was asked, or reading takes too long or too much memory.
     """
     insist_on_size(source.data, source.path)
     _insist_on_small_workbook(source)
+    why = ""
+    if find_spec("SurfaceTopography") is None:
+        why = "SurfaceTopography is not installed: pip install 'viscofric[surfaces]'"
+        raise DataFileError(source.path, _BY_PACKAGE.format(why=why))
+    try:
+        found = _APART.call(read_here, source=Source(source.path, source.data), asked=asked)
+    except TimeoutError:
+        why = f"takes longer than {LONGEST_READ:.0f} s to read"
+    except MemoryError:
+        why = f"takes more than {LARGEST_MEMORY / 1e9:.0f} GB of memory to read"
+    except OSError as error:
+        why = f"was not read: such files are read by {sys.executable!r}, which does not start ({error.strerror})"
+    else:
+        assert isinstance(found, Scan)
+        return found
+    raise DataFileError(source.path, f"{why}; save its heights as a matrix of numbers (CSV or .npy).")
+
+
+def read_here(source: Source, asked: Asked) -> Scan:
+    """Read a file in this process, without limits of time and memory; see `read_with_package`."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of missing MPI at import, and of its own dependencies
         try:
             from SurfaceTopography import open_topography  # type: ignore[import-untyped]
             from SurfaceTopography.Exceptions import CannotDetectFileFormat  # type: ignore[import-untyped]
         except Exception as error:  # noqa: BLE001 - of whatever it imports itself
-            why = not_imported("SurfaceTopography", error, "pip install 'viscofric[surfaces]'")
-            raise DataFileError(
-                source.path,
-                "is neither a table of numbers nor a NumPy array; the formats of instruments are read by the package "
-                f"SurfaceTopography, but {why}.",
-            ) from None
+            why = not_imported("SurfaceTopography", error)
+            raise DataFileError(source.path, _BY_PACKAGE.format(why=why)) from None
         try:
             with open_topography(io.BytesIO(source.data)) as reader:
                 return _scan(source, reader, asked)
-        except InputError:
+        except (InputError, MemoryError):
             raise
         except CannotDetectFileFormat:
             raise DataFileError(
