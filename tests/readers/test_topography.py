@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import importlib.util
-import subprocess
 import sys
+import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from viscofric.notes import codes
+from viscofric.readers.topography import package
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -167,64 +168,43 @@ def test_without_the_package_an_instruments_file_names_what_to_install(tmp_path,
         vf.read_topography(path)
 
 
-PACKAGE = """
-import sys, warnings
-from pathlib import Path
-import numpy as np
-warnings.simplefilter("ignore")
-from SurfaceTopography import Topography, UniformLineScan
-heights, folder = np.load(sys.argv[1]), sys.argv[2]
-Topography(heights, (12.0, 8.0), unit="um").to_x3p(folder + "/map.x3p")
-Topography(np.ma.masked_less(heights, -1.0), (12.0, 8.0), unit="um").to_netcdf(folder + "/holes.nc")
-warnings.resetwarnings()
-warnings.simplefilter("error")
-import viscofric as vf
-from viscofric import DataFileError, read_topography
-found = read_topography(folder + "/map.x3p")
-assert np.allclose(found.heights, 1e-6 * heights, rtol=1e-12, atol=0.0), found.heights
-assert np.allclose(found.spacing, (2e-6, 2e-6), rtol=1e-12), found.spacing
-assert "X3P" in found.history[0], found.history
-holes = read_topography(folder + "/holes.nc")
-assert holes.missing == np.count_nonzero(heights < -1.0) > 0
-for arguments, words in (
-    ({"unit": "mm"}, "leave unit"), ({"spacing": 1.0}, "leave the spacing"), ({"channel": "none"}, "no channel 'none'")
-):
-    try:
-        read_topography(folder + "/map.x3p", **arguments)
-    except DataFileError as error:
-        assert words in str(error), error
-    else:
-        raise AssertionError(words)
-data = Path(folder, "map.x3p").read_bytes()
-for size in (10, 100, len(data) // 2, len(data) - 30):
-    Path(folder, "cut.x3p").write_bytes(data[:size])
-    try:
-        read_topography(folder + "/cut.x3p")
-    except DataFileError as error:
-        assert "cut.x3p" in str(error) and "\\n" not in str(error)
-    else:
-        raise AssertionError(size)
-Path(folder, "noise.bin").write_bytes(np.random.default_rng(1).bytes(5000))  # as long as a square of two-byte numbers
-try:
-    read_topography(folder + "/noise.bin", unit="um", spacing="1 um")
-except DataFileError as error:
-    assert "none of the formats" in str(error), error
-else:
-    raise AssertionError("noise")
-print("read")
-"""
+def write_as_instruments(heights: np.ndarray, folder: Path) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        from SurfaceTopography import Topography
+    Topography(heights, (12.0, 8.0), unit="um").to_x3p(folder / "map.x3p")
+    Topography(np.ma.masked_less(heights, -1.0), (12.0, 8.0), unit="um").to_netcdf(str(folder / "holes.nc"))
 
 
 @pytest.mark.slow  # importing the package takes seconds
-def test_files_of_instruments_are_read_by_the_package(tmp_path):
-    """In a process of its own: the package, once imported, stays and slows the others down."""
+def test_files_of_instruments_are_read_by_the_package(tmp_path, capfd):
     if importlib.util.find_spec("SurfaceTopography") is None:
         pytest.skip("the package SurfaceTopography is not installed")
-    np.save(tmp_path / "heights.npy", HEIGHTS)
-    command = [sys.executable, "-c", PACKAGE, str(tmp_path / "heights.npy"), str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.stdout.endswith("read\n"), done.stderr
-    assert not done.stderr
+    # where they are read, too: the package, once imported, stays and slows this process down
+    package._APART.call(write_as_instruments, heights=HEIGHTS, folder=tmp_path)
+    path = tmp_path / "map.x3p"
+    found = vf.read_topography(path)
+    np.testing.assert_allclose(found.heights, 1e-6 * HEIGHTS, rtol=1e-12)
+    assert found.spacing == pytest.approx((2e-6, 2e-6), rel=1e-12)
+    assert "X3P" in found.history[0]
+    assert vf.read_topography(tmp_path / "holes.nc").missing == np.count_nonzero(HEIGHTS < -1.0) > 0
+    for arguments, words in (
+        ({"unit": "mm"}, "leave unit"),
+        ({"spacing": 1.0}, "leave the spacing"),
+        ({"channel": "none"}, "no channel 'none'"),
+    ):
+        with pytest.raises(vf.DataFileError, match=words):
+            vf.read_topography(path, **arguments)
+    data = path.read_bytes()
+    for size in (10, 100, len(data) // 2, len(data) - 30):
+        (tmp_path / "cut.x3p").write_bytes(data[:size])
+        with pytest.raises(vf.DataFileError, match=r"cut\.x3p.*\Z"):  # on one line
+            vf.read_topography(tmp_path / "cut.x3p")
+    noise = tmp_path / "noise.bin"
+    noise.write_bytes(RANDOM.bytes(5000))  # as long as a square of two-byte numbers
+    with pytest.raises(vf.DataFileError, match="none of the formats"):
+        vf.read_topography(noise, unit="um", spacing="1 um")
+    assert capfd.readouterr() == ("", "")
 
 
 CELLS = st.one_of(
