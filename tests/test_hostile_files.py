@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import pickle
+import re
 import subprocess
 import sys
 import warnings
@@ -262,6 +263,32 @@ def test_a_long_sentence_keeps_its_beginning_and_its_end() -> None:
         assert len(str(one)) <= LONGEST_SENTENCE
         assert str(one).startswith("a.csv, line 3: column xxx")
         assert str(one).endswith("has no unit; write it.")
-    lines = str(StudyError("\n".join(["study.toml: 99 things are wrong:"] + ["  a: no."] * 99))).split("\n")
-    assert len(lines) <= 21
     assert shortened("brief") == "brief"
+
+
+@pytest.mark.parametrize("count", [2, 5, 99])
+@pytest.mark.parametrize("length", [10, 90, 10_000])
+def test_many_mistakes_are_counted_in_a_message_and_listed_for_a_terminal(count: int, length: int) -> None:
+    mistakes = [f"{number:02}{'a' * length}: no." for number in range(count)]
+    error = StudyError(f"study.toml: {count} things are wrong:", mistakes)
+    for one in (error, pickle.loads(pickle.dumps(error))):
+        assert len(one.mistakes) == count
+        assert len(str(one)) <= LONGEST_SENTENCE
+        first, *lines = str(one).split("\n")
+        assert first == f"study.toml: {count} things are wrong:"
+        assert 2 <= len(lines) <= count
+        left = re.fullmatch(r"  … and (\d+) more\.", lines[-1])
+        assert len(lines) - 1 + int(left[1]) == count if left else len(lines) == count
+        assert all(line.endswith(": no.") for line in lines[: -1 if left else None])
+        listed = one.listing.split("\n")
+        assert len(listed) == 1 + min(count, 21)
+        assert all(len(line) <= LONGEST_SENTENCE + 2 for line in listed)
+
+
+def test_all_mistakes_of_a_run_file_stay_at_hand(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(hostile.STUDY + "".join(f"[unknown_{number}]\n" for number in range(40)), encoding="utf-8")
+    with pytest.raises(StudyError) as caught:
+        vf.load_study(path)
+    assert len(caught.value.mistakes) == 40
+    assert len(str(caught.value)) <= LONGEST_SENTENCE

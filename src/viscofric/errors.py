@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
 _LONGEST = 80
-#: Of a sentence of an error or note; what is longer quotes a file, and is cut in its middle.
+#: Of the message of an error, or of a note; what is longer quotes a file or lists many mistakes.
 LONGEST_SENTENCE = 500
-_LONGEST_END = 200  # of it, kept from the end, where the sentence says what to do
-#: Of one error, where it lists all that is wrong.
+_LONGEST_LINE = 160  # of a list, where there are too many for longer ones
+#: Of a list that is printed with a line for each.
 _MOST_SENTENCES = 20
 
 
@@ -17,19 +22,35 @@ def brief(value: object) -> str:
 
 
 def shortened(text: str) -> str:
-    """Return a sentence of bearable length, and of a list of sentences, one to a line, a bearable number."""
-    if len(text) <= LONGEST_SENTENCE and text.count("\n") < _MOST_SENTENCES:
+    """Return a text of bearable length.
+
+    A long sentence is cut in its middle, as it says at its end what to do.  Of a list with a sentence on each line, the
+    first ones are kept, and the others counted.
+    """
+    if len(text) <= LONGEST_SENTENCE:
         return text
-    lines = text.split("\n", _MOST_SENTENCES)
-    if len(lines) > _MOST_SENTENCES:
-        lines[-1] = f"  … and {lines[-1].count(chr(10)) + 1} more."
-    cut = [
-        line
-        if len(line) <= LONGEST_SENTENCE
-        else f"{line[: LONGEST_SENTENCE - _LONGEST_END - 3]} … {line[-_LONGEST_END:]}"
-        for line in lines
-    ]
-    return "\n".join(cut)
+    head, *lines = text.split("\n")
+    if not lines:
+        return _cut(head, LONGEST_SENTENCE)
+    kept = [_cut(head, LONGEST_SENTENCE // 2)]
+    left = LONGEST_SENTENCE - len(kept[0]) - len(_and_more(len(lines)))
+    longest = max(_LONGEST_LINE, left // len(lines) - 1)
+    for number, line in enumerate(lines):
+        shown = _cut(line, longest)
+        left -= len(shown) + 1
+        if left < 0:
+            return "\n".join([*kept, _and_more(len(lines) - number)])
+        kept.append(shown)
+    return "\n".join(kept)
+
+
+def _cut(line: str, longest: int) -> str:
+    end = 2 * longest // 5
+    return line if len(line) <= longest else f"{line[: longest - end - 3]} … {line[-end:]}"
+
+
+def _and_more(count: int) -> str:
+    return f"  … and {count} more."
 
 
 def not_imported(package: str, error: Exception, install: str = "") -> str:
@@ -63,6 +84,11 @@ class ViscofricError(Exception):
     def __init__(self, *arguments: object) -> None:
         super().__init__(*(shortened(one) if isinstance(one, str) else one for one in arguments))
 
+    @property
+    def listing(self) -> str:
+        """The message; where it lists mistakes, with more of them than a message holds, one to a line."""
+        return str(self)
+
 
 class InputError(ViscofricError, ValueError):
     """A value given to viscofric cannot be used: wrong unit, sign, range or shape."""
@@ -93,7 +119,29 @@ class DataFileError(InputError):
 
 
 class StudyError(InputError):
-    """A run file asks for something that cannot be done; names the file and the field."""
+    """A run file asks for something that cannot be done; names the file and the field.
+
+    Parameters
+    ----------
+    problem : str
+        One sentence; of several mistakes, the file and their number.
+    mistakes : sequence of str
+        One sentence each.  All are kept here; the message has as many lines as it has room for.
+    """
+
+    def __init__(self, problem: str, mistakes: Sequence[str] = ()) -> None:
+        self.mistakes = tuple(_cut(mistake, LONGEST_SENTENCE) for mistake in mistakes)
+        self._problem = problem
+        super().__init__("\n  ".join([problem, *mistakes]))
+
+    @property
+    def listing(self) -> str:
+        """The message with its mistakes, one to a line, as many as can be read at once."""
+        if not self.mistakes:
+            return str(self)
+        more = len(self.mistakes) - _MOST_SENTENCES
+        lines = [f"  {mistake}" for mistake in self.mistakes[:_MOST_SENTENCES]]
+        return "\n".join([self._problem, *lines, *([_and_more(more)] if more > 0 else [])])
 
 
 class SuperpositionError(InputError):

@@ -23,7 +23,7 @@ def told() -> Iterator[None]:
     try:
         yield
     except ViscofricError as error:
-        raise click.ClickException(plainly(str(error))) from error
+        raise click.ClickException(plainly(error.listing)) from error
 
 
 def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:

@@ -142,7 +142,7 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     except InputError as error:
         wrong.append(f"surface: {error}")
     if wrong:
-        raise StudyError("\n  ".join([f"{path}: its data cannot be used:", *wrong]))
+        raise StudyError(f"{path}: its data cannot be used:", wrong)
     return CheckedStudy(study, sweep, tuple(rubbers), measured)
 
 

@@ -214,8 +214,10 @@ def parse_study(text: str, path: Path) -> Study:
     try:
         study = Study.model_validate(values)
     except ValidationError as error:
-        found = [*sentences(error, values, TABLES), *_of_sound_tables(error, values)]
-        raise StudyError(_joined(path, list(dict.fromkeys(found)))) from None
+        found = list(dict.fromkeys([*sentences(error, values, TABLES), *_of_sound_tables(error, values)]))
+        if len(found) == 1:
+            raise StudyError(f"{path}: {found[0]}") from None
+        raise StudyError(f"{path}: {len(found)} things are wrong:", found) from None
     return _resolve_paths(study, path)
 
 
@@ -301,13 +303,6 @@ def _of_sound_tables(error: ValidationError, values: dict[str, Any]) -> list[str
 
 def _parts(key: str) -> list[str | int]:
     return [int(part) if part.isdigit() else part for part in key.split(".")] if key else []
-
-
-def _joined(path: Path, found: list[str]) -> str:
-    """Return one sentence as it is; of several, each on a line of its own."""
-    if len(found) == 1:
-        return f"{path}: {found[0]}"
-    return "\n  ".join([f"{path}: {len(found)} things are wrong:", *found])
 
 
 def _resolve_paths(study: Study, path: Path) -> Study:
