@@ -11,13 +11,15 @@ import sys
 import warnings
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 
 import hostile
 import viscofric as vf
 from study import sweeps
+from viscofric import files
 from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_imported, shortened
-from viscofric.files import insist_on_size, parse_toml
+from viscofric.files import LARGEST_TABLE, insist_on_size, parse_toml
 from viscofric.notes import codes
 from viscofric.processes import LimitedProcess
 from viscofric.readers.height_table import read_heights
@@ -177,6 +179,29 @@ def test_a_card_of_a_whole_disk_is_not_read(tmp_path: Path) -> None:
     with path.open("wb") as file:
         file.truncate(LARGEST_CARD + 1)  # takes no room
     assert "such a file has at most 20 MB" in refused(vf.read_card, path)
+
+
+@pytest.mark.parametrize(
+    "read", [vf.read_dma, vf.read_mtm, vf.read_friction_curves, vf.read_shift_factors], ids=lambda one: one.__name__
+)
+def test_measurements_of_a_whole_disk_are_not_read(tmp_path: Path, read: object) -> None:
+    path = tmp_path / "long.csv"
+    with path.open("wb") as file:
+        file.truncate(LARGEST_TABLE + 1)  # takes no room
+    assert "at most 50 MB; keep every tenth row" in refused(read, path)
+
+
+def test_heights_of_a_large_surface_are_read_in_binary_form_only(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    heights = np.arange(100.0).reshape(10, 10)
+    np.save(tmp_path / "scan.npy", heights)
+    np.savetxt(tmp_path / "scan.csv", heights, delimiter=",")
+    monkeypatch.setattr(files, "LARGEST_TABLE", 500)  # both have more bytes
+    reads = (lambda path: vf.read_topography(path, spacing="1 m").heights, read_heights)
+    for read in reads:
+        np.testing.assert_array_equal(read(tmp_path / "scan.npy"), heights)
+        assert "numpy.save" in refused(read, tmp_path / "scan.csv")
 
 
 def test_a_card_may_hold_a_name_of_any_length(tmp_path: Path) -> None:

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-#: A file of measurements is far smaller; what is larger was chosen by mistake.
+#: A table of measurements has a few million bytes.  A text of this size takes about 15 s and 1.4 GB to read.
+LARGEST_TABLE = 50_000_000  # bytes
+#: Heights of a surface in binary form, and what viscofric stores itself.
 LARGEST_FILE = 200_000_000  # bytes
 #: What a packed file may hold when unpacked, and by how much its bytes may have been packed.
 LARGEST_UNPACKED = 500_000_000  # bytes
@@ -55,7 +57,7 @@ def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
     path : str or path
         The file.
     most : int, optional
-        Bytes that such a file has at most.
+        Bytes that such a file has at most; by default those of a table of measurements.
 
     Raises
     ------
@@ -70,15 +72,30 @@ def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
             raise DataFileError(shown, "is a folder, not a data file.")
         if not stat.S_ISREG(status.st_mode):  # a device or a pipe may never end
             raise DataFileError(shown, "is a device or a pipe, not a data file.")
-        if status.st_size > (most or LARGEST_FILE):
-            size, right = status.st_size / 1e6, (most or LARGEST_FILE) / 1e6
-            what = "such a file" if most else "a table of measurements"
-            raise DataFileError(shown, f"holds {size:.0f} MB; {what} has at most {right:.0f} MB.")
+        if status.st_size > (most or LARGEST_TABLE):
+            size, right = math.ceil(status.st_size / 1e6), (most or LARGEST_TABLE) / 1e6
+            what = "such a file has" if most else "a table of measurements may have"
+            hint = "" if most else "; keep every tenth row, say, or divide it into several files"
+            raise DataFileError(shown, f"holds {size} MB; {what} at most {right:.0f} MB{hint}.")
         return file.read_bytes()
     except FileNotFoundError:
         raise DataFileError(shown, "no such file.") from None
     except OSError as error:
         raise DataFileError(shown, f"cannot be opened ({error.strerror or error}).") from None
+
+
+def insist_on_short_text(data: bytes, path: str | PathLike[str]) -> None:
+    """Refuse heights of a surface as text that takes far longer and more memory to read than in binary form.
+
+    Raises
+    ------
+    DataFileError
+        If it has more bytes than a table of measurements.
+    """
+    if len(data) > LARGEST_TABLE:
+        size, right, binary = math.ceil(len(data) / 1e6), LARGEST_TABLE / 1e6, LARGEST_FILE / 1e6
+        problem = f"holds {size} MB of text, at most {right:.0f} MB of which are read; save the heights with "
+        raise DataFileError(path, f"{problem}numpy.save, as a file (.npy) of up to {binary:.0f} MB.")
 
 
 def decoded(data: bytes, path: str | PathLike[str]) -> str:

@@ -79,6 +79,6 @@ def test_devices_and_pipes_are_refused(tmp_path):
 
 
 def test_a_file_too_large_for_measurements_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "LARGEST_FILE", 10)
-    with pytest.raises(DataFileError, match="a table of measurements has at most"):
+    monkeypatch.setattr(files, "LARGEST_TABLE", 10)
+    with pytest.raises(DataFileError, match="a table of measurements may have at most"):
         read_dma(write(tmp_path, HEADER, "20;1;5;0.5"))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.files import decoded, read_bytes, saved_array
+from viscofric.files import LARGEST_FILE, decoded, insist_on_short_text, read_bytes, saved_array
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
@@ -48,8 +48,12 @@ def read_heights(path: str | Path, unit: str = "m") -> Array:
         If the unit is not one of length.
     """
     factor, _ = conversion(unit, "m", "height unit")
-    data = read_bytes(path)
-    table = _numpy(data, path) if data.startswith(_NUMPY) else _text(decoded(data, path), path)
+    data = read_bytes(path, LARGEST_FILE)
+    if data.startswith(_NUMPY):
+        table = _numpy(data, path)
+    else:
+        insist_on_short_text(data, path)
+        table = _text(decoded(data, path), path)
     if not np.all(np.isfinite(table)):
         raise DataFileError(path, "some heights are not finite numbers; fill gaps of a measurement first.")
     return checked_heights(factor * table, path)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import file_path, read_text
+from viscofric.files import LARGEST_FILE, file_path, read_text
 from viscofric.study.columns import PLACES, TITLE, over_all_dimensions, read_table_text
 from viscofric.study.results_file import cases_of, open_tree
 from viscofric.units import celsius
@@ -81,7 +81,7 @@ class CaseTable:
     @classmethod
     def _of_table(cls, path: str | Path) -> CaseTable:
         """Read the table that results were exported to, or one of friction curves."""
-        text = read_text(path)
+        text = read_text(path, LARGEST_FILE)
         if not text.startswith(f"# {TITLE}"):
             from viscofric.friction.curve_files import read_friction_curves
 

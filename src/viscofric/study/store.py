@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.files import insist_on_size, parse_json, read_bytes, write_atomically
+from viscofric.files import LARGEST_FILE, insist_on_size, parse_json, read_bytes, write_atomically
 from viscofric.study.record import ContactFields, Failure, Record
 from viscofric.study.surface_record import read_record
 
@@ -70,7 +70,7 @@ class CaseStore:
         """
         path = self._path(key)
         try:
-            stored = read_bytes(path)
+            stored = read_bytes(path, LARGEST_FILE)
         except DataFileError as error:
             return Damaged(error.problem) if path.exists() else None
         if not _is_sealed(stored, key):
@@ -139,7 +139,7 @@ class CaseStore:
 
     def _fields(self, key: str, checksum: str) -> ContactFields:
         path = self._path(key, "npz")
-        stored = read_bytes(path)
+        stored = read_bytes(path, LARGEST_FILE)
         if hashlib.sha256(stored).hexdigest() != checksum:
             raise ValueError("fields are not those that were stored.")
         insist_on_size(stored, path)

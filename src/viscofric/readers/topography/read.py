@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError, InputError, brief, check_choice
-from viscofric.files import file_path, read_bytes
+from viscofric.files import LARGEST_FILE, file_path, insist_on_short_text, read_bytes
 from viscofric.readers.source import Source
 from viscofric.readers.topography.package import read_with_package
 from viscofric.readers.topography.tables import NUMPY, is_table, read_array, read_text_table
@@ -42,7 +42,7 @@ def read_scan(path: object, asked: Asked) -> Scan:
     if not (asked.channel is None or isinstance(asked.channel, (str, int))):
         raise InputError(f"channel = {brief(asked.channel)}: must be the name of a channel or its number.")
     file = str(file_path(path))
-    source = Source(file, read_bytes(file))
+    source = Source(file, read_bytes(file, LARGEST_FILE))
     if not source.data:
         raise DataFileError(file, "is empty.")
     try:
@@ -53,6 +53,8 @@ def read_scan(path: object, asked: Asked) -> Scan:
             )
         if source.data.startswith(NUMPY):
             return read_array(source, asked)
+        if plain:
+            insist_on_short_text(source.data, file)
         return read_text_table(source, asked) if plain else read_with_package(source, asked)
     except DataFileError:
         raise
