@@ -16,15 +16,23 @@ _SIZES = ("indentation", "area", "half_width")
 _OF_MODULUS, _OF_SIZE = ("frequency", "temperature"), ("speed", "temperature", "load")
 
 _OPTIONS = (
-    click.option("--anchor-modulus", metavar="E", help="|E| known at one frequency, such as '8 MPa': fixes the level."),
-    click.option("--anchor-frequency", metavar="F", help="Of that modulus, such as '1 Hz' or '6.28 rad/s'."),
-    click.option("--anchor-indentation", metavar="DEPTH", help="Instead: how deep the moving indenter was pressed in."),
-    click.option("--anchor-area", metavar="AREA", help="Instead: its contact area, such as '12 mm^2'."),
-    click.option("--anchor-half-width", metavar="LENGTH", help="Instead: half its contact's width across the motion."),
-    click.option("--anchor-speed", metavar="V", help="Of that contact, such as '100 mm/s'."),
-    click.option("--anchor-load", metavar="F", help="Of that contact, such as '25 N'."),
-    click.option("--anchor-temperature", metavar="T", help="Of the modulus or the contact, such as '30 degC'."),
-    click.option("--anchor-error", type=float, metavar="SHARE", help="Relative standard error of it [default: 0.01]."),
+    click.option(
+        "--anchor-modulus", metavar="E", help="Known |E| at one frequency, e.g. '8 MPa'; fixes the magnitude."
+    ),
+    click.option("--anchor-frequency", metavar="F", help="Frequency of --anchor-modulus, e.g. '1 Hz' or '6.28 rad/s'."),
+    click.option(
+        "--anchor-indentation", metavar="DEPTH", help="Alternative: measured indentation of a moving contact."
+    ),
+    click.option(
+        "--anchor-area", metavar="AREA", help="Alternative: contact area of a moving contact, e.g. '12 mm^2'."
+    ),
+    click.option("--anchor-half-width", metavar="LENGTH", help="Alternative: contact half-width across the motion."),
+    click.option("--anchor-speed", metavar="V", help="Speed of the anchor contact, e.g. '100 mm/s'."),
+    click.option("--anchor-load", metavar="F", help="Load of the anchor contact, e.g. '25 N'."),
+    click.option("--anchor-temperature", metavar="T", help="Temperature of the anchor, e.g. '30 degC'."),
+    click.option(
+        "--anchor-error", type=float, metavar="SHARE", help="Relative standard error of the anchor [default: 0.01]."
+    ),
 )
 
 

@@ -29,15 +29,15 @@ _PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thi
     "--results",
     metavar="FOLDER",
     type=click.Path(path_type=Path, file_okay=False),
-    help="Folder of results, instead of STUDY: compare every stored contact, and results.nc, with its checksum.",
+    help="Results folder to check instead of STUDY: compare every stored contact, and results.nc, with its checksum.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print what was found as JSON, in SI units.")
+@click.option("--json", "as_json", is_flag=True, help="Print the findings as JSON, in SI units.")
 def command(study: Path | None, results: Path | None, as_json: bool) -> None:
-    """Check a run file and its data files, and say how much it asks for; nothing is solved.
+    """Validate a run file and its data files, and estimate the work; nothing is solved.
 
-    All mistakes are told at once, each with its place in the file.  With - the run file is read from standard input,
-    and data files are looked for in this folder.  With --results, check stored results for damage instead; exit status
-    1 if a file is damaged.
+    All errors are reported at once, each with its location. With - the run file is read from standard input, and
+    data files are looked for in the current folder. With --results, check stored results for damage instead; exit
+    status 1 if a file is damaged.
     """
     if (study is None) == (results is None):
         raise click.UsageError("give a run file, or --results with a folder of results.")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 DIFFERENT, TROUBLE = 1, 2
 _MOST_SENTENCES = 12
 _EXAMPLE = """\b
-Such as
+Example:
   viscofric compare before.results after.results --tolerance 1e-3
 """
 
@@ -27,13 +27,13 @@ Such as
     "--tolerance",
     type=click.FloatRange(min=0.0),
     metavar="SHARE",
-    help="Largest relative difference that counts as none; 0: the same digits [default: twice the stated errors].",
+    help="Largest relative difference accepted as equal; 0: identical digits [default: twice the stated errors].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 def command(first: Path, second: Path, tolerance: float | None, as_json: bool) -> None:
     """Compare two results case by case: folders of studies, results.nc files or tables of friction curves (CSV).
 
-    Exit status: 0 the same cases with the same values, 1 something differs, 2 they cannot be compared.
+    Exit status: 0 equal, 1 different, 2 not comparable.
     """
     from viscofric.errors import ViscofricError
     from viscofric.study.results import compare_results

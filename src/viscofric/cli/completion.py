@@ -6,7 +6,7 @@ import click
 
 _VARIABLE = "_VISCOFRIC_COMPLETE"
 _EXAMPLE = """\b
-Once for all new shells
+Install for all new shells:
   viscofric completion bash >> ~/.bashrc
   viscofric completion zsh >> ~/.zshrc
   viscofric completion fish > ~/.config/fish/completions/viscofric.fish
@@ -16,7 +16,7 @@ Once for all new shells
 @click.command(name="completion", epilog=_EXAMPLE)
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 def command(shell: str) -> None:
-    """Print the script with which SHELL completes the commands, options and files of viscofric."""
+    """Print the completion script for SHELL: commands, options and files of viscofric."""
     from click.shell_completion import ShellComplete, get_completion_class
 
     from viscofric.cli import main

@@ -17,12 +17,23 @@ _OPTIONS = (
         metavar="ANGLE|DX,DY",
         default="1,0",
         show_default=True,
-        help="Of the motion over the indenter's own axes: from its x towards its y, such as '30 deg' or '0,1'.",
+        help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
     ),
-    click.option("--indenter-modulus", metavar="E", help="Of an elastic indenter, such as '200 GPa' [default: rigid]."),
-    click.option("--indenter-poisson-ratio", type=float, metavar="ν", help="Of an elastic indenter [default: 0.3]."),
-    click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Relative error of the friction."),
-    click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda."),
+    click.option(
+        "--indenter-modulus", metavar="E", help="Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."
+    ),
+    click.option(
+        "--indenter-poisson-ratio",
+        type=float,
+        metavar="ν",
+        help="Poisson's ratio of an elastic indenter [default: 0.3].",
+    ),
+    click.option(
+        "--accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of the friction."
+    ),
+    click.option(
+        "--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda."
+    ),
 )
 
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _MOST_POINTS = 10_000
 _ROOM = "20 degC"
 _EXAMPLE = """\b
-Such as
+Example:
   viscofric curve --material "synthetic fluoroelastomer" --ball "9.525 mm" --load "25 N" \\
       --speed "20 mm/s to 200 mm/s" --points 5 --temperature "30 degC, 60 degC"
 """
@@ -40,32 +40,37 @@ Such as
     required=True,
     multiple=True,
     metavar="V",
-    help="One, several ('20 mm/s, 50 mm/s'), or a range: '1 mm/s to 1 m/s'.",
+    help="Speed, list ('20 mm/s, 50 mm/s') or range ('1 mm/s to 1 m/s').",
 )
 @click.option(
     "--points",
     type=click.IntRange(2, _MOST_POINTS),
     default=13,
     show_default=True,
-    help="Speeds of a range, evenly spread in log v.",
+    help="Number of speeds of a range, evenly spaced in log v.",
 )
 @click.option(
     "--temperature",
     "temperatures",
     multiple=True,
     metavar="T",
-    help="One or several, such as '30 degC, 60 degC' [default: the rubber's reference].",
+    help="Temperature or list, e.g. '30 degC, 60 degC' [default: the material's reference].",
 )
-@click.option("--load", required=True, metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.")
+@click.option(
+    "--load",
+    required=True,
+    metavar="F",
+    help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m').",
+)
 @contact_options
 @click.option(
     "--samples",
     type=click.IntRange(0, 10_000),
     default=0,
     show_default=True,
-    help="Draws of a rubber made of sweeps, for the 95 % band of its friction, 20 or more; 0 for none.",
+    help="Bootstrap samples of a material fitted to sweeps, for the 95 % band of its friction; 20 or more, 0 for none.",
 )
-@click.option("--workers", type=int, default=1, show_default=True, help="Processes that share the contacts.")
+@click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
 @click.option("--out", type=OUT, help="Write the friction curves (CSV); `-` prints them instead of the table.")
 @click.option(
     "--picture", type=click.Path(path_type=Path, dir_okay=False), help="Draw friction against speed (PNG, SVG or PDF)."
@@ -82,7 +87,7 @@ def command(
 ) -> None:
     """Predict viscoelastic friction against speed, at one or several temperatures.
 
-    Quantities carry their unit.  Each contact is solved to the accuracy asked for.
+    Quantities carry their unit. Each contact is solved to the requested accuracy.
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(out, "--out", CSV)

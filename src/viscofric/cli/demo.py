@@ -20,7 +20,7 @@ import click
 def command(output: Path) -> None:
     """Run the built-in example: DMA and friction data of a SYNTHETIC fluoroelastomer.
 
-    Nothing in it was measured: the data were made from stated parameters, with noise.
+    The data are calculated from stated parameters, with noise; nothing was measured.
     """
     from viscofric.cli.run import run_and_report
 

@@ -12,7 +12,7 @@ from viscofric.cli.files import DASH, check_ending
 # format -> how its file's name ends
 _ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc", "zarr": ".zarr"}
 _EXAMPLE = """\b
-Such as
+Example:
   viscofric export study.results --to excel
   viscofric export study.results --to csv -o - | head
 """
@@ -26,20 +26,20 @@ Such as
     required=True,
     multiple=True,
     type=click.Choice(list(_ENDINGS)),
-    help="Excel holds all tables, the others the cases; once for each format.",
+    help="Output format; Excel has all tables, the others the cases. Repeat for several formats.",
 )
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path, allow_dash=True),
-    help="File to write; `-` prints a csv [default: results.csv, results.xlsx, prediction.nc or prediction.zarr in the "
-    "folder of the results].",
+    help="Output file; `-` prints a csv [default: results.csv, results.xlsx, prediction.nc or "
+    "prediction.zarr in the results folder].",
 )
 def command(results: Path, forms: tuple[str, ...], output: Path | None) -> None:
-    """Write RESULTS, the folder of a study's results or the file in it, for other programs.
+    """Export RESULTS, a study's results folder or its results.nc, to other formats.
 
-    csv: a row for each case, units in the headings.  excel: a workbook with a sheet for each table.  netcdf, zarr:
-    the cases over their axes, for any program that reads labelled data.
+    csv: a row for each case, units in the headings. excel: a workbook with a sheet for each table. netcdf, zarr:
+    the cases over their axes, as labelled data.
     """
     forms = tuple(dict.fromkeys(forms))
     if output is not None and len(forms) > 1:

@@ -23,7 +23,7 @@ _FILE = click.Path(path_type=Path, dir_okay=False)
 #: Options that are settings of `identify_material` as they stand.
 _SETTINGS = ("load", "reference", "poisson_ratio", "modes", "samples", "seed", "accuracy", "name", "workers")
 _EXAMPLE = """\b
-Such as
+Example:
   viscofric identify curves.csv --ball "9.525 mm" --out rubber.json \\
       --anchor-modulus "8 MPa" --anchor-frequency "1 Hz" --anchor-temperature "30 degC"
 """
@@ -32,29 +32,37 @@ Such as
 @click.command(name="identify", epilog=_EXAMPLE)
 @click.argument("sources", nargs=-1, required=True, type=Source())
 @indenter_options
-@click.option("--load", metavar="F", help="Normal load of all points, such as '25 N' [default: each point's own].")
+@click.option("--load", metavar="F", help="Normal load of all points, e.g. '25 N' [default: each point's own].")
 @click.option(
     "--shift",
     metavar="FILE|NAME",
-    help="Shift factors: a table (CSV), a rubber's file or a name of the catalogue [default: found from friction].",
+    help="Shift factors: a table (CSV), a material file or a catalogue name [default: found from friction].",
 )
-@click.option("--reference", metavar="T", help="Temperature at which the rubber is described, such as '30 degC'.")
+@click.option("--reference", metavar="T", help="Reference temperature of the identified material, e.g. '30 degC'.")
 @anchor_options
-@click.option("--prior", metavar="FILE|NAME", help="A rubber that is known over a part of the frequencies.")
-@click.option("--prior-band", metavar="LOW,HIGH", help="Over which it is known, such as '0.1 Hz,10 Hz'.")
-@click.option("--prior-error", type=float, default=0.02, show_default=True, help="Relative standard error of it.")
-@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Of the rubber, 0 to 0.5.")
-@click.option("--modes", type=int, default=30, show_default=True, help="Retardation times, at least.")
-@click.option("--samples", type=int, default=200, show_default=True, help="Rubbers drawn for the limits.")
-@click.option("--seed", type=int, default=0, show_default=True, help="Of the draws.")
-@click.option("--accuracy", type=float, default=1e-3, show_default=True, help="Of each contact that is solved.")
-@click.option("--workers", type=int, default=1, show_default=True, help="Processes that share the contacts.")
-@click.option("--name", default="rubber identified from friction", show_default=True, help="Of the rubber.")
+@click.option("--prior", metavar="FILE|NAME", help="Material known over a part of the frequencies.")
+@click.option(
+    "--prior-band", metavar="LOW,HIGH", help="Frequencies over which the prior is known, e.g. '0.1 Hz,10 Hz'."
+)
+@click.option(
+    "--prior-error", type=float, default=0.02, show_default=True, help="Relative standard error of the prior."
+)
+@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
+@click.option("--modes", type=int, default=30, show_default=True, help="Least number of retardation times.")
+@click.option(
+    "--samples", type=int, default=200, show_default=True, help="Number of uncertainty samples for the limits."
+)
+@click.option("--seed", type=int, default=0, show_default=True, help="Random seed of the samples.")
+@click.option(
+    "--accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of each solved contact."
+)
+@click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
+@click.option("--name", default="rubber identified from friction", show_default=True, help="Name of the material.")
 @separation_options
-@click.option("--out", type=_FILE, help="Write the rubber (JSON), for `solve`, run files and `material`.")
+@click.option("--out", type=_FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
 @click.option("--picture", type=_FILE, help="Draw the modulus with its limits (PNG, SVG or PDF).")
-@click.option("--beside", metavar="FILE|NAME", help="A rubber to draw beside it, such as the DMA's.")
-@click.option("--synthetic", is_flag=True, help="The data were made, not measured; the picture then says so.")
+@click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
+@click.option("--synthetic", is_flag=True, help="Label the picture as synthetic data.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...],
@@ -65,11 +73,10 @@ def command(
     as_json: bool,
     **asked: Any,
 ) -> None:
-    """Identify the rubber behind friction: its modulus, as far as friction tells it, and its shift factors.
+    """Infer the modulus and the shift factors from friction data.
 
-    SOURCES are tables of friction curves (CSV, as `viscofric measure --out` writes them) or files of a
-    tribometer, or `-` for standard input.  Friction alone hardly tells the level of the modulus: give an anchor, or a
-    prior.
+    SOURCES are tables of friction curves (CSV, as written by `viscofric measure --out`), files of a tribometer, or
+    `-` for standard input. Friction hardly determines the magnitude of the modulus: give an anchor or a prior.
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(out, "--out", JSON)

@@ -17,23 +17,33 @@ if TYPE_CHECKING:
 _FILE = click.Path(path_type=Path, dir_okay=False)
 
 _INDENTER = (
-    click.option("--ball", metavar="RADIUS", help="A ball, such as '9.525 mm'."),
-    click.option("--cylinder", metavar="RADIUS", help="A long cylinder across the motion; its load is per length."),
+    click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
+    click.option(
+        "--cylinder",
+        metavar="RADIUS",
+        help="Cylinder radius (axis across the motion; line contact, load per unit length).",
+    ),
     click.option(
         "--ellipsoid",
         metavar="RX,RY",
-        help="Radii of curvature along its x, the way of the motion by default, and its y.",
+        help="Ellipsoid: radii of curvature along x (the default direction of motion) and y.",
     ),
-    click.option("--cone", metavar="ANGLE", help="A cone; angle between flank and surface, such as '5 deg'."),
-    click.option("--punch", metavar="RADIUS", help="A flat circular punch with a sharp edge, at a speed of zero only."),
+    click.option("--cone", metavar="ANGLE", help="Cone: angle between flank and surface, e.g. '5 deg'."),
+    click.option(
+        "--punch", metavar="RADIUS", help="Radius of a flat circular punch with a sharp edge; zero speed only."
+    ),
     click.option(
         "--height-map",
         type=_FILE,
-        help="A table of heights (text or .npy); a line is one position along the motion. Needs --spacing.",
+        help="Table of heights (text or .npy); one line per position along the motion. Needs --spacing.",
     ),
-    click.option("--profile", type=_FILE, help="One column of heights along the motion: a line contact."),
-    click.option("--spacing", metavar="LENGTH", help="Of the heights: '5 um', or '5 um,10 um' along and across."),
-    click.option("--height-unit", metavar="UNIT", help="Of the heights in the file [default: m]."),
+    click.option(
+        "--profile", type=_FILE, help="One column of heights along the motion (line contact). Needs --spacing."
+    ),
+    click.option(
+        "--spacing", metavar="LENGTH", help="Spacing of the heights: '5 um', or '5 um,10 um' along and across."
+    ),
+    click.option("--height-unit", metavar="UNIT", help="Unit of the heights in the file [default: m]."),
 )
 #: Options, one of which says what shape it is.
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")

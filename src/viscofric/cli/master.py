@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _LAWS = ("best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none")
 _EXAMPLE = """\b
-Such as
+Example:
   viscofric master curves.csv --shift rubber.json --reference "30 degC" --out alpha.csv
 """
 
@@ -34,35 +34,39 @@ Such as
     "--shift",
     "known",
     metavar="FILE|NAME",
-    help="Shift factors of the modulus to lay beside: a table (CSV), a rubber's file or a name of the catalogue.",
-)
-@click.option("--reference", metavar="T", help="Where α is 1, such as '30 degC' [default: that of --shift, or found].")
-@click.option(
-    "--law", type=click.Choice(_LAWS), default="best", show_default=True, help="To be fitted to the shift factors."
+    help="Shift factors of the modulus for comparison: a table (CSV), a material file or a catalogue name.",
 )
 @click.option(
-    "--ball", metavar="RADIUS", help="Of the ball, such as '9.525 mm': friction at all loads is then reduced to one."
+    "--reference",
+    metavar="T",
+    help="Reference temperature (α = 1), e.g. '30 degC' [default: that of --shift, or found].",
+)
+@click.option(
+    "--law", type=click.Choice(_LAWS), default="best", show_default=True, help="Law to fit to the shift factors."
+)
+@click.option(
+    "--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'; reduces friction at all loads to one load."
 )
 @click.option(
     "--level-error",
     type=float,
     default=0.0,
     show_default=True,
-    help="Relative standard error that all points of a temperature share, which the errors of α then count.",
+    help="Relative standard error shared by all points of a temperature, to include in the errors of α.",
 )
 @separation_options
 @click.option("--out", type=_FILE, help="Write the shift factors with their errors (CSV).")
 @click.option("--picture", type=_FILE, help="Draw master curve and shift factors (PNG, SVG or PDF).")
-@click.option("--synthetic", is_flag=True, help="The data were made, not measured; the picture then says so.")
+@click.option("--synthetic", is_flag=True, help="Label the picture as synthetic data.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any
 ) -> None:
-    """Shift the friction curves of several temperatures onto one, and find α(T) from friction alone.
+    """Shift the friction curves of several temperatures onto a master curve, and find α(T) from friction alone.
 
-    SOURCES are tables of friction curves (CSV, as `viscofric measure --out` writes them) or files of a tribometer, or
-    `-` for standard input.  Where the curves do not overlap, friction tells no shift factor: with --shift they are
-    then shifted by the modulus's, without it that is an error.
+    SOURCES are tables of friction curves (CSV, as written by `viscofric measure --out`), files of a tribometer, or
+    `-` for standard input. If the curves do not overlap, friction determines no shift factors: those of --shift are
+    used; without --shift, that is an error.
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(out, "--out", CSV)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
 
 _EXAMPLE = """\b
-Such as
+Example:
   viscofric measure run1.txt run2.txt --out curves.csv --picture curves.svg
 """
 
@@ -40,15 +40,15 @@ Such as
     type=click.Path(path_type=Path, dir_okay=False),
     help="Draw viscoelastic and Coulomb friction against speed (PNG, SVG or PDF).",
 )
-@click.option("--synthetic", is_flag=True, help="The data were made, not measured; the picture then says so.")
+@click.option("--synthetic", is_flag=True, help="Label the picture as synthetic data.")
 @click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
 def command(
     runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any
 ) -> None:
     """Separate viscoelastic from Coulomb friction in RUNS, files of a mini-traction machine (MTM, ETM).
 
-    Every reading's force is split by the signs of the surface speeds: viscoelastic friction turns with the motion of
-    the rubber, Coulomb friction with the slip, the zero of the force cell with neither.  Several files make one
+    The signs of the surface speeds separate the force: viscoelastic friction changes sign with the motion of the
+    rubber, Coulomb friction with the slip, the zero offset of the force cell with neither. Several files make one
     test; `-` is standard input.
     """
     check_ending(picture, "--picture", PICTURES)

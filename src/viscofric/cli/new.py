@@ -17,14 +17,14 @@ SCHEMA = "study.schema.json"
 SCHEMA_LINE = f"#:schema ./{SCHEMA}\n"
 #: Starter files, by their names, and what they show.
 TEMPLATES = {
-    "example": "all keys of a run file, with measured friction beside the prediction",
-    "ball": "a ball over speed and temperature",
-    "measured": "measured friction beside the prediction",
-    "cylinder": "a roller, its load per length",
+    "example": "all keys of a run file, with measured friction to compare",
+    "ball": "a ball against speed and temperature",
+    "measured": "measured friction compared with the prediction",
+    "cylinder": "a roller (load per unit length)",
     "layer": "rubber of finite thickness",
     "surface": "a rough surface, several seeds",
-    "sweep": "several rubbers, radii and loads",
-    "uncertainty": "how well friction is known",
+    "sweep": "several materials, radii and loads",
+    "uncertainty": "uncertainty of the predicted friction",
 }
 
 _EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words in TEMPLATES.items())
@@ -38,17 +38,17 @@ _EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words 
     type=click.Choice(list(TEMPLATES)),
     default="example",
     show_default=True,
-    help="What the study is to be like; see below.",
+    help="Template; see below.",
 )
 @click.option(
     "--schema",
     is_flag=True,
-    help=f"Write {SCHEMA} beside the run file, too, for editors to complete and check it by; without FOLDER, print it.",
+    help=f"Also write {SCHEMA}, with which editors complete and check the run file; without FOLDER, print it.",
 )
 def command(folder: Path | None, template: str, schema: bool) -> None:
-    """Write a study to start from into FOLDER: a commented run file and SYNTHETIC data to replace by your own.
+    """Write an example study to FOLDER: a commented run file and SYNTHETIC data to replace by your own.
 
-    With - instead of FOLDER, the run file alone is printed.
+    With - instead of FOLDER, only the run file is printed.
     """
     if folder is None:
         if not schema:

@@ -1,4 +1,4 @@
-"""What ``viscofric --help`` shows, on one screen of 80 columns and 24 lines."""
+"""The overview of ``viscofric --help``, on one screen of 80 columns and 24 lines."""
 
 from __future__ import annotations
 
@@ -7,35 +7,35 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import click
 
-#: Heading -> command, which is also the module that defines it -> what it is for.
+#: Heading -> command, which is also the name of its module -> purpose.
 GROUPS = {
     "Studies": {
         "demo": "Run the built-in example (synthetic data), start to end.",
-        "new": "Write a run file to start from, with data to replace.",
-        "check": "Check a run file and its data, or stored results.",
-        "run": "Run a study: friction, figures and a report out of data.",
+        "new": "Write an example run file, with synthetic data.",
+        "check": "Validate a run file and its data, or stored results.",
+        "run": "Run a study: friction, figures and a report from data.",
         "report": "Write figures and report of a finished study again.",
-        "export": "Write results as CSV, Excel workbook, netCDF or zarr.",
-        "compare": "Say where two results differ, and how they came about.",
+        "export": "Export results as CSV, Excel workbook, netCDF or zarr.",
+        "compare": "Compare two results, case by case.",
     },
-    "Rubber": {
-        "material": "Make a rubber of DMA sweeps, show it, convert it, list.",
-        "identify": "Find the rubber behind friction, as far as it tells it.",
+    "Material": {
+        "material": "Fit a material to DMA sweeps; show, convert or list.",
+        "identify": "Infer the modulus from friction data.",
     },
     "Contact": {
-        "solve": "Solve one contact: friction, pressure, a picture.",
-        "curve": "Predict friction against speed at some temperatures.",
+        "solve": "Solve one contact: friction, pressure, picture.",
+        "curve": "Predict friction against speed and temperature.",
     },
     "Friction": {
-        "measure": "Separate viscoelastic friction in tribometer files.",
-        "master": "Shift friction curves onto one; shift factors of friction.",
+        "measure": "Separate Coulomb and viscoelastic friction (MTM).",
+        "master": "Friction master curve, and shift factors from friction.",
     },
     "Page": {
-        "web": "Open the page in the browser: all this without a line.",
+        "web": "Open the local page in the browser (no coding needed).",
     },
     "Program": {
-        "verify": "Check the contact engine on this machine, in a minute.",
-        "completion": "Print what lets a shell complete commands and options.",
+        "verify": "Verify the contact engine on this machine, in a minute.",
+        "completion": "Print the completion script for a shell.",
     },
 }
 #: All commands in their order.
@@ -43,14 +43,14 @@ COMMANDS = {name: words for group in GROUPS.values() for name, words in group.it
 
 _ABOUT = "Viscoelastic friction of rubber, at any speed and temperature, from lab data."
 _AFTERWARDS = (
-    "viscofric COMMAND --help tells of a command, viscofric --version the version.",
-    "Exit status: 0 well, 1 bad input or not solved, 2 called wrongly, 3 some cases",
+    "viscofric COMMAND --help describes a command, --version prints the version.",
+    "Exit status: 0 success, 1 bad input or not solved, 2 wrong usage, 3 some cases",
     "failed, 130 interrupted, 143 terminated.",
 )
 
 
 def write_overview(formatter: click.HelpFormatter) -> None:
-    """Write all commands under their headings, and what their exit statuses mean."""
+    """Write all commands under their headings, and the meaning of the exit statuses."""
     formatter.write("Usage: viscofric COMMAND [OPTIONS] [ARGUMENTS]\n")
     formatter.write(f"{_ABOUT}\n\n")
     for heading, commands in GROUPS.items():

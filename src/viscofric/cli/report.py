@@ -12,7 +12,7 @@ import click
 @click.option(
     "--output",
     type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for report.html and figures; that of the results if not given.",
+    help="Folder for report.html and figures [default: RESULTS].",
 )
 def command(results: Path, output: Path | None) -> None:
     """Write figures and report of a study again, from its RESULTS folder."""

@@ -29,28 +29,32 @@ _MATERIAL = (
         "--material",
         metavar="NAME|FILE",
         callback=_piped,
-        help="Name of the catalogue, a rubber's file (JSON or a card; `-`: piped), or a run file for its [material].",
+        help="Catalogue name, material file (JSON or a card; `-` for standard input), or run file with a [material].",
     ),
     click.option(
         "--dma",
         multiple=True,
         type=Source(),
         metavar="FILE",
-        help="Instead: sweeps that a rubber is made of; several files, each with --dma, make one set.",
+        help="Alternative: DMA sweeps to fit; repeat for several files of one set.",
     ),
-    click.option("--reference", metavar="T", help="With --dma: of the master curve, within the sweeps, '30 degC'."),
+    click.option(
+        "--reference", metavar="T", help="With --dma: reference temperature, within the sweeps, e.g. '30 degC'."
+    ),
     click.option(
         "--deformation",
         type=click.Choice(["tension", "shear"]),
-        help="With --dma: how moduli were measured, where no file says it.",
+        help="With --dma: deformation of the test, if no file states it.",
     ),
-    click.option("--synthetic", is_flag=True, help="With --dma: the data were made, not measured."),
-    click.option("--E0", "rubber_modulus", metavar="E", help="Instead: one retardation time; rubber modulus, '1 MPa'."),
-    click.option("--E-inf", "glass_modulus", metavar="E", help="Glass modulus, such as '10 MPa'."),
-    click.option("--tau", metavar="TIME", help="Retardation time, such as '1 ms'."),
+    click.option("--synthetic", is_flag=True, help="With --dma: label the data as synthetic."),
+    click.option(
+        "--E0", "rubber_modulus", metavar="E", help="Alternative: standard linear solid; relaxed modulus, e.g. '1 MPa'."
+    ),
+    click.option("--E-inf", "glass_modulus", metavar="E", help="Glassy modulus, e.g. '10 MPa'."),
+    click.option("--tau", metavar="TIME", help="Retardation time, e.g. '1 ms'."),
     click.option("--poisson-ratio", type=float, metavar="ν", help="Poisson's ratio with --E0 or --dma [default: 0.5]."),
-    click.option("--layer", metavar="H", help="Thickness of the rubber on a rigid base [default: a half-space]."),
-    click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of sticking to it."),
+    click.option("--layer", metavar="H", help="Thickness of a layer on a rigid base [default: half-space]."),
+    click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of being bonded."),
 )
 
 

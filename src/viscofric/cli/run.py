@@ -40,20 +40,17 @@ _TOLD_OTHERWISE = (
 @click.option(
     "--resume",
     is_flag=True,
-    help="Go on in a folder that holds results: what is solved there is not solved again, even if the run file has "
-    "changed since.",
+    help="Continue in a folder with results: solved contacts are reused, even if the run file has changed.",
 )
 @click.option(
     "--finished-only",
     is_flag=True,
-    help="Solve nothing: results and report of what an interrupted run has solved so far.",
+    help="Solve nothing; write results and report of the contacts that an interrupted run has solved.",
 )
-@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Solve with N processes of this machine.")
-@click.option(
-    "--scheduler", metavar="ADDRESS", help="Solve with the workers of a Dask scheduler, such as tcp://10.0.0.1:8786."
-)
-@click.option("--json", "as_json", is_flag=True, help="Tell programs what happens: one JSON object a line.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors, warnings and failed cases.")
+@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes on this machine.")
+@click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://10.0.0.1:8786.")
+@click.option("--json", "as_json", is_flag=True, help="Print progress as JSON, one object a line.")
+@click.option("-q", "--quiet", is_flag=True, help="Print only errors, warnings and failed cases.")
 def command(
     study: Path,
     output: Path | None,
@@ -64,10 +61,10 @@ def command(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Run a study: DMA sweeps in, friction, figures and a report out.
+    """Run a study: from DMA sweeps to friction, figures and a report.
 
-    STUDY is a run file (TOML).  Every contact is stored as soon as it is solved: --resume continues a study that was
-    interrupted, to the same digits.  The results do not depend on the number of workers.
+    STUDY is a run file (TOML). Every contact is stored as soon as it is solved: --resume continues an interrupted
+    study, with identical results. The results do not depend on the number of workers.
     """
     folder = study.with_suffix(".results") if output is None else output
     run_and_report(

@@ -13,36 +13,35 @@ _SEPARATION = (
     click.option(
         "--zero",
         metavar="FORCE",
-        help="Reading of the force cell without traction, such as '0.1 N' [default: found from reversed motion, or as "
-        "recorded].",
+        help="Zero offset of the force cell, e.g. '0.1 N' [default: found from reversed motion, or as recorded].",
     ),
     click.option("--zero-error", metavar="FORCE", help="Standard error of --zero."),
     click.option(
         "--coulomb",
         metavar="NUMBER|constant",
-        help="What to assume of Coulomb friction where slip has one direction only: its coefficient, or 'constant' "
-        "over the speed.",
+        help="Assumed Coulomb friction if the slip has one direction only: a coefficient, or 'constant' over "
+        "the speed.",
     ),
-    click.option("--coulomb-error", type=float, metavar="NUMBER", help="Standard error of the --coulomb number."),
+    click.option("--coulomb-error", type=float, metavar="NUMBER", help="Standard error of --coulomb."),
     click.option(
         "--except-steps",
         metavar="NUMBERS",
-        help="Steps of the test to leave out, such as '1,3': those in which load or temperature were not steady.",
+        help="Steps of the test to leave out, e.g. '1,3', because load or temperature was not steady.",
     ),
-    click.option("--leave-out-outliers", is_flag=True, help="Leave out readings far from the others of their kind."),
+    click.option("--leave-out-outliers", is_flag=True, help="Leave out outliers."),
     click.option(
         "--speed-tolerance",
         type=float,
         default=0.05,
         show_default=True,
-        help="Relative gap that parts nominal speeds and slips.",
+        help="Relative gap between different nominal speeds and slips.",
     ),
     click.option(
         "--temperature-tolerance",
         metavar="DT",
         default="1 delta_degC",
         show_default=True,
-        help="Gap that parts nominal temperatures.",
+        help="Gap between different nominal temperatures.",
     ),
 )
 

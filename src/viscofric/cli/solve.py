@@ -29,7 +29,7 @@ _INFINITE = ("inf", "infinite", "infinity", "∞")
 _SETTINGS = ("load", "indentation", "temperature", "tolerance", "finest", "grid", "derivatives")
 
 _EXAMPLE = """\b
-Such as
+Example:
   viscofric solve --material "synthetic fluoroelastomer" --ball "9.525 mm" \\
       --speed "100 mm/s" --load "25 N" --temperature "60 degC"
 """
@@ -38,29 +38,43 @@ Such as
 @click.command(name="solve", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
-@click.option("--speed", required=True, metavar="V", help="Such as '100 mm/s'; '0 m/s' and 'infinite' are elastic.")
 @click.option(
-    "--load", metavar="F", help="Such as '25 N'; of a line contact per length, '1 kN/m'.  It or --indentation."
+    "--speed", required=True, metavar="V", help="Speed, e.g. '100 mm/s'; '0 m/s' and 'infinite' are the elastic limits."
 )
-@click.option("--indentation", metavar="DEPTH", help="Instead of the load: depth of the lowest point.")
-@click.option("--temperature", metavar="T", help="Such as '60 degC' [default: the rubber's reference].")
+@click.option(
+    "--load",
+    metavar="F",
+    help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m'); or --indentation.",
+)
+@click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load.")
+@click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference].")
 @contact_options
-@click.option("--tolerance", type=float, default=1e-8, show_default=True, help="Gap left, over the indentation.")
-@click.option("--finest", type=int, help="Most cells along the window's longer edge.")
 @click.option(
-    "--grid", type=int, metavar="CELLS", help="Along the longer edge, instead of those that the accuracy needs."
+    "--tolerance",
+    type=float,
+    default=1e-8,
+    show_default=True,
+    help="Largest residual gap or overlap over the indentation.",
+)
+@click.option("--finest", type=int, help="Largest number of cells along the window's longer edge.")
+@click.option(
+    "--grid", type=int, metavar="CELLS", help="Number of cells along the window's longer edge, instead of --accuracy."
 )
 @click.option(
-    "--window", metavar="REAR,FRONT,SIDE", help="Of the cells, from the axis: '3 mm,3 mm,3 mm' [default: found]."
+    "--window",
+    metavar="REAR,FRONT,SIDE",
+    help="Window of the cells, from the axis: '3 mm,3 mm,3 mm' [default: automatic].",
 )
-@click.option("--derivatives", is_flag=True, help="How the friction changes with speed, load and each mode.")
+@click.option(
+    "--derivatives", is_flag=True, help="Also compute the derivatives of friction by speed, load and each mode."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
 @click.option("--picture", type=_FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
 @click.option("-o", "--output", type=_FILE, help="Write pressure and displacement (.nc or .csv).")
 def command(as_json: bool, picture: Path | None, output: Path | None, **asked: Any) -> None:
-    """Solve one steady contact of an indenter that slides or rolls over a rubber.
+    """Solve one steady contact of an indenter that slides or rolls over rubber.
 
-    Quantities carry their unit.  Every result comes with the error that the refinement of the grid lets expect.
+    Quantities carry their unit. Every result has its estimated discretisation error.
     """
     check_ending(picture, "--picture", PICTURES)
     check_ending(output, "--output", _FIELDS)

@@ -23,16 +23,16 @@ _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
 
 
 @click.command(name="verify")
-@click.option("--only", "names", metavar="NAME", multiple=True, help="This check or group alone; any number of times.")
-@click.option("--list", "listed", is_flag=True, help="List the checks and leave.")
+@click.option("--only", "names", metavar="NAME", multiple=True, help="Run this check or group only; may be repeated.")
+@click.option("--list", "listed", is_flag=True, help="List the checks and exit.")
 @click.option("--details", is_flag=True, help="Print every comparison, and the reasons of the bounds.")
-@click.option("--backend", default="scipy", show_default=True, help="Arrays and FFTs, such as ducc0 or torch:cuda.")
+@click.option("--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON.")
 def command(names: tuple[str, ...], listed: bool, details: bool, backend: str, as_json: bool) -> None:
-    """Check the contact engine on this machine, in less than a minute.
+    """Verify the contact engine on this machine, in less than a minute.
 
-    Each check compares what is computed with a closed form, a reference value, or what must come out the same in
-    another way.  Its line shows the worst of its comparisons.  Exit status 1 if any check fails.
+    Each check compares computed values with a closed form, a reference value, or an equivalent computation. Its
+    line shows the worst comparison. Exit status 1 if any check fails.
     """
     with told():
         from viscofric.verification import CHECKS, run_checks, select

@@ -8,20 +8,26 @@ import click
 
 from viscofric.cli.errors import told
 
-_EPILOG = "The page is for you alone: the address holds a token, and nothing is asked of any other host."
+_EPILOG = "The page is private: its address contains a token, and it connects to no other host."
 
 
 @click.command(name="web", epilog=_EPILOG)
 @click.argument("study", required=False, metavar="[STUDY]", type=click.Path(path_type=Path))
 @click.option(
-    "--port", default=8765, show_default=True, type=click.IntRange(0, 65535), help="Port; a free one if it is taken."
+    "--port",
+    default=8765,
+    show_default=True,
+    type=click.IntRange(0, 65535),
+    help="Port; if it is taken, a free one is used.",
 )
-@click.option("--host", default="127.0.0.1", show_default=True, help="Address to serve at; others may reach it then.")
-@click.option("--no-browser", is_flag=True, help="Only print the address.")
+@click.option(
+    "--host", default="127.0.0.1", show_default=True, help="Address to listen at; other machines may then connect."
+)
+@click.option("--no-browser", is_flag=True, help="Print the address without opening a browser.")
 def command(study: Path | None, port: int, host: str, no_browser: bool) -> None:
-    """Open a page in the browser: rubber, contact and friction without writing a line, until Ctrl-C.
+    """Open the local page in the browser: material, contact and friction, no coding needed. Ctrl-C ends it.
 
-    With a run file STUDY, the page opens with it and with copies of its data files.
+    With a run file STUDY, the page opens that study with copies of its data files.
     """
     with told():
         from viscofric.web.server import is_local, serve

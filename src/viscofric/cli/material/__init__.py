@@ -1,4 +1,4 @@
-"""``viscofric material``: from DMA files to a rubber, and from a rubber to the files of other programs."""
+"""``viscofric material``: fit a material to DMA files, and write it for other programs."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from viscofric.cli.lazy import LazyGroup
 
 # command, which is also the module of this package that defines it -> what the overview says
 _COMMANDS = {
-    "read": "Say what DMA files hold, and what is doubtful about them.",
-    "fit": "Make a rubber of DMA files: shift factors, master curve, spectrum, figures.",
-    "show": "Print the modulus of a rubber at a temperature.",
-    "convert": "Write a rubber as a material card of another program.",
-    "list": "List the rubbers of the catalogue.",
+    "read": "Print format, isotherms and doubtful data of DMA files.",
+    "fit": "Fit a material to DMA files: shift factors, master curve, spectrum, figures.",
+    "show": "Print the modulus of a material at a temperature.",
+    "convert": "Write a material card of another program.",
+    "list": "List the materials of the catalogue.",
 }
 
 
 @click.group(name="material", cls=LazyGroup, package=__name__, summaries=_COMMANDS, invoke_without_command=True)
 @click.pass_context
 def command(ctx: click.Context) -> None:
-    """Make a rubber of DMA sweeps, look at one, write it for other programs."""
+    """Fit a material to DMA sweeps, show it, or convert it to material cards."""
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

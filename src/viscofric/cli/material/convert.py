@@ -18,22 +18,26 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
 
 
 @click.command(name="convert")
-@click.argument("rubber")
+@click.argument("rubber", metavar="MATERIAL")
 @click.argument("output", type=click.Path(path_type=Path, dir_okay=False))
-@click.option("--format", "form", type=click.Choice(FORMATS), required=True, help="Program to write for.")
+@click.option("--format", "form", type=click.Choice(FORMATS), required=True, help="Format of the card.")
 @click.option(
-    "--poisson-ratio", type=float, help="For the card instead of the rubber's own: ANSYS and LS-DYNA cannot take 0.5."
+    "--poisson-ratio",
+    type=float,
+    help="Poisson's ratio of the card instead of the material's; ANSYS and LS-DYNA do not accept 0.5.",
 )
 @click.option(
     "--unit-system",
     type=click.Choice(["Pa", "MPa"]),
     default="Pa",
     show_default=True,
-    help="Of Abaqus, ANSYS and LS-DYNA cards; MPa goes with mm, s and tonne.",
+    help="Units of Abaqus, ANSYS and LS-DYNA cards; MPa goes with mm, s and tonne.",
 )
-@click.option("--density", metavar="RHO", help="Such as '1100 kg/m^3'; LS-DYNA needs it.")
+@click.option("--density", metavar="RHO", help="Density, e.g. '1100 kg/m^3'; required for LS-DYNA.")
 @click.option(
-    "--card-law", type=click.Choice(CARD_LAWS), help="Law fitted to a table of shift factors, written in its place."
+    "--card-law",
+    type=click.Choice(CARD_LAWS),
+    help="Shift law fitted to a table of shift factors, written instead of it.",
 )
 def command(
     rubber: str,
@@ -44,9 +48,9 @@ def command(
     density: str | None,
     card_law: CardLaw | None,
 ) -> None:
-    """Write RUBBER as a material card of another program into the file OUTPUT.
+    """Write MATERIAL as a material card of another program to the file OUTPUT.
 
-    RUBBER is a material file (JSON, CSV, or a card of any of these programs), or a name of the catalogue.
+    MATERIAL is a material file (JSON, CSV, or a card of any of these programs), or a catalogue name.
     """
     from viscofric.cli.material.rubbers import find_rubber
     from viscofric.notes import warned

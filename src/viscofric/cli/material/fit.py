@@ -24,44 +24,52 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 
 @click.command(name="fit")
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("--reference", metavar="T", required=True, help="Temperature of the master curve, such as '20 degC'.")
+@click.option(
+    "--reference", metavar="T", required=True, help="Reference temperature of the master curve, e.g. '20 degC'."
+)
 @reading_options
-@click.option("--name", default="", help="Of the rubber, for reports and cards.")
-@click.option("--master-curve", is_flag=True, help="FILES is one finished master curve, for the reference temperature.")
-@click.option("--synthetic", is_flag=True, help="The data were made, not measured; figures and report then say so.")
-@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="0 to 0.5.")
+@click.option("--name", default="", help="Name of the material, for reports and cards.")
+@click.option("--master-curve", is_flag=True, help="FILES is one finished master curve at the reference temperature.")
+@click.option("--synthetic", is_flag=True, help="Label figures and report as synthetic data.")
+@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option(
     "--vertical-shift",
     type=click.Choice(["none", "free", "density"]),
     default="none",
     show_default=True,
-    help="b(T): none, fitted freely, or that of density and temperature.",
+    help="Vertical shift b(T): none, fitted freely, or from density and temperature.",
 )
 @click.option(
     "--shift",
     type=click.Choice(_LAWS),
     default="measured",
     show_default=True,
-    help="Shift factors of the rubber: as measured, or the law fitted to them.",
+    help="Shift factors of the material: as measured, or a fitted law.",
 )
 @click.option(
     "--shift-factors",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="Take the factors of this file instead of finding them.",
+    help="Use the shift factors of this file instead of fitting them.",
 )
-@click.option("--fix", metavar="T=LOG10", multiple=True, help="Hold one factor, such as '-20 degC=4.2'.")
+@click.option("--fix", metavar="T=LOG10", multiple=True, help="Fix one factor, e.g. '-20 degC=4.2'.")
 @click.option(
     "--spectrum",
     type=click.Choice(["non-negative", "regularised", "sparse"]),
     default="non-negative",
     show_default=True,
-    help="How retardation modes are fitted.",
+    help="Fit method of the retardation modes.",
 )
-@click.option("--modes", type=int, help="With --spectrum sparse: this many modes at most.")
-@click.option("--tau-ratio", type=float, default=math.e, help="From one retardation time to the next [default: e].")
-@click.option("--card", "cards", type=click.Choice(FORMATS), multiple=True, help="Also write a card for this program.")
-@click.option("--card-law", type=click.Choice(CARD_LAWS), help="Law of the cards, fitted to measured shift factors.")
-@click.option("--samples", type=int, default=200, show_default=True, help="Draws for the bands of E; 0 for none.")
+@click.option("--modes", type=int, help="With --spectrum sparse: largest number of modes.")
+@click.option("--tau-ratio", type=float, default=math.e, help="Ratio of neighbouring retardation times [default: e].")
+@click.option(
+    "--card", "cards", type=click.Choice(FORMATS), multiple=True, help="Also write a material card for this program."
+)
+@click.option(
+    "--card-law", type=click.Choice(CARD_LAWS), help="Shift law of the cards, fitted to the measured shift factors."
+)
+@click.option(
+    "--samples", type=int, default=200, show_default=True, help="Bootstrap samples for the bands of E; 0 for none."
+)
 @click.option(
     "-o",
     "--output",
@@ -77,9 +85,9 @@ def command(
     synthetic: bool,
     **asked: Any,
 ) -> None:
-    """Make a rubber of DMA FILES: shift factors, master curve, spectrum, figures and a report.
+    """Fit a material to DMA FILES: shift factors, master curve, spectrum, figures and a report.
 
-    The folder holds rubber.json (for run files and the other commands), tables (CSV), figures and report.html.
+    The output folder has rubber.json (for run files and the other commands), tables (CSV), figures and report.html.
     """
     if samples < 0:
         raise click.BadParameter("must not be below zero.", param_hint="--samples")

@@ -9,7 +9,7 @@ from viscofric.cli.errors import told
 
 @click.command(name="list")
 def command() -> None:
-    """List the rubbers of the catalogue, with their source."""
+    """List the materials of the catalogue, with their sources."""
     from viscofric.rheology.catalogue import catalogue
 
     with told():

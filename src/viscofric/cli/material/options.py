@@ -13,17 +13,17 @@ if TYPE_CHECKING:
 def reading_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options for what a DMA file may not say itself."""
     for option in (
-        click.option("--modulus-unit", metavar="UNIT", help="Unit of moduli whose file names none, such as MPa."),
+        click.option("--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa."),
         click.option(
             "--temperature",
             metavar="T",
             multiple=True,
-            help="Temperature of a file that holds none, such as '30 degC'; once, or once for each file.",
+            help="Temperature of a file that contains none, e.g. '30 degC'; once, or once for each file.",
         ),
         click.option(
             "--deformation",
             type=click.Choice(["tension", "shear"]),
-            help="How the moduli were measured, where the file does not say it.",
+            help="Deformation of the test, if the file does not state it.",
         ),
     ):
         function = option(function)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     "--csv",
     "table",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="Also write the points that are used into this table (CSV).",
+    help="Also write the points used to a table (CSV).",
 )
 def command(
     files: tuple[Path, ...],
@@ -32,7 +32,7 @@ def command(
     modulus_unit: str | None,
     table: Path | None,
 ) -> None:
-    """Say what DMA FILES hold: their format, isotherms, and what is doubtful.
+    """Print the format, isotherms and doubtful data of DMA FILES.
 
     Several files make one set of sweeps, such as one file for each temperature.
     """

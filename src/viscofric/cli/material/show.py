@@ -13,18 +13,18 @@ if TYPE_CHECKING:
 
 
 @click.command(name="show")
-@click.argument("rubber")
-@click.option("--temperature", metavar="T", help="Such as '60 degC' [default: the rubber's reference].")
+@click.argument("rubber", metavar="MATERIAL")
+@click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference].")
 @click.option(
     "--frequency",
     metavar="F",
     multiple=True,
-    help="Such as '10 Hz' or '1 rad/s', any number of times [default: each decade].",
+    help="Frequency, e.g. '10 Hz' or '1 rad/s'; may be repeated [default: each decade].",
 )
 def command(rubber: str, temperature: str | None, frequency: tuple[str, ...]) -> None:
-    """Print what RUBBER is, and its modulus at a temperature.
+    """Print a summary of MATERIAL and its modulus at a temperature.
 
-    RUBBER is a material file (JSON, CSV, or a card of another program), or a name of the catalogue.
+    MATERIAL is a material file (JSON, CSV, or a card of another program), or a catalogue name.
     """
     from viscofric.cli.material.rubbers import find_rubber
 
