@@ -1,15 +1,15 @@
 """
-A ball rolls on rubber
+Ball rolling on rubber
 ======================
 
-Rubber that is pressed needs time to give way, and time to come back. Under a ball that moves, the rubber ahead is still
-stiff while the rubber behind has not yet recovered: the pressure leans forward, its resultant passes ahead of the
-ball's axis, and that lever arm is the friction force.
+Rubber needs time to deform and to recover. Under a moving ball, the rubber at the leading edge is still stiff, and the
+rubber at the trailing edge has not yet recovered. The pressure is therefore asymmetric, its resultant lies ahead of the
+ball's axis, and this lever arm causes the friction force.
 """
 
 # %%
-# The rubber here is made up: one retardation time of 1 ms between a soft and a stiff elastic state. Numbers carry their
-# units as text; plain numbers are SI.
+# The material is synthetic: one retardation time of 1 ms between a soft and a stiff elastic state. Text carries its
+# units; plain numbers are SI.
 
 import matplotlib.pyplot as plt
 
@@ -26,12 +26,12 @@ print(f"indentation          {1e3 * solution.indentation:.4f} mm")
 print(f"contact              {1e3 * solution.front:.3f} mm ahead of the axis, {1e3 * solution.rear:.3f} mm behind it")
 
 # %%
-# Window and grid were chosen for an error of friction of one part in a thousand, which is the default
-# (``accuracy=1e-3``). The error printed above is an estimate from the nested grids that led there.
+# Window and grid are chosen for an error of friction of one part in a thousand, which is the default
+# (``accuracy=1e-3``). The error printed above is estimated from the nested grids.
 #
-# The map shows the pressure from above; the ball moves to the right. Its contact is cut off behind, where the rubber is
-# too slow to follow. In the profile along the centre line, the dashed line marks the centre of pressure: divided by the
-# radius of the ball, its distance from the axis is the friction coefficient.
+# The map shows the pressure from above; the ball moves to the right. The contact is truncated behind the axis, where
+# the rubber recovers too slowly. In the profile along the centre line, the dashed line marks the centre of pressure:
+# its distance from the axis divided by the radius of the ball is the friction coefficient.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained", width_ratios=[1.15, 1.0])
 colours = plot_pressure_map(left, solution)
@@ -40,17 +40,17 @@ plot_pressure_profile(right, solution)
 
 # %%
 # The same line, seen from the side (heights are exaggerated): behind the ball the rubber lies lower than at the same
-# distance ahead of it. It has not yet recovered, and does so in the trail.
+# distance ahead of it. It recovers in the trail.
 
 figure, axes = plt.subplots(figsize=(7.0, 3.6), layout="constrained")
 plot_surface_profile(axes, solution, ball)
 
 # %%
-# Friction is found a second time, on another way: from the energy that the rubber dissipates. That both agree is a
-# check that every solution carries with it.
+# Friction is also computed from the energy that the rubber dissipates. The agreement of both is a check that every
+# solution contains.
 
-from_the_lean = solution.pressure_friction_coefficient
-from_the_energy = solution.energy_friction_coefficient
-print(f"from the lean of the pressure {from_the_lean:.5f}, from the dissipated energy {from_the_energy:.5f}")
+from_pressure = solution.pressure_friction_coefficient
+from_energy = solution.energy_friction_coefficient
+print(f"from the pressure {from_pressure:.5f}, from the dissipated energy {from_energy:.5f}")
 
 plt.show()

@@ -1,14 +1,14 @@
 """
-Why friction has a maximum
-==========================
+Maximum of friction against speed
+=================================
 
-A slow ball deforms rubber that has all the time it needs, a fast one rubber that has none: both times the rubber is
-elastic and gives back what it took. In between, where the time to cross the contact is about that of the rubber, energy
-is lost, and friction passes through a maximum.
+Under a slow ball the rubber is fully relaxed, under a fast one it is glassy: in both limits it is elastic and
+dissipates nothing. In between, where the time to cross the contact is close to the retardation time, energy is
+dissipated, and friction has a maximum.
 """
 
 # %%
-# A made-up rubber with one retardation time, and a ball at speeds over five decades.
+# A synthetic material with one retardation time, and a ball at speeds over five decades.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -25,19 +25,18 @@ friction = np.array([solution.friction_coefficient for solution in solutions])
 area = np.array([solution.contact_area for solution in solutions])
 
 # %%
-# A contact of radius :math:`a` is crossed in the time :math:`a/v`, so that it asks the rubber mostly at angular
-# frequencies around :math:`\omega = v/a`. There the loss tangent :math:`\tan\delta = E''/E'` tells which share of the
-# work is lost.
+# A contact of radius :math:`a` is crossed in the time :math:`a/v`, so that the rubber is deformed mostly at angular
+# frequencies around :math:`\omega = v/a`. The loss tangent :math:`\tan\delta = E''/E'` at this frequency is the
+# dissipated share of the work.
 
 frequency = speeds / np.sqrt(area / np.pi)
 modulus = rubber.complex_modulus(frequency)
 loss_tangent = modulus.imag / modulus.real
 
 # %%
-# Loss tangent and friction have their maxima close to each other, that of friction at a somewhat lower speed: the
-# faster the ball, the stiffer the rubber, the less the ball is pressed in, and the less rubber there is that can lose
-# energy. The contact area falls from Hertz's at the modulus :math:`E_0` to Hertz's at :math:`E_\infty`, smaller by
-# :math:`(E_\infty/E_0)^{2/3} = 4.64`.
+# The maxima of loss tangent and friction are close to each other, that of friction at a slightly lower speed: at higher
+# speed the rubber is stiffer, the indentation smaller, and less rubber is deformed. The contact area falls from Hertz's
+# at the modulus :math:`E_0` to Hertz's at :math:`E_\infty`, smaller by :math:`(E_\infty/E_0)^{2/3} = 4.64`.
 
 figure, (above, below) = plt.subplots(2, 1, figsize=(7.0, 6.4), sharex=True, layout="constrained")
 above.plot(speeds, friction, "o-", color=BLUE, label=r"friction coefficient $\mu$ of the ball")
@@ -52,7 +51,7 @@ below.set_ylabel("contact area (mm²)")
 below.set_ylim(bottom=0.0)
 
 # %%
-# The top of the curve, from a polynomial through the five highest points:
+# The maximum, from a polynomial through the five highest points:
 
 near = np.sort(np.argsort(friction)[-5:])
 polynomial = np.polynomial.Polynomial.fit(np.log(speeds[near]), friction[near], 4)

@@ -1,15 +1,15 @@
 """
-The shape of a contact, from slow to fast
-=========================================
+Contact shape from low to high speed
+====================================
 
-At rest a ball touches rubber in Hertz's circle. In motion the contact first loses its rear, where the rubber comes back
-too late to touch; it becomes short and leans forward. Fast enough, the rubber answers everywhere with its glassy
-modulus, and the contact is a circle again, only smaller.
+At rest a ball touches rubber in Hertz's circle. In motion the contact first loses its rear part, where the rubber
+recovers too late to touch; it becomes shorter and asymmetric. At very high speed, the rubber is glassy everywhere, and
+the contact is a circle again, only smaller.
 """
 
 # %%
-# Five speeds of the same ball under the same load on a made-up rubber. Zero and infinity are speeds like any other: the
-# two elastic limits.
+# Five speeds of the same ball under the same load on a synthetic material. Zero and infinity are valid speeds: the two
+# elastic limits.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -28,9 +28,9 @@ for name, one in solutions.items():
     print(f"           {one.friction_coefficient:8.5f}")
 
 # %%
-# Outlines from above, where a twentieth of the mean pressure is reached, and pressures along the centre line. The ball
-# moves to the right; its axis is at zero. Slow contacts have a peak at their leading edge, which meets rubber that is
-# still glassy; it may be narrower than any cell, in which case ``diagnostics.peak_resolved`` is false and the largest
+# Outlines from above, at a twentieth of the mean pressure, and pressures along the centre line. The ball
+# moves to the right; its axis is at zero. Slow contacts have a peak at their leading edge, where the rubber is
+# still glassy. The peak may be narrower than any cell; then ``diagnostics.peak_resolved`` is false and the largest
 # pressure is a lower bound.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained")
@@ -52,8 +52,8 @@ right.set_ylabel("pressure (kPa)")
 right.legend(title="speed", frameon=False)
 
 # %%
-# Hertz's formulae give both ends: the radius of the contact shrinks by :math:`(E_\infty/E_0)^{1/3}`, here 4.64. At 10
-# m/s the rear edge has passed the axis: nothing but the front of the ball carries the load.
+# Hertz's formulae give both limits: the radius of the contact shrinks by :math:`(E_\infty/E_0)^{1/3}`, here 4.64. At 10
+# m/s the rear edge has passed the axis: only the front of the ball carries the load.
 
 shrinkage = solutions["at rest"].half_width / solutions["infinite"].half_width
 print(f"half width at rest over that at infinite speed: {shrinkage:.4f}")

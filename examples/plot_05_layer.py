@@ -1,14 +1,14 @@
 """
-A thin layer on a rigid base
-============================
+Thin layer on a rigid base
+==========================
 
-Rubber on a metal core, a coating, the disc of a tribometer: few rubbers are endlessly deep. A base holds the rubber
-from below, so that the ball is pressed in less and friction falls. How thick must a layer be to pass for a half-space?
+Rubber on a metal core, a coating, the disc of a tribometer: many rubber bodies are thin. A base supports the rubber
+from below, so that indentation and friction are smaller. Which thickness is enough for the half-space assumption?
 """
 
 # %%
-# The same ball on the half-space, and on layers that stick to their base, from a quarter of half the contact's width to
-# sixteen times as thick. The rubber is made up.
+# The same ball on the half-space, and on layers bonded to their base, from a quarter of the contact half-width to
+# sixteen times as thick. The material is synthetic.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -26,12 +26,12 @@ thickness = relative * half_space.half_width  # m
 layers = [vf.solve_steady(rubber, ball, layer=vf.Layer(one, bonded=True), **contact) for one in thickness]
 
 # %%
-# Friction of this rubber forgets the base much sooner than the indentation does: it remembers for 1 mm, no longer
-# than the contact is wide, and what is lost is lost near the contact, but the rubber gives way far below it. On a
-# layer of four half widths (dashed) friction is 2.5 % low and the indentation 24 %, on one of eight 0.4 % and 13 %.
-# Rubber that remembers farther than the layer is thick feels the base farther too, and so does one of many modes: the
-# synthetic fluoroelastomer has up to 8 % less friction on four. ``vf.check_assumptions(…, thickness=…)`` tells how
-# much it is.
+# The friction of this material depends on the base much less than the indentation does: its memory length is 1 mm, no
+# more than the contact's width, and energy is dissipated near the contact, but the rubber deforms far below it. On a
+# layer of four half-widths (dashed) friction is 2.5 % low and the indentation 24 %, on one of eight 0.4 % and 13 %. If
+# the memory length exceeds the layer thickness, the effect extends to thicker layers, and so it does for many modes:
+# the synthetic fluoroelastomer has up to 8 % less friction on four. ``vf.check_assumptions(…, thickness=…)`` estimates
+# the effect.
 
 figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")
 for name, colour, marker, values, limit in (

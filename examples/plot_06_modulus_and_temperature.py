@@ -2,13 +2,13 @@
 Modulus and temperature (the paper's Figure 1)
 ==============================================
 
-Warm rubber relaxes faster. If all its processes get faster by the same factor, a change of temperature only shifts the
-modulus along the axis of frequency, :math:`E(\\omega, T) = E(\\alpha(T)\\,\\omega, T_0)`. This time-temperature
-superposition is what makes a short range of frequencies tell of a long one.
+Relaxation is faster at higher temperature. If all relaxation times change by the same factor, a change of temperature
+only shifts the modulus along the frequency axis, :math:`E(\\omega, T) = E(\\alpha(T)\\,\\omega, T_0)`. By this
+time-temperature superposition a short range of measured frequencies covers a long one.
 """
 
 # %%
-# The rubber is the built-in **synthetic** fluoroelastomer: an assumption of this project, not a measurement.
+# The material is the built-in **synthetic** fluoroelastomer: an assumption of this project, not a measurement.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -21,8 +21,8 @@ frequency = np.geomspace(1e-4, 1e12, 400)  # rad/s
 temperatures = ["0 degC", "30 degC", "60 degC", "90 degC"]
 
 # %%
-# Storage and loss modulus at four temperatures. From one to the next both curves keep their shape and move to the
-# right: far, where it is cold, and ever less as it gets warmer.
+# Storage and loss modulus at four temperatures. From one to the next both curves keep their shape and shift to the
+# right, by less at higher temperatures.
 
 figure, panels = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
 for temperature, look in zip(temperatures, looks(len(temperatures)), strict=True):
@@ -37,8 +37,8 @@ panels[0].legend(frameon=False)
 panels[1].set_ylim(bottom=1e-2)
 
 # %%
-# Multiplied by their shift factors, the frequencies of all temperatures lead to one curve, that of the reference
-# temperature, 30 °C. For this rubber it is so by construction; measured sweeps are asked whether it is.
+# Multiplied by their shift factors, the frequencies of all temperatures give one curve, that of the reference
+# temperature, 30 °C. For this material it is so by construction; for measured sweeps it is checked.
 
 alpha = rubber.shift("60 degC")
 shifted = rubber.complex_modulus(alpha * frequency, "30 degC")

@@ -2,14 +2,14 @@
 Shift factors from DMA sweeps (the paper's Figure 4)
 ====================================================
 
-A dynamic mechanical analyser measures the modulus over two decades of frequency, at one temperature after another. Each
-of these isotherms is a piece of one long curve; how far it must be shifted to lie on it is the shift factor
+A dynamic mechanical analyser measures the modulus over two decades of frequency, at several temperatures. Each
+isotherm is a part of one long master curve; the shift that places it there is the shift factor
 :math:`\\alpha(T)`.
 """
 
 # %%
-# The sweeps are **synthetic**: calculated for the built-in fluoroelastomer, with 1 % of noise. They come with
-# viscofric; put the path of your own file in their place.
+# The sweeps are **synthetic**: calculated for the built-in fluoroelastomer, with 1 % of noise. They are part of
+# viscofric; replace the path by that of your own file.
 
 from importlib.resources import files
 
@@ -28,8 +28,8 @@ colours = report.plot_isotherms(right, sweeps, "loss")
 temperature_bar(figure, colours, [right])
 
 # %%
-# All isotherms are laid on a common curve at once, E' and E'' together, and every factor gets a standard error. The
-# notes say what was left out: the glass transition passes so quickly between the coldest isotherms that they do not
+# All isotherms are fitted by one common curve at once, E' and E'' together, and every factor has a standard error. The
+# notes name the isotherms that were left out: the glass transition is so steep that the coldest isotherms do not
 # overlap.
 
 fit = vf.superpose(sweeps, reference="30 degC")
@@ -38,13 +38,13 @@ print(*fit.notes, sep="\n")
 
 # %%
 # Then a law is chosen: those of Williams, Landel and Ferry, of Arrhenius and others are compared by Akaike's
-# criterion (AIC), which weighs what a fit leaves against the number of its constants.
+# criterion (AIC), which weighs the misfit against the number of constants.
 
 laws = factors.compare_laws()
 print(laws.explanation)
 
 # %%
-# From 0 to 220 °C the shift factors of this rubber span ten decades. The line is the best law, with its 95 % band,
+# From 0 to 220 °C the shift factors of this material span ten decades. The line is the best law, with its 95 % band,
 # which is hardly wider than the line.
 
 figure, axes = plt.subplots(figsize=(7.0, 4.6), layout="constrained")
@@ -57,6 +57,6 @@ mark_synthetic([axes])
 truth = vf.synthetic_fluoroelastomer().shift
 log10_at_100 = float(laws.best.log10("100 degC"))
 error = float(laws.best.standard_error("100 degC"))
-print(f"log10 α at 100 °C: {log10_at_100:.3f} ± {error:.3f}, planted was {float(truth.log10('100 degC')):.3f}")
+print(f"log10 α at 100 °C: {log10_at_100:.3f} ± {error:.3f}, planted: {float(truth.log10('100 degC')):.3f}")
 
 plt.show()

@@ -2,9 +2,9 @@
 Master curve and spectrum (the paper's Figure 5)
 ================================================
 
-Shifted isotherms make one master curve over more decades than any instrument can measure. A contact needs it as a sum
-of retardation modes, :math:`1/E(\\omega) = 1/E_\\infty + \\sum_k C_k/(1 + i\\omega\\tau_k)`, each of which gives way
-with a time of its own.
+Shifted isotherms make one master curve over more decades than any instrument can measure. A contact solution needs it
+as a sum of retardation modes, :math:`1/E(\\omega) = 1/E_\\infty + \\sum_k C_k/(1 + i\\omega\\tau_k)`, each with its
+own retardation time.
 """
 
 # %%
@@ -23,15 +23,15 @@ sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="te
 fit = vf.superpose(sweeps, reference="30 degC")
 
 # %%
-# As in the paper, the times are in geometric progression with ratio e. The strengths of the modes are found by least
-# squares under the condition that none is negative: a negative one would give back more energy than it took.
+# As in the paper, the times are in geometric progression with ratio e. The compliances of the modes are found by
+# non-negative least squares: a negative one would return more energy than it received.
 
 spectrum = vf.fit_retardation_spectrum(fit.master_curve)
-misfit = 10.0**spectrum.fit.rms_storage - 1.0, 10.0**spectrum.fit.rms_loss - 1.0  # it is told in decades
+misfit = 10.0**spectrum.fit.rms_storage - 1.0, 10.0**spectrum.fit.rms_loss - 1.0  # given in decades
 print(f"{len(spectrum)} modes; root mean square misfit {100 * misfit[0]:.2f} % of E', {100 * misfit[1]:.2f} % of E''")
 
 # %%
-# Squares and circles are the shifted sweeps, lines the spectrum. The panel below shows what the fit leaves: the noise.
+# Squares and circles are the shifted sweeps, lines the spectrum. The panel below shows the residuals: the noise.
 
 figure, (above, below) = plt.subplots(
     2, 1, figsize=(7.5, 6.6), sharex=True, layout="constrained", height_ratios=[3.0, 1.0]
@@ -42,14 +42,14 @@ above.set_xlabel("")
 mark_synthetic([above])
 
 # %%
-# The spectrum itself. The modes on the left, at short times, are those of the glass transition, and make the steep end
+# The spectrum. The modes on the left, at short times, belong to the glass transition, the steep end
 # of the curve above; the broad group on the right is a slow relaxation below it.
 
 figure, axes = plt.subplots(figsize=(7.5, 3.8), layout="constrained")
 report.plot_retardation_spectrum(axes, spectrum)
 
 # %%
-# Together with the shift factors, the spectrum is the rubber that contacts are solved with.
+# Spectrum and shift factors together are the material of a contact.
 
 rubber = vf.Material(spectrum, shift=fit.shift_factors, poisson_ratio=0.5)
 modulus = rubber.complex_modulus(2.0 * np.pi, "60 degC")  # at 1 Hz

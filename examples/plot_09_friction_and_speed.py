@@ -2,9 +2,9 @@
 Friction, predicted and measured (the paper's Figure 6)
 =======================================================
 
-A mini-traction machine rolls a ball on a rubber disc at several temperatures. With the signs of the speeds, its
-traction force is parted into Coulomb friction, which turns with the slip, and viscoelastic friction, which turns with
-the rubber. The latter is also what a contact solver predicts from the modulus alone, without anything to adjust.
+A mini-traction machine rolls a ball on a rubber disc at several temperatures. The signs of the speeds separate its
+traction force into Coulomb friction, which changes sign with the slip, and viscoelastic friction, which changes sign
+with the motion of the rubber. The contact solver predicts the latter from the modulus alone, without adjustment.
 """
 
 # %%
@@ -24,8 +24,8 @@ example = files("viscofric") / "example"
 measured = vf.separate(vf.read_mtm(example / "mtm.csv"))
 
 # %%
-# Then the rubber, from the sweeps, and with it the friction at the measured speeds and temperatures. Drawing the rubber
-# forty times within the errors of the sweeps gives the 95 % band of the prediction.
+# Then the material, from the sweeps, and its friction at the measured speeds and temperatures. Forty bootstrap samples
+# of the material, within the errors of the sweeps, give the 95 % band of the prediction.
 
 fit = vf.superpose(vf.read_dma(example / "dma.csv", deformation="tension"), reference="30 degC")
 spectrum = vf.fit_retardation_spectrum(fit.master_curve)
@@ -42,7 +42,7 @@ predicted = vf.predict_friction(
 )
 
 # %%
-# Viscoelastic friction falls with speed, and rises with temperature: in this window the loss modulus falls with
+# Viscoelastic friction falls with speed, and rises with temperature: in this range the loss modulus falls with
 # frequency. Points are the means of the replicates with the scatter of one standard deviation, lines the prediction
 # with its band.
 
@@ -51,14 +51,14 @@ report.plot_friction_curves(axes, predicted, measured)
 mark_synthetic([axes])
 
 # %%
-# How well do they agree?
+# Agreement in numbers:
 
 agreement = vf.compare(measured, predicted)
-print(f"predicted less measured: {100 * agreement.bias:+.2f} % in the mean, {100 * agreement.rms:.2f} % rms")
+print(f"predicted minus measured: {100 * agreement.bias:+.2f} % on average, {100 * agreement.rms:.2f} % rms")
 print(f"within twice the standard error: {100 * agreement.share_within_error:.0f} % of {agreement.points} points")
 
 # %%
-# Coulomb friction, the other part, knows nothing of speed and temperature here; 0.045 was put in.
+# Coulomb friction does not depend on speed and temperature here; the planted value is 0.045.
 
 figure, axes = plt.subplots(figsize=(7.5, 3.6), layout="constrained")
 report.plot_coulomb_friction(axes, measured)

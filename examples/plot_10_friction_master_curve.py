@@ -1,14 +1,14 @@
 """
-The friction master curve (the paper's Figure 7)
-================================================
+Friction master curve (the paper's Figure 7)
+============================================
 
-If temperature shifts the modulus along the frequencies, it shifts friction along the speeds, by the same factor:
-:math:`\\mu(v, T) = \\mu(\\alpha(T)\\,v, T_0)` under the same load. Measurements at a few temperatures then make one
+If temperature shifts the modulus along the frequency axis, it shifts friction along the speed axis by the same factor:
+:math:`\\mu(v, T) = \\mu(\\alpha(T)\\,v, T_0)` at the same load. Measurements at a few temperatures then make one
 curve over more speeds than any tribometer reaches.
 """
 
 # %%
-# **Synthetic** data of the built-in fluoroelastomer again: runs of a traction machine, and sweeps that tell the shift
+# **Synthetic** data of the built-in fluoroelastomer again: runs of a traction machine, and sweeps for the shift
 # factors. Friction itself is not used to find them.
 
 from importlib.resources import files
@@ -26,15 +26,15 @@ fit = vf.superpose(vf.read_dma(example / "dma.csv", deformation="tension"), refe
 rubber = vf.Material(vf.fit_retardation_spectrum(fit.master_curve), shift=fit.shift_factors, poisson_ratio=0.5)
 
 # %%
-# Shifted to 30 °C, friction at 90 °C becomes that at half a millimetre per minute and more.
+# Shifted to 30 °C, friction at 90 °C is equivalent to friction at half a millimetre per minute and more.
 
 master = vf.shift_friction(measured, shift=fit.shift_factors, reference="30 degC")
 slowest, fastest = master.reduced_range
 print(f"measured from 20 to 200 mm/s; as reduced speeds from {1e3 * slowest:.1e} to {1e3 * fastest:.0f} mm/s")
 
 # %%
-# The line is predicted at 30 °C, over the whole range: it goes through all temperatures, and on through the gaps
-# between them and beyond.
+# The line is predicted at 30 °C, over the whole range: it passes through all temperatures, the gaps
+# between them, and beyond.
 
 ball = vf.Ball(radius="9.525 mm")
 predicted = vf.predict_friction(
@@ -45,12 +45,12 @@ report.plot_friction_master_curve(axes, predicted, master)
 mark_synthetic([axes])
 
 # %%
-# So friction is known where it was not measured. At 65 °C, which nobody tested, the measured curve answers for all
-# speeds whose reduced speed it covers:
+# Friction is thus known where it was not measured. At 65 °C, which was not tested, the measured curve gives friction at
+# all speeds whose reduced speed it covers:
 
 speed, temperature = "60 mm/s", "65 degC"
 from_the_curve = float(master(speed, temperature))
 solved = vf.solve_steady(rubber, ball, speed=speed, load="25 N", temperature=temperature).friction_coefficient
-print(f"friction at {speed} and {temperature}: {from_the_curve:.4f} read from the curve, {solved:.4f} solved")
+print(f"friction at {speed} and {temperature}: {from_the_curve:.4f} from the curve, {solved:.4f} computed directly")
 
 plt.show()

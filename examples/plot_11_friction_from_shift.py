@@ -2,14 +2,14 @@
 Any temperature from one curve
 ==============================
 
-That shift factors of the modulus shift friction, too, is exact, not an approximation: a contact at the temperature T is
-the same, pressure by pressure, as one at :math:`T_0` that moves with :math:`\\alpha(T)\\,v`. Friction over all speeds
+Shift factors of the modulus also shift friction, exactly and without approximation: a contact at the temperature T has
+the same pressure as one at :math:`T_0` that moves with :math:`\\alpha(T)\\,v`. Friction over all speeds
 at one temperature is therefore friction over all temperatures at one speed.
 """
 
 # %%
-# The rubber is the built-in **synthetic** fluoroelastomer, with its WLF law and without a vertical shift. One curve is
-# solved, at 30 °C.
+# The material is the built-in **synthetic** fluoroelastomer, with its WLF law and without a vertical shift. One curve
+# is solved, at 30 °C.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -23,8 +23,8 @@ reduced_speed = np.geomspace(1e-8, 1e6, 36)  # m/s at 30 °C
 curve = vf.predict_friction(rubber, ball, speeds=reduced_speed, temperatures="30 degC", load="10 N", accuracy=1e-2)
 
 # %%
-# From it, friction at 10 cm/s and every temperature: read the curve at :math:`\alpha(T)` times the speed. Marks are
-# contacts that were solved at their own temperature.
+# From it follows friction at 10 cm/s and every temperature: read the curve at :math:`\alpha(T)` times the speed.
+# Markers are contacts that were solved at their own temperature.
 
 speed = 0.1  # m/s
 temperatures = np.linspace(263.15, 373.15, 111)  # K
@@ -37,14 +37,15 @@ left.loglog(curve.speed, curve.viscoelastic, color=BLUE)
 left.set_xlabel("speed at 30 °C (m/s)")
 left.set_ylabel("friction coefficient")
 right.plot(temperatures - 273.15, np.exp(log_friction), color=BLUE, label="from the curve on the left")
-right.plot(marks - 273.15, solved.viscoelastic, "o", color=VERMILION, label="solved at each temperature")
+right.plot(marks - 273.15, solved.viscoelastic, "o", color=VERMILION, label="computed at each temperature")
 right.set_xlabel("temperature (°C), at 0.1 m/s")
 right.legend(frameon=False)
 left.set_ylim(1e-3, 1e-1)
 
 # %%
-# The right panel is the left one, mirrored and stretched by the WLF law: cold is fast. The two maxima are those of the
-# two relaxations that this rubber was given, the glass transition and a slower one. Exactly so? One contact both ways:
+# The right panel is the left one, mirrored and stretched by the WLF law: low temperature is equivalent to high speed.
+# The two maxima belong to the two relaxations of this material, the glass transition and a slower one. One contact,
+# computed both ways, tests that the equivalence is exact:
 
 temperature = "60 degC"
 alpha = rubber.shift(temperature)

@@ -2,13 +2,13 @@
 Shift factors from friction
 ===========================
 
-The way back: where friction curves of neighbouring temperatures overlap after a shift, they tell the shift factor
-:math:`\\alpha(T)` by themselves, without any analyser. A tribometer becomes an instrument for the rubber.
+Friction curves of neighbouring temperatures that overlap after a shift determine the shift factor
+:math:`\\alpha(T)` by themselves, without DMA data.
 """
 
 # %%
 # Friction of a ball between 20 and 200 mm/s, **synthetic**: solved for the built-in fluoroelastomer at seven
-# temperatures, with 1 % of noise. The temperatures lie close enough for neighbouring curves to share some values.
+# temperatures, with 1 % of noise. The temperatures are close enough for neighbouring curves to share some values.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -39,7 +39,7 @@ measured = vf.FrictionCurves(
 )
 
 # %%
-# All temperatures are sought at once on one smooth curve. Each shift factor comes with a standard error.
+# All temperatures are fitted at once by one smooth curve. Each shift factor has a standard error.
 
 master = vf.shift_friction(measured, reference="60 degC")
 found = master.shift_factors
@@ -52,7 +52,7 @@ mark_synthetic([above])
 mark_synthetic([below])
 
 # %%
-# Beside them, the law of the modulus that the friction was made with. Do both agree within their errors?
+# The comparison with the law of the modulus from which the friction was computed tests the agreement within the errors.
 
 agreement = vf.compare_shift_factors(master, rubber.shift)
 print(agreement)
@@ -61,7 +61,7 @@ figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")
 report.plot_shift_comparison(axes, found, rubber.shift)
 
 # %%
-# To a table of factors belongs a law, with which temperatures between and beyond can be reached:
+# A law fitted to the factors interpolates and extrapolates in temperature:
 
 law = found.law("wlf")
 log10_at_90 = float(found.log10("90 degC"))

@@ -1,15 +1,15 @@
 """
-How sure is a prediction?
-=========================
+Uncertainty of a prediction
+===========================
 
-Sweeps have noise and shift factors have errors. Drawing the rubber again and again within them tells what they leave
-open in the friction. It tells nothing of frequencies that were never measured: there a spectrum is a guess, and so is
-its band.
+Sweeps have noise and shift factors have errors. Bootstrap samples of the material within these errors give the
+uncertainty of the friction. They say nothing about frequencies that were never measured: there the spectrum is
+extrapolated, and so is its band.
 """
 
 # %%
 # **Synthetic** sweeps of the built-in fluoroelastomer, with 1 % of noise. Of the 26 isotherms only those from 20 to 120
-# °C are taken, as if there had been no time for more.
+# °C are taken, as in a shortened test.
 
 from importlib.resources import files
 
@@ -27,8 +27,8 @@ spectrum = vf.fit_retardation_spectrum(fit.master_curve)
 rubber = vf.Material(spectrum, shift=fit.shift_factors, poisson_ratio=0.5)
 
 # %%
-# Each draw is a whole rubber: other shift factors, other noise, another spectrum. What they leave of the friction of a
-# ball at 30 °C comes with the prediction.
+# Each sample is a complete material: other shift factors, other noise, another spectrum. The band of the friction of a
+# ball at 30 °C is part of the prediction.
 
 samples = vf.sample_materials(fit, spectrum, samples=60, seed=3)
 ball = vf.Ball(radius="9.525 mm")
@@ -37,7 +37,7 @@ friction = vf.predict_friction(rubber, ball, speeds=np.geomspace(1e-7, 10.0, 17)
 truth = vf.predict_friction(vf.synthetic_fluoroelastomer(), ball, speeds=friction.speeds, **contact)
 
 # %%
-# Contacts of radius a ask for frequencies around v/a. On grey, those were measured.
+# Contacts of radius a deform the rubber at frequencies around v/a. These were measured in the grey range.
 
 middle = vf.solve_steady(rubber, ball, speed="1 mm/s", load="5 N", temperature="30 degC")
 measured = middle.half_width * fit.master_curve.angular_frequency[[0, -1]]  # m/s
@@ -47,25 +47,25 @@ report.plot_master_curve(left, fit.master_curve, spectrum, band=samples)
 mark_synthetic([left])
 right.axvspan(*measured, color=GREY, alpha=0.15, linewidth=0.0, label="frequencies of the sweeps")
 band = friction.viscoelastic_lower, friction.viscoelastic_upper
-right.fill_between(friction.speed, *band, color=BLUE, alpha=0.4, linewidth=0.0, label="its 95 % band")
+right.fill_between(friction.speed, *band, color=BLUE, alpha=0.4, linewidth=0.0, label="95 % band")
 right.semilogx(friction.speed, friction.viscoelastic, color=BLUE, label="predicted from the sweeps")
-right.semilogx(truth.speed, truth.viscoelastic, "o", color=VERMILION, markersize=4, label="of the true rubber")
+right.semilogx(truth.speed, truth.viscoelastic, "o", color=VERMILION, markersize=4, label="true material")
 right.set_xlabel("speed at 30 °C (m/s)")
 right.set_ylabel("friction coefficient")
 right.set_ylim(0.0, 0.036)
 right.legend(loc="upper left", frameon=False)
 
 # %%
-# Well within the measured frequencies the prediction is good to a few per cent, and its band says so. At high speeds it
-# goes wrong by far, and the band does not know: the glass transition was not measured. What knows is the fit, which
-# says of both ends of the spectrum whether the sweeps reached them.
+# Well within the measured frequencies the prediction is accurate to a few per cent, as its band shows. At high speeds
+# it is far off, and the band does not show it: the glass transition was not measured. The fit does show it: it states
+# for both ends of the spectrum whether the sweeps reached them.
 
-print("rubber plateau extrapolated:", spectrum.fit.E0_extrapolated)
-print("glass modulus extrapolated: ", spectrum.fit.E_inf_extrapolated)
+print("relaxed modulus extrapolated:", spectrum.fit.E0_extrapolated)
+print("glassy modulus extrapolated: ", spectrum.fit.E_inf_extrapolated)
 
 # %%
-# The band is found to first order, by one further linear solve for each contact. Is that enough? Twelve of the drawn
-# rubbers, each with a contact of its own:
+# The band is computed to first order, by one further linear solve for each contact. The test: twelve of the
+# samples, each with its own contact solution:
 
 members = [
     vf.solve_steady(one, ball, speed="1 mm/s", load="5 N", temperature="30 degC").friction_coefficient

@@ -1,10 +1,10 @@
 """
-A rubber found by its friction
-==============================
+Material identified from friction
+=================================
 
-Friction at several speeds and temperatures rests on the modulus over many decades of frequency. Turned around, it tells
-that modulus: a spectrum is sought whose contacts have the measured friction. What friction cannot tell is the level,
-since a stiffer rubber that loses a little more has the same friction, so that one known modulus is given with it.
+Friction at several speeds and temperatures depends on the modulus over many decades of frequency. The inverse problem
+infers the spectrum whose contacts have the measured friction. Friction hardly determines the magnitude of the modulus,
+since a stiffer rubber with slightly more loss has the same friction; therefore one known modulus is given.
 """
 
 # %%
@@ -40,8 +40,8 @@ measured = vf.FrictionCurves(
 )
 
 # %%
-# The anchor is what a single measurement of the modulus would have given: \|E\| at 1 Hz and 60 °C. Shift factors are
-# found on the way.
+# The anchor is a single measurement of the modulus: \|E\| at 1 Hz and 60 °C. Shift factors are
+# found in the same fit.
 
 modulus = abs(planted.complex_modulus(2.0 * np.pi, "60 degC"))
 anchor = vf.ModulusAnchor(modulus, "1 Hz", "60 degC")
@@ -49,15 +49,15 @@ found = vf.identify_material(measured, indenter=ball, anchor=anchor, reference="
 print(found)
 
 # %%
-# The identified modulus with its 95 % band; grey are the frequencies over which friction tells it to 5 %. The dashed
-# lines are the rubber that the friction was made with.
+# The identified modulus with its 95 % band; grey are the frequencies over which friction determines it to 5 %. The
+# dashed lines are the planted material.
 
 figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
 report.plot_identified_modulus(axes, found, vf.Material(planted.modes_at("60 degC"), name="planted"))
 mark_synthetic([axes])
 
 # %%
-# The identified rubber is one like any other. Its friction, at the points that were measured and between them:
+# The identified material can be used like any other. Its friction, at the measured points and between them:
 
 figure, axes = plt.subplots(figsize=(7.5, 4.6), layout="constrained")
 report.plot_friction_curves(axes, found.friction, measured)

@@ -1,14 +1,14 @@
 """
-A rough surface
-===============
+Rough surface
+=============
 
-Tyres and soles slide on tracks with hills of all sizes. Each wavelength of the roughness deforms the rubber at a
-frequency of its own, short waves at high ones, and each adds its part to friction.
+Tyres and soles slide on tracks with asperities of all sizes. Each wavelength of the roughness deforms the rubber at its
+own frequency, short waves at high ones, and contributes to friction.
 """
 
 # %%
-# One period of a made-up, self-affine track slides over the built-in **synthetic** fluoroelastomer. What is solved is
-# the contact with every hill in it, under a mean pressure.
+# One period of a generated, self-affine track slides over the built-in **synthetic** fluoroelastomer. The contact with
+# all asperities is solved, under a mean pressure.
 
 import matplotlib.pyplot as plt
 
@@ -23,8 +23,8 @@ solutions = {
 }
 
 # %%
-# Heights, and where the rubber touches at 0.1 m/s. The track moves along x, as the arrow shows, and the pressure piles
-# up on the slopes that face the motion.
+# Heights, and contact patches at 0.1 m/s. The track moves along x, as the arrow shows, and the pressure is
+# higher on the leading flanks.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
 colours, label = plot_topography(left, track)
@@ -33,14 +33,15 @@ colours, label = plot_contact_map(right, solutions["0.1 m/s"])
 figure.colorbar(colours, ax=right, label=label)
 
 # %%
-# The energy that waves of different lengths dissipate does not mix, so that friction is a sum over wavelengths. Waves
-# shorter than the shortest of the track are those of the pressure: the edges of the patches in contact.
+# The energies dissipated by waves of different lengths add up, so that friction is a sum over wavelengths. Waves
+# shorter than the shortest of the track are those of the pressure: the edges of the contact patches.
 
 figure, axes = plt.subplots(figsize=(7.5, 4.3), layout="constrained")
 plot_friction_by_wavelength(axes, {name: vf.friction_by_wavelength(one) for name, one in solutions.items()})
 
 # %%
-# Fast rubber is stiff: ever less of it touches. The errors are those of the grid, and tell an order of magnitude.
+# At high speed the rubber is stiff, and the contact area is smaller. The errors are discretisation errors, to an order
+# of magnitude.
 
 for name, one in solutions.items():
     print(f"{name:>8s}: μ = {one.friction_coefficient:.4f} ± {one.diagnostics.friction_error:.4f}", end="")

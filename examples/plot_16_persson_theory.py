@@ -1,13 +1,13 @@
 """
-Persson's theory beside solved contacts
-=======================================
+Persson's theory and numerical solutions
+========================================
 
-Persson's theory needs nothing of a surface but its power spectrum, and takes milliseconds. It is exact in full contact
-and an approximation where little touches. How good is it? Contacts solved with every hill in them can tell.
+Persson's theory needs only the power spectrum of a surface, and takes milliseconds. It is exact in full contact
+and an approximation at small contact areas. This example compares it with contacts solved with all asperities.
 """
 
 # %%
-# Three made-up tracks that differ in their random phases only, under the built-in **synthetic** fluoroelastomer.
+# Three generated tracks that differ in their random phases only, under the built-in **synthetic** fluoroelastomer.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -22,8 +22,8 @@ contact = {"temperatures": "30 degC", "pressure": "50 kPa"}
 solved = vf.predict_rough_friction(rubber, tracks, speeds=np.geomspace(1e-4, 1.0, 7), **contact)
 
 # %%
-# The theory, from the power spectrum that the tracks were made of. In partial contact the rubber follows a wave only in
-# part; how much less energy that costs is the factor :math:`S = \gamma + (1-\gamma)P^2` of the theory, P the share in
+# The theory, from the power spectrum of the tracks. In partial contact the rubber follows a wave only in
+# part; the factor :math:`S = \gamma + (1-\gamma)P^2` of the theory reduces the energy accordingly, with P the share in
 # contact: 1 for :math:`\gamma = 1`, the theory of 2001, and less in later work with :math:`\gamma = 1/2`.
 
 spectrum = vf.PowerSpectrum.self_affine(0.8, longest="1.024 mm", **waves)
@@ -35,21 +35,21 @@ theories = {
 }
 
 # %%
-# Points are the mean over the tracks, with the 95 % interval of the mean over all such tracks. The theory has the shape
-# of the curve, its level within a factor of about two. The contact area comes out a fifth to a third too small.
+# Points are the mean over the tracks, with the 95 % interval of the mean over all such tracks. The theory gives the
+# shape of the curve, and its magnitude within a factor of about two. The contact area is a fifth to a third too small.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11.0, 4.3), layout="constrained")
 plot_rough_friction(left, solved, theories)
 plot_rough_friction(right, solved, {"Persson": theories["Persson, γ = 1"]}, area=True)
 
 # %%
-# Eight points in the shortest wave are few where little touches, and each solution tells so: see ``friction_error``.
+# Eight points in the shortest wave are few at small contact areas; ``friction_error`` is the estimated error.
 
 theory = theories["Persson, γ = 1"]
 ratio = theory.contact_area_fraction[0, ::4] / solved.mean_area[0]
-print("area by the theory over that solved:", np.array2string(ratio, precision=2))
+print("area: theory over numerical solution:", np.array2string(ratio, precision=2))
 grid_error = np.max(solved.friction_error / solved.friction_coefficient)
-print(f"error of the grid: {100 * grid_error:.0f} % of friction at most")
+print(f"discretisation error: {100 * grid_error:.0f} % of friction at most")
 friction_by_theory = float(theory.friction_coefficient[0, 12])
 
 plt.show()

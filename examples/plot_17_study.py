@@ -2,15 +2,15 @@
 A study on several workers
 ==========================
 
-A question with many cases is a study: a run file that names all that is varied, each quantity with its unit. Contacts
-are shared out among processes, stored as they are solved, and end in one labelled data set. Whoever solved what, the
-digits are the same.
+A study is a run file that lists all varied quantities, each with its unit. Its contacts
+are distributed over processes, stored as they are solved, and collected in one labelled data set. The results are the
+same to the last digit for any number of workers.
 """
 
 # %%
 # Two balls, two loads, three temperatures and nine speeds, on the built-in **synthetic** fluoroelastomer. Not all of
 # the 108 cases are solved: temperatures share one curve over :math:`\alpha(T)\,v`, and contacts of different balls and
-# loads are similar, so that most are interpolated within the accuracy that is asked for.
+# loads are similar, so that most are interpolated within the requested accuracy.
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -53,7 +53,7 @@ print(f"{cases['interpolated'].size} cases, {int(cases['interpolated'].sum())} o
 print("axes:", ", ".join(f"{name} ({size})" for name, size in cases.sizes.items()))
 
 # %%
-# The data set is xarray's: cases are chosen by what they mean.
+# The data set is an xarray data set: cases are selected by their coordinates.
 
 figure, panels = plt.subplots(1, 2, figsize=(10.0, 4.2), sharey=True, layout="constrained")
 for axes, radius in zip(panels, cases["radius"].values, strict=True):
@@ -69,17 +69,18 @@ panels[0].set_ylim(bottom=0.0)
 panels[1].legend(frameon=False, fontsize=8)
 
 # %%
-# One of the interpolated cases, solved by itself:
+# One of the interpolated cases, solved directly:
 
 here = cases.sel(radius=20e-3, load=10.0, temperature=333.15).isel(speed=4)
 friction = float(here["friction_coefficient"])
 alone = vf.solve_steady(
     vf.synthetic_fluoroelastomer(), vf.Ball("20 mm"), speed=float(here["speed"]), load="10 N", temperature="60 degC"
 )
-print(f"at 60 °C and 100 mm/s: {friction:.5f} in the study, {alone.friction_coefficient:.5f} alone")
+print(f"at 60 °C and 100 mm/s: {friction:.5f} in the study, {alone.friction_coefficient:.5f} solved directly")
 
 # %%
-# Results know what they rest on; ``vf.citations(results).bibtex()`` gives the same for a bibliography.
+# ``vf.citations(results)`` lists the papers behind the results; ``vf.citations(results).bibtex()`` gives them as
+# BibTeX.
 
 print(vf.citations(results))
 

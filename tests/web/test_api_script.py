@@ -95,4 +95,4 @@ def test_files_are_uploaded_listed_and_removed(tab: Page) -> None:
     assert stored == [{"name": names[0], "size": 1}, {"name": "b.csv", "size": 2}]
     assert left == []
     caught = "try { await api.uploadFiles([{name: 'a', size: 3e7}]) } catch (error) { return error.message }"
-    assert script(tab, caught) == "a has 30 MB; at most 20 MB can be read."
+    assert script(tab, caught) == "a has 30 MB; the limit is 20 MB."

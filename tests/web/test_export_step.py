@@ -34,15 +34,15 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
     page.get_by_role("button", name="Run the whole study").click()
     page.get_by_text("solving contacts").wait_for()
     page.get_by_role("button", name="Cancel").click()
-    page.get_by_text("Cancelled; what is solved so far is kept").wait_for()
+    page.get_by_text("Cancelled; solved contacts are kept").wait_for()
     with page.expect_download() as download:
         page.get_by_role("button", name="Run file and data").click()
     with zipfile.ZipFile(download.value.path()) as packed:
         assert packed.namelist() == ["study.toml"]
 
     taken = packed_study(download.value.path())
-    page.get_by_label("Title of study and report").fill("Another")
-    page.get_by_label("Title of study and report").press("Enter")
+    page.get_by_label("Title of the study and report").fill("Another")
+    page.get_by_label("Title of the study and report").press("Enter")
     page.locator(".drop-field input").set_input_files(files=[taken])
     tab.until("page.state.state.get('title') === 'Friction of a synthetic fluoroelastomer'")
 
@@ -58,7 +58,7 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
     assert tab.findings() == []
     tab.screenshot("export-finished")
     tab.value("page.state.state.set('title', 'A third')")
-    page.get_by_text("The study has changed since").wait_for()
+    page.get_by_text("The study has changed; run it again").wait_for()
     assert link.count() == 0
 
 

@@ -80,15 +80,15 @@ def test_the_example_from_its_file_to_the_rubber_behind_it(tab: Tab) -> None:
     until_drawn(tab, "friction-master-curve", 4)
     assert re.fullmatch(r"30 points, predicted to [01]\.\d+.%", tab.text('#steps a[href="#measurement"] .step-summary'))
 
-    behind = part(tab, "The rubber behind the friction")
+    behind = part(tab, "Material identified from friction")
     # Friction tells no shift factors here, so that the rubber's are suggested.
     assert behind.get_by_label("Shift factors").input_value() == "rubber"
-    behind.get_by_role("button", name="Identify the rubber").click()
+    behind.get_by_role("button", name="Identify the material").click()
     until_drawn(tab, "identified-modulus", 6)
     assert "Anchored to |E| =" in behind.inner_text()
     tab.screenshot("measurement-example")
     assert tab.findings() == []
-    behind.get_by_role("button", name="Use this rubber on the page").click()
+    behind.get_by_role("button", name="Use this material on the page").click()
     tab.until("page.state.state.get('material.file') === 'rubber_from_friction.json'")
     tab.page.set_viewport_size({"width": 390, "height": 844})
     tab.until("document.documentElement.scrollWidth <= innerWidth")
@@ -101,7 +101,7 @@ def test_curves_alone_are_shifted_without_any_rubber(tab: Tab, tmp_path: Path) -
     tab.value("page.state.state.set('material', {file: 'a rubber that is not there.json'})")
     drop(tab, path)
     master = part(tab, "Friction master curve")
-    master.get_by_label("Laid beside").select_option("nothing", timeout=1e3 * _SECONDS)
+    master.get_by_label("Compare with").select_option("nothing", timeout=1e3 * _SECONDS)
     until_drawn(tab, "friction-shift-factors", 2)
     assert "WLF" in master.inner_text()
     assert not any("predicted" in name for name in names_of_curves(tab, "measured-friction"))
@@ -114,9 +114,9 @@ def test_curves_alone_are_shifted_without_any_rubber(tab: Tab, tmp_path: Path) -
 def test_what_is_wrong_stands_beside_its_field_and_identifying_can_be_cancelled(tab: Tab, tmp_path: Path) -> None:
     tab.page.get_by_role("button", name="Use the synthetic example").click()
     until_drawn(tab, "measured-friction", 6)
-    behind = part(tab, "The rubber behind the friction")
-    behind.get_by_label("What fixes the level").select_option("nothing")
-    behind.get_by_role("button", name="Identify the rubber").click()
+    behind = part(tab, "Material identified from friction")
+    behind.get_by_label("Anchor").select_option("nothing")
+    behind.get_by_role("button", name="Identify the material").click()
     behind.get_by_text("step 1", exact=False).wait_for(timeout=1e3 * _SECONDS)
     behind.get_by_role("button", name="Cancel").click()
     behind.get_by_text("Cancelled.").wait_for(timeout=1e3 * _SECONDS)

@@ -48,7 +48,7 @@ def test_export_step_is_accessible(width: int, scheme: str, browser: Browser, se
 def test_keyboard_reaches_steps_and_focus_goes_to_their_heading(tab: Tab) -> None:
     press = tab.page.keyboard.press
     press("Tab")
-    assert tab.value("document.activeElement.textContent") == "Skip to the step"
+    assert tab.value("document.activeElement.textContent") == "Skip to content"
     press("Enter")
     tab.page.focus('#steps a[href="#sweeps"]')
     press("Enter")
@@ -62,11 +62,11 @@ def test_keyboard_reaches_steps_and_focus_goes_to_their_heading(tab: Tab) -> Non
 
 def test_changes_are_checked_undone_and_survive_a_reload(tab: Tab) -> None:
     page = tab.page
-    assert tab.text("#synthetic") == "synthetic rubber"
+    assert tab.text("#synthetic") == "synthetic material"
     page.get_by_text("run file: 75 cases").wait_for()  # in the list of steps
     page.get_by_label("Accuracy of friction").fill("5")
-    page.get_by_label("Title of study and report").fill("My ball")
-    page.get_by_label("Title of study and report").press("Enter")
+    page.get_by_label("Title of the study and report").fill("My ball")
+    page.get_by_label("Title of the study and report").press("Enter")
     page.wait_for_selector(".field-error:not([hidden])")
     error = page.get_by_label("Accuracy of friction").locator("xpath=..").locator(".field-error")
     assert "it must be 0.1 or less" in error.inner_text()
@@ -77,7 +77,7 @@ def test_changes_are_checked_undone_and_survive_a_reload(tab: Tab) -> None:
 
     page.reload()
     page.wait_for_selector("pre .heading")
-    assert page.get_by_label("Title of study and report").input_value() == "My ball"
+    assert page.get_by_label("Title of the study and report").input_value() == "My ball"
     page.get_by_role("button", name="Undo").click()
     page.get_by_role("button", name="Undo").click()
     assert page.get_by_role("button", name="Undo").is_disabled()
@@ -138,7 +138,7 @@ def test_figures_come_with_their_numbers_and_as_files(drawing: Tab) -> None:
         assert download.value.suggested_filename == f"drawn.{form.lower()}"
         files[form] = download.value.path().read_bytes()
     rows = files["CSV"].decode().splitlines()
-    assert rows[0] == "# Two curves (synthetic rubber)"
+    assert rows[0] == "# Two curves (synthetic material)"
     assert rows[2].startswith('speed (mm/s),"friction, 30\u00a0°C","lower friction, 30\u00a0°C"')
     assert rows[4] == "100,0.02,0.018,,0.02,0.018,"
     assert b"Two curves" in files["SVG"]

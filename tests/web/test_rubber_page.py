@@ -74,16 +74,16 @@ def test_from_the_example_to_its_spectrum(tab: Tab) -> None:
     tab.page.mouse.move(x, y)
     tab.page.mouse.down()
     tab.page.mouse.move(x + decade, y, steps=5)
-    assert "Moved by 1.00 decades" in tab.text("#dragged-misfit")
+    assert "Shifted by 1.00 decades" in tab.text("#dragged-misfit")
     assert held(tab) == {}
     tab.page.mouse.up()
     fit = vf.superpose(vf.read_dma(EXAMPLE), "30 degC")
     # a pixel is a fiftieth of a decade
     assert held(tab) == {"60 degC": pytest.approx(fit.shift_factors.log10("60 degC") + 1.0, abs=0.03)}
     tab.until("page.state.state.result('rubber')?.shift.origin === 'held'")
-    tab.until("document.querySelector('#dragged-misfit').textContent.startsWith('Held by hand')")
+    tab.until("document.querySelector('#dragged-misfit').textContent.startsWith('Fixed manually')")
     tab.screenshot("rubber-shift")
-    tab.page.get_by_role("button", name="Let go of all").click()
+    tab.page.get_by_role("button", name="Undo all corrections").click()
     tab.until("page.state.state.result('rubber')?.shift.origin === 'found'")
 
     tab.step("spectrum")
@@ -171,7 +171,7 @@ def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     tab.until("page.state.state.result('rubber')?.spectrum.measured?.storage.length === 11")
     drawn(tab, "isotherms-storage", 1)
     tab.step("shift")
-    tab.until("document.querySelector('#step-shift').textContent.includes('serves at one temperature only')")
+    tab.until("document.querySelector('#step-shift').textContent.includes('valid at one temperature only')")
 
 
 @pytest.mark.slow  # a browser

@@ -88,12 +88,12 @@ def friction_of(tab: Tab) -> dict[str, Any]:
     tab.step("contact")
     tab.page.select_option("#contact-shape", "cylinder")
     fill(tab, "Load per length", "0.5")
-    tab.page.get_by_label("Rubber is a layer on a rigid base").check()
+    tab.page.get_by_label("Layer on a rigid base").check()
     fill(tab, "Thickness", "3")
     tab.until("page.state.state.get('layer.thickness') === '3 mm'")
     done = "page.state.state.result('curve')?.friction.length === 6 && page.state.state.result('curve').kind === 'line'"
     tab.until(f"{done} && document.querySelector('#step-contact .progress').className.includes('done')", _SECONDS)
-    tab.until("document.querySelector('.live-status').textContent === 'to the accuracy asked for'", _SECONDS)
+    tab.until("document.querySelector('.live-status').textContent === 'converged'", _SECONDS)
     sound(tab, "4-contact")
     found: dict[str, Any] = tab.value("page.state.state.result('curve')")
     return found

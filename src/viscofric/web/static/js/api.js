@@ -56,7 +56,7 @@ async function ask(address, options = {}) {
     answer = await fetch(address, { ...options, headers: { "X-Workspace": workspace, ...options.headers } });
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new JobError("The program behind this page does not answer; start it again with: viscofric web");
+    throw new JobError("The program behind this page does not respond; restart it with: viscofric web");
   }
   if (answer.ok) return answer;
   let told = {};
@@ -86,7 +86,7 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
       else if (message.event === "result") return own(message.result);
       else if (message.event === "error") throw new JobError(message.message, message.field, message.problems);
     }
-    throw new JobError("The program behind this page ended before the answer came; start it again with: viscofric web");
+    throw new JobError("The program behind this page ended before it answered; restart it with: viscofric web");
   });
 }
 
@@ -109,7 +109,7 @@ async function* messages(stream) {
     }
   } catch (error) {
     if (error.name === "AbortError" || error instanceof SyntaxError) throw error;
-    throw new JobError("The program behind this page ended before the answer came; start it again with: viscofric web");
+    throw new JobError("The program behind this page ended before it answered; restart it with: viscofric web");
   } finally {
     reader.cancel().catch(() => {});
   }
@@ -196,7 +196,7 @@ export async function uploadFiles(files) {
   const names = [];
   for (const file of files) {
     if (file.size > LARGEST_UPLOAD) {
-      throw new JobError(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB; at most 20 MB can be read.`);
+      throw new JobError(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB; the limit is 20 MB.`);
     }
     const answer = await ask(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
     names.push((await answer.json()).name);

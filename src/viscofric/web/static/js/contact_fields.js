@@ -34,21 +34,21 @@ export function contactFigures({ figures, fields }) {
       y: { ...length("across"), equal: true },
       z: { label: "pressure", kind: "pressure" },
     },
-    empty: "The contact is on its way.",
+    empty: "Computing the contact.",
   });
   const profile = figures.figure(grid, {
     id: "pressure-profile",
     title: "Pressure along the motion",
     x: length("along the motion"),
     y: { label: "pressure", kind: "pressure" },
-    empty: "The contact is on its way.",
+    empty: "Computing the contact.",
   });
   const surface = figures.figure(grid, {
     id: "surface-profile",
     title: "Rubber and indenter",
     x: length("along the motion"),
     y: { label: "height", kind: "length" },
-    empty: "The contact is on its way.",
+    empty: "Computing the contact.",
   });
 
   function show(answer, { noun, synthetic }) {
@@ -79,8 +79,8 @@ export function contactFigures({ figures, fields }) {
       },
       lines: [...outlines(answer), ...axisMarks(answer), ...arrow(answer)],
       caption: rough
-        ? "The whole period of the surface; white is out of contact. The arrow is the surface's motion."
-        : "Seen from above: outline of the contact, + the indenter's axis, ● where the load acts. It moves to the right, so the leading edge is on the right.",
+        ? "One period of the surface; white is not in contact. The arrow is the surface's motion."
+        : "Top view: outline of the contact, + the indenter's axis, ● the centre of pressure. The indenter moves to the right; the leading edge is on the right.",
     });
   }
 
@@ -140,7 +140,7 @@ export function contactFigures({ figures, fields }) {
         .map((place) => -place)
         .reverse();
       traces.push({
-        name: "the same, mirrored",
+        name: "mirror image",
         x: mirrored,
         y: kept(pressure).reverse(),
         dash: "3px,3px",
@@ -149,7 +149,7 @@ export function contactFigures({ figures, fields }) {
         decoration: true,
       });
     }
-    const marks = rough ? [] : [{ x: 0 }, { x: answer.numbers.centre_of_pressure.value, label: "load acts here" }];
+    const marks = rough ? [] : [{ x: 0 }, { x: answer.numbers.centre_of_pressure.value, label: "centre of pressure" }];
     profile.update({
       of: answer,
       traces,
@@ -161,7 +161,7 @@ export function contactFigures({ figures, fields }) {
       title: rough ? "Pressure along x, through the highest peak" : "Pressure along the motion",
       caption: rough
         ? ""
-        : "On the centre line; motion to the right, the indenter's axis at zero. What differs from the mirror image makes the friction.",
+        : "On the centre line; motion to the right, the indenter's axis at zero. The difference from the mirror image causes the friction.",
     });
   }
 
@@ -185,8 +185,8 @@ export function contactFigures({ figures, fields }) {
       y: { label: "height", kind: "length" },
       title: rough ? "Rubber and surface along x" : "Rubber and indenter along the motion",
       caption: rough
-        ? "Heights are drawn larger than lengths; the cut goes through the highest pressure."
-        : "Motion to the right; heights are drawn larger than lengths. Behind the contact the rubber has not recovered yet: its trail.",
+        ? "Heights are exaggerated; the section goes through the highest pressure."
+        : "Motion to the right; heights are exaggerated. Behind the contact the rubber has not recovered yet (the trail).",
     });
   }
 

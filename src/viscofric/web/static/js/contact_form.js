@@ -5,7 +5,7 @@ const SHAPES = [
   ["cylinder", "Cylinder (line contact)"],
   ["ellipsoid", "Ellipsoid"],
   ["cone", "Cone"],
-  ["made", "Rough surface, made"],
+  ["made", "Rough surface, generated"],
   ["scan", "Rough surface, measured"],
 ];
 
@@ -97,8 +97,8 @@ export function contactForm({ state, fields, api, announce }) {
       quantity("surface.rolloff", "Roll-off wavelength", "length"),
       quantity("surface.shortest", "Shortest wavelength", "length"),
       number("surface.points", "Points along an edge", 8, 1),
-      quantity("surface.spacing", "Distance of points", "length"),
-      number("surface.seed", "Seed", 0, 1, { help: "of the random numbers" }),
+      quantity("surface.spacing", "Spacing of points", "length"),
+      number("surface.seed", "Seed", 0, 1, { help: "of the random number generator" }),
     ),
     group(["scan"], ...scan()),
   ];
@@ -117,7 +117,7 @@ export function contactForm({ state, fields, api, announce }) {
     };
     const drop = fields.fileDrop({
       label: "Drop a height map",
-      help: "text matrix, x y z points, or a microscope's file",
+      help: "text matrix, x y z points, or a microscope file",
       multiple: false,
       onFiles: take,
     });
@@ -144,8 +144,8 @@ export function contactForm({ state, fields, api, announce }) {
       told,
       fields.textField({ path: "surface.file", label: "File", placeholder: "none yet" }),
       h("fieldset", {}, h("legend", { class: "field-label" }, "Preparation"), boxes),
-      fields.textField({ path: "surface.unit", label: "Unit of heights", placeholder: "as the file says" }),
-      quantity("surface.spacing", "Distance of points", "length", { placeholder: "as the file says" }),
+      fields.textField({ path: "surface.unit", label: "Unit of heights", placeholder: "from the file" }),
+      quantity("surface.spacing", "Spacing of points", "length", { placeholder: "from the file" }),
     ];
   }
 
@@ -169,7 +169,7 @@ export function contactForm({ state, fields, api, announce }) {
   }
 
   const layer = [
-    toggleField({ path: "layer", label: "Rubber is a layer on a rigid base", value: { thickness: "2 mm" } }),
+    toggleField({ path: "layer", label: "Layer on a rigid base", value: { thickness: "2 mm" } }),
     optional(
       "layer",
       quantity("layer.thickness", "Thickness", "length"),
@@ -211,7 +211,7 @@ export function contactForm({ state, fields, api, announce }) {
       [1e-3, "0.1 %"],
       [1e-4, "0.01 %, slow"],
     ],
-    help: "of the numerics; the band tells how well the rubber is known",
+    help: "numerical; the band shows the material's uncertainty",
   });
 
   const show = () => {
@@ -224,7 +224,7 @@ export function contactForm({ state, fields, api, announce }) {
 
   return [
     card(
-      "What slides",
+      "Indenter or surface",
       h("div", { class: "field" }, h("label", { for: select.id, class: "field-label" }, "Shape"), select),
       ...shape,
       ...load,

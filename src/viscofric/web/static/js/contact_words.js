@@ -12,26 +12,26 @@ export function numbersOf(answer, units) {
   const friction = one("friction_coefficient", "Friction coefficient μ");
   const rubber = [
     row("Shift factor α(T)", plain(of.shift_factor.value)),
-    row("Loss factor tan δ there", plain(of.loss_factor.value)),
-    one("storage_modulus", "Storage modulus E′ there", "modulus", 3),
+    row("Loss tangent tan δ at v/a", plain(of.loss_factor.value)),
+    one("storage_modulus", "Storage modulus E′ at v/a", "modulus", 3),
   ];
-  const balance = row("Energy balance, off by", plain(100 * Math.abs(of.energy_balance.value), "%", 2));
+  const balance = row("Energy balance error", plain(100 * Math.abs(of.energy_balance.value), "%", 2));
   if (answer.kind === "rough") {
     const full = of.contact_area_fraction.value > 1 - 1e-9;
     const gap = one("mean_gap", "Mean gap", "length", 3);
-    const aside = one("lateral_friction_coefficient", "Force to the side, over the load");
+    const aside = one("lateral_friction_coefficient", "Lateral force over load");
     const [points, asked] = [of.points.value, of.points_asked.value];
     return {
       key: [
         friction,
-        row("Real contact", plain(100 * of.contact_area_fraction.value, "%"), "of the area"),
+        row("Contact area fraction", plain(100 * of.contact_area_fraction.value, "%")),
         one("mean_contact_pressure", "Mean pressure in contact", "pressure", 3),
         full ? { ...gap, value: "none", remark: "full contact" } : gap,
       ],
       others: [
-        { ...one("max_pressure", "Largest pressure", "pressure", 3), remark: "on this grid" },
+        { ...one("max_pressure", "Maximum pressure", "pressure", 3), remark: "on this grid" },
         Math.abs(of.lateral_friction_coefficient.value) < 1e-12 ? { ...aside, value: "0" } : aside,
-        row("Heat", plain(of.power.value, "W/m²")),
+        row("Dissipated power", plain(of.power.value, "W/m²")),
         one("slowest_frequency", "Frequency of the longest wave", "angular_frequency", 3),
         one("fastest_frequency", "Frequency of the shortest wave", "angular_frequency", 3),
         ...rubber,
@@ -41,7 +41,7 @@ export function numbersOf(answer, units) {
     };
   }
   const line = answer.kind === "line";
-  const peak = one("max_pressure", "Largest pressure", "pressure");
+  const peak = one("max_pressure", "Maximum pressure", "pressure");
   return {
     key: [
       friction,
@@ -52,14 +52,14 @@ export function numbersOf(answer, units) {
     others: [
       one("friction_force", line ? "Friction force per length" : "Friction force", line ? "line_load" : "load"),
       row(
-        "Heat",
+        "Dissipated power",
         plain(of.power.value, line ? "W/m" : "W"),
         of.power.error ? `± ${plain(of.power.error, line ? "W/m" : "W", 2)}` : "",
       ),
       one("front", "Leading edge ahead of axis", "length"),
       one("rear", "Trailing edge behind axis", "length"),
-      ...(line ? [] : [one("half_width", "Half width", "length")]),
-      one("centre_of_pressure", "Load acts ahead of axis", "length", 3),
+      ...(line ? [] : [one("half_width", "Contact half-width", "length")]),
+      one("centre_of_pressure", "Centre of pressure ahead of axis", "length", 3),
       one("mean_pressure", "Mean pressure", "pressure", 3),
       one("frequency", "Frequency v/a", "angular_frequency", 3),
       ...rubber,
@@ -69,7 +69,7 @@ export function numbersOf(answer, units) {
   };
 }
 
-/** Why the pressure leans forward, in sentences that follow the numbers. */
+/** The cause of the asymmetric pressure, in sentences that follow the numbers. */
 export function whyItLeans(answer, units, noun, radius) {
   const of = answer.numbers;
   const speed = units.show(answer.speed, "speed");
@@ -80,24 +80,24 @@ export function whyItLeans(answer, units, noun, radius) {
       units.show(value, "angular_frequency", 2),
     );
     return (
-      `At ${speed}, the longest wave of the surface deforms the rubber at ${ends[0]}, the shortest at ${ends[1]}, where it has ${rubber}. ` +
-      "On the flanks that face the motion the rubber is pressed in and resists; behind the summits it has not sprung back yet and pushes less. " +
-      `That difference, over ${units.plainNumber(100 * of.contact_area_fraction.value, 3)} % of the area, is the friction: μ = ${units.plainNumber(of.friction_coefficient.value, 3)}.`
+      `At ${speed}, the longest wave of the surface deforms the rubber at ${ends[0]}, the shortest at ${ends[1]}, where the rubber has ${rubber}. ` +
+      "On the leading flanks the rubber is being compressed and resists; behind the summits it has not recovered yet, and the pressure is lower. " +
+      `This difference, over ${units.plainNumber(100 * of.contact_area_fraction.value, 3)} % of the area, causes the friction: μ = ${units.plainNumber(of.friction_coefficient.value, 3)}.`
     );
   }
   const [front, rear, lean] = [of.front, of.rear, of.centre_of_pressure].map(({ value }) =>
     units.show(value, "length"),
   );
   const time = units.show((of.front.value + of.rear.value) / answer.speed, "time", 2);
-  const start = `The ${noun} passes each point of the rubber in ${time}, which deforms it at v/a = ${units.show(of.frequency.value, "angular_frequency", 2)}. There the rubber has ${rubber}. `;
+  const start = `The ${noun} passes each point of the rubber in ${time}, which deforms it at v/a = ${units.show(of.frequency.value, "angular_frequency", 2)}. At this frequency the rubber has ${rubber}. `;
   const cause =
     loss < 0.03
-      ? "It hardly loses energy at that rate, so that it springs back behind the contact almost as it was pressed in ahead, and the pressure hardly leans. "
-      : "Ahead of the axis it is being pressed in and resists; behind, it has not sprung back yet and pushes less. ";
-  const edges = `So the contact reaches ${front} ahead of the axis and ${rear} behind it, and the load acts ${lean} ahead`;
+      ? "It dissipates little energy at this frequency and recovers almost completely behind the contact, so that the pressure is nearly symmetric. "
+      : "Ahead of the axis it is being compressed and resists; behind, it has not recovered yet, and the pressure is lower. ";
+  const edges = `The contact therefore extends ${front} ahead of the axis and ${rear} behind it, and the resultant lies ${lean} ahead`;
   const friction = units.plainNumber(of.friction_coefficient.value, 3);
   const lever = radius
-    ? `: that over the radius of ${units.show(radius, "length")} is the friction, μ = ${friction}.`
-    : `, on slopes that push back: μ = ${friction}.`;
+    ? `; divided by the radius of ${units.show(radius, "length")}, this is the friction coefficient, μ = ${friction}.`
+    : `, where the slope opposes the motion: μ = ${friction}.`;
   return start + cause + edges + lever;
 }

@@ -5,10 +5,10 @@
 
 const GREY = "#8a949e";
 const WORDS = {
-  extrapolated: "it rests on the spectrum beyond the frequencies at which the rubber was measured",
+  extrapolated: "it depends on frequencies at which the material was not measured",
   shift: "the shift factor is extrapolated beyond the temperatures of the sweeps",
-  strain: "the contact is wide or steep, so that small strain is doubtful",
-  unresolved: "the grid does not resolve it: its numerical error is more than twice the accuracy asked for",
+  strain: "the contact is wide or steep: the small-strain assumption is doubtful",
+  unresolved: "the grid does not resolve it: its numerical error is more than twice the requested accuracy",
 };
 
 /** What can be shown of cases, with its label. */
@@ -16,8 +16,8 @@ export const QUANTITIES = {
   friction: { label: "friction coefficient μ" },
   indentation: { label: "indentation", kind: "length" },
   contact_area: { label: "contact area", kind: "area" },
-  contact_area_fraction: { label: "share of area in contact" },
-  max_pressure: { label: "largest pressure", kind: "pressure" },
+  contact_area_fraction: { label: "contact area fraction" },
+  max_pressure: { label: "maximum pressure", kind: "pressure" },
   mean_gap: { label: "mean gap", kind: "length" },
 };
 

@@ -145,7 +145,7 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
     if (value && typeof value === "object" && !Array.isArray(value)) return "range";
     return Array.isArray(value) && value.length !== 1 ? "list" : "one";
   };
-  const mode = h("select", { class: "mode", "aria-label": `${label}: how it is given` });
+  const mode = h("select", { class: "mode", "aria-label": `${label}: how to give it` });
   for (const [value, text] of [
     ["one", "one value"],
     ["list", "list"],
@@ -155,7 +155,7 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
   const read = (text) => withUnit(text, kind);
   const one = box(path, { label, read, write: (value) => readable(listed(value)[0]) });
   const list = box(path, {
-    label: `${label}: list, parted by commas`,
+    label: `${label}: list, separated by commas`,
     read: (text) => withUnits(text, kind),
     write: (value) => listed(value).map(readable).join(", "),
   });

@@ -68,7 +68,7 @@ export function csv(spec) {
         ? `"${String(value).replaceAll('"', '""')}"`
         : String(typeof value === "number" ? Number(value.toPrecision(9)) : value);
   const remark = [
-    `# ${spec.title}${spec.synthetic ? " (synthetic rubber)" : ""}`,
+    `# ${spec.title}${spec.synthetic ? " (synthetic material)" : ""}`,
     spec.caption ? `# ${spec.caption.replaceAll("\n", " ")}` : "",
   ].filter(Boolean);
   return [...remark, ...[head, ...rows].map((row) => row.map(cell).join(","))].join("\n") + "\n";

@@ -6,7 +6,7 @@
 //   traces: [{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size,
 //             lower, upper (a band around y), error (bars, SI), hidden, legend: false, text, width}],
 //   of: the answer of a job that is drawn: the figure is grey while the study's inputs are others (inputs.js),
-//   marks: [{x | y, label}] (lines across the figure), height, empty: "what is said without data", synthetic: true,
+//   marks: [{x | y, label}] (lines across the figure), height, empty: "text without data", synthetic: true,
 //   layout: {…plotly}, onClick: (point) => … })
 // handle.update({traces: …})    changes parts of the spec and draws again
 // handle.element, handle.plot (plotly's div), handle.remove()

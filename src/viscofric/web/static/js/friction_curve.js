@@ -13,7 +13,7 @@ import {
 import { DEPENDS_ON, isCurrent, outdated, shows, studyOf } from "./inputs.js";
 
 const RESTS = 350; // ms, after the last change of the form
-const VIEWS = { speed: "against speed", shifted: "against shifted speed α(T)·v" };
+const VIEWS = { speed: "against speed", shifted: "against reduced speed α(T)·v" };
 const MOST_FAILURES = 5;
 
 const missingOf = (result) => result.friction.filter((value) => value === null).length;
@@ -35,7 +35,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
   const failed = fields.note([], "error");
   const notes = fields.note([]);
   const checks = fields.note([]);
-  const checked = h("details", { hidden: true }, h("summary", {}, "What was checked"), checks, notes);
+  const checked = h("details", { hidden: true }, h("summary", {}, "Checks"), checks, notes);
 
   const chooser = (label, entries, onChange) => {
     const options = entries.map(([value, text]) => h("option", { value }, text));
@@ -69,7 +69,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
     title: "Friction against speed",
     x: { label: "speed", kind: "speed", log: true },
     y: { label: QUANTITIES.friction.label },
-    empty: "The first points are on their way.",
+    empty: "Computing the first points.",
     onClick: pick,
   });
   const tools = h("div", { class: "row curve-tools" }, view, quantity, which, scale, pin);
@@ -77,7 +77,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
 
   function keep(some) {
     pinned = some;
-    announce(pinned ? "The curve is kept in grey." : "The kept curve is gone.");
+    announce(pinned ? "The curve is kept, in grey." : "The kept curve is removed.");
     draw();
   }
 
@@ -101,7 +101,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
     const speed = shifted ? `α(T)·v at ${units.show(curve.layout.reference, "temperature")}` : "speed";
     handle.update({
       of: curve.answer,
-      title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "shifted speed" : "speed"}`,
+      title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
       caption: caption(shifted),
       x: { label: speed, kind: "speed", log: true, range: speedsOf(curve, look) },
       y: log.checked ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
@@ -115,15 +115,15 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
   }
 
   function caption(shifted) {
-    if (!hasPoints(curve)) return before ? "Grey: the curve before the last change." : "";
+    if (!hasPoints(curve)) return before ? "Grey: previous curve." : "";
     const { result } = curve;
     const parts = [];
     if (shifted)
-      parts.push("Each temperature is moved by its shift factor: where the curves meet, time and temperature are one.");
+      parts.push("Each temperature is shifted by its shift factor: where the curves coincide, time–temperature superposition holds.");
     if (!result)
-      parts.push("Filled points are to the accuracy; open ones lie between contacts that may still be refined.");
+      parts.push("Filled points have the requested accuracy; open ones are interpolated and may still be refined.");
     else if (result.lower?.some((value) => value !== null))
-      parts.push("Bands: 95 %, from the rubber's own uncertainty.");
+      parts.push("Bands: 95 %, from the material's uncertainty.");
     if (result?.doubts.some((words) => words.length > 0)) parts.push("Ringed points are doubtful; hover to see why.");
     parts.push("Click a point to see its contact below.");
     return parts.join(" ");
@@ -167,8 +167,8 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
     before = null;
     const unresolved = result.doubts.filter((words) => words.includes("unresolved")).length;
     const said =
-      `At ${unresolved} of ${result.speed.length} points the grid does not resolve friction to the accuracy asked for; ` +
-      "their error bars tell how well it does.";
+      `At ${unresolved} of ${result.speed.length} points the grid does not resolve friction to the requested accuracy; ` +
+      "the error bars show its accuracy.";
     told.set([...result.warnings, ...(unresolved ? [said] : [])]);
     const missing = missingOf(result);
     const more = missing > MOST_FAILURES ? ` The first ${MOST_FAILURES}:` : "";
@@ -181,7 +181,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
         : [],
     );
     notes.set(result.notes);
-    const marks = { true: "✓ ", false: "Look at this: ", null: "Not known: " };
+    const marks = { true: "✓ ", false: "Look at this: ", null: "Unknown: " };
     checks.set(result.checks.map((one) => `${marks[one.holds]}${one.sentence}`));
     checked.hidden = result.checks.length + result.notes.length === 0;
     state.setResult("curve", result);
@@ -208,7 +208,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
       const missing = missingOf(result);
       const points = `${missing ? `${result.speed.length - missing} of ` : ""}${result.speed.length} points`;
       bar.finish(`${points} in ${units.plainNumber((performance.now() - begun) / 1000, 2)} s`);
-      announce(`The friction curve is there, ${points}.`);
+      announce(`The friction curve is complete, ${points}.`);
     } catch (error) {
       if (running !== mine) return;
       bar.finish(error.name === "AbortError" ? "Cancelled." : "");
@@ -218,9 +218,9 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
   }
 
   function fail(error) {
-    failed.set([waits("The friction curve", error, "curve")]);
+    failed.set([waits("the friction curve", error, "curve")]);
     outdated(curve?.answer);
-    handle.update({ caption: curve ? "The curve before the last change." : "", empty: "No curve yet." });
+    handle.update({ caption: curve ? "Previous curve." : "", empty: "No curve yet." });
     state.setResult("curve", null);
   }
 

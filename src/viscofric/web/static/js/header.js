@@ -89,7 +89,7 @@ function undoButtons(announce) {
       class: "button quiet",
       title: "Redo (Ctrl+Shift+Z)",
       "aria-label": "Redo",
-      onclick: change("redo", "Done again"),
+      onclick: change("redo", "Redone"),
     },
     icon("redo"),
   );

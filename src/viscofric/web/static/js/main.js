@@ -52,10 +52,10 @@ function explain(error, here) {
   return [`${error.message} `, fields.button({ label: `Go to ${title}`, kind: "small", onClick: () => goTo(step) })];
 }
 
-/** The same for the contact's step, where a sentence that stands beside its field is not said twice. */
+/** The same for the contact's step, which does not repeat the sentence at the field. */
 function waits(what, error, job) {
   const beside = fields.showError(error, job) && stepOf(error.field) === "contact";
-  return beside ? `${what} waits: something in the form is not right.` : explain(error, "contact");
+  return beside ? `Fix the marked field to update ${what}.` : explain(error, "contact");
 }
 
 /** Show a step, and put the focus on its heading. */

@@ -9,9 +9,9 @@ export function welcome({ state, start, fields, goTo }) {
     h(
       "p",
       {},
-      h("strong", {}, "How much friction comes from the rubber itself? "),
-      "Sliding or rolling over rubber deforms it, and the energy that it loses is friction. It is computed here from ",
-      "DMA data alone, now for a made-up rubber: change shape, load, speed or temperature, and it is solved again.",
+      h("strong", {}, "Hysteresis friction (rolling resistance) from DMA data. "),
+      "Sliding or rolling deforms rubber, and the dissipated energy causes friction. This page computes it from DMA data ",
+      "alone. The example is a synthetic material: change shape, load, speed or temperature, and the result updates.",
     ),
     h(
       "div",
@@ -28,7 +28,7 @@ export function welcome({ state, start, fields, goTo }) {
       h("span", { class: "help" }, "Your files stay on this computer."),
     ),
   );
-  const later = h("p", {}, "Change shape, load, speed or temperature, and the friction of your rubber is solved again.");
+  const later = h("p", {}, "Change shape, load, speed or temperature, and the friction is computed again.");
   const show = () => {
     const name = state.get("material.catalogue");
     first.hidden = name === undefined || name !== start.study.material?.catalogue;

@@ -1,4 +1,4 @@
-// Shift factors that are held by hand, in the run file's words: { "60 degC" = -2.1 }.
+// Shift factors that are fixed manually, in the run file's words: { "60 degC" = -2.1 }.
 //
 // heldFactors(app) -> {hold(kelvin, log10), release(kelvin), releaseAll()}.  Factors are about a reference, and would mean
 // something else about another one: they are let go when it changes.
@@ -25,12 +25,12 @@ export function heldFactors(app) {
     const about = state.view("held", {})[JSON.stringify(all())];
     if (!state.get(PATH) || about === undefined || about === state.get(REFERENCE)) return;
     releaseAll();
-    app.announce("The held isotherms were let go: their factors were about another reference.");
+    app.announce("The fixed isotherms were released: their factors referred to another reference temperature.");
   });
   return {
     hold(kelvin, log10) {
       set({ ...all(), [keyOf(kelvin) ?? worded(kelvin)]: Number(log10.toFixed(4)) });
-      app.announce(`${named(kelvin, app)}: log10 α held at ${log10.toFixed(2)}.`);
+      app.announce(`${named(kelvin, app)}: log10 α fixed at ${log10.toFixed(2)}.`);
     },
     release(kelvin) {
       const left = { ...all() };

@@ -11,7 +11,7 @@ const WAIT = 150; // ms after the last change
 export const SOURCES = [
   ["dma", "Sweeps of a DMA or rheometer"],
   ["master_curve", "A master curve"],
-  ["file", "A ready rubber or a card"],
+  ["file", "A material file or a card"],
   ["catalogue", "The catalogue"],
 ];
 
@@ -53,7 +53,7 @@ async function make(app) {
   running = mine;
   const { material, uncertainty } = app.state.study;
   if (!sourceOf(material)) return become({ running: false, error: null, answer: null, complete: false, words: "" });
-  become({ running: true, words: "Making the rubber", complete: false });
+  become({ running: true, words: "Fitting the material", complete: false });
   if (app.state.result("rubber")) app.state.setResult("rubber", null); // it was another rubber's
   app.fields.clearError("rubber");
   const take = (answer, complete) => {
@@ -91,7 +91,7 @@ export const worded = (kelvin) => `${Number((kelvin - 273.15).toFixed(2))} degC`
 export function byTemperature(temperatures, { units }) {
   if (temperatures.length < 2) return "";
   const [low, high] = [Math.min(...temperatures), Math.max(...temperatures)];
-  return `Colours tell the temperature: blue is ${units.show(low, "temperature")}, red ${units.show(high, "temperature")}.`;
+  return `Colours show the temperature: blue is ${units.show(low, "temperature")}, red ${units.show(high, "temperature")}.`;
 }
 
 /** Whether so few temperatures are drawn that a legend can name them. */

@@ -27,7 +27,7 @@ export function qualityCards(app) {
   const { h, card } = fields;
   let diagram = "van_gurp_palmen";
   let answer = null;
-  const first = card("Do all isotherms fall on one curve?");
+  const first = card("Validity of superposition");
   first.append(
     pick(
       {
@@ -46,21 +46,21 @@ export function qualityCards(app) {
     y: {},
     traces: [],
   });
-  const second = card("How far neighbours lie apart");
+  const second = card("Distance of neighbouring isotherms");
   const distances = figures.figure(second, {
     id: "neighbour-distances",
     title: "Distance of neighbouring isotherms",
-    caption: "In tan δ against |E*|, where no shift plays a part; bars are 95 % of noise.",
+    caption: "In tan δ against |E*|, which no shift changes; bars are 95 % of noise.",
     x: { label: "temperature between them", kind: "temperature" },
     y: { label: "distance (decades)" },
     traces: [],
   });
-  const third = card("Do E′ and E″ belong to each other?");
+  const third = card("Consistency of E′ and E″");
   const sentence = h("p", { class: "help" });
   const causal = figures.figure(third, {
     id: "kramers-kronig",
     title: "Kramers–Kronig",
-    caption: "log₁₀ of what the one demands of the other, over the measured; open points at the ends are not judged.",
+    caption: "log₁₀ of each modulus computed from the other, over the measured one; open points at the ends are not judged.",
     x: { label: "reduced frequency α ω", kind: "angular_frequency", log: true },
     y: { label: "log₁₀ demanded/measured" },
     traces: [],
@@ -132,8 +132,8 @@ export function qualityCards(app) {
       synthetic: synthetic(answer, app),
       marks: [{ y: found.allowed, label: "allowed rms of E′" }, { y: -found.allowed }],
       traces: [true, false].flatMap((judged) => [
-        part("storage", "E′ that E″ demands", "square", "blue", judged),
-        part("loss", "E″ that E′ demands", "circle", "vermilion", judged),
+        part("storage", "E′ computed from E″", "square", "blue", judged),
+        part("loss", "E″ computed from E′", "circle", "vermilion", judged),
       ]),
     });
   };

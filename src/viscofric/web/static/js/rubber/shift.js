@@ -53,7 +53,7 @@ export function mount(section, app) {
   const explanation = h("p", { class: "help" });
   const table = h("div", { class: "words" });
   laws.append(explanation, table);
-  const left = card("What each law leaves unexplained");
+  const left = card("Residuals of each law");
   const residual = figures.figure(left, {
     id: "law-residuals",
     title: "Measured factors over each law",
@@ -73,7 +73,7 @@ export function mount(section, app) {
   });
   const notes = note([], "warning");
   section.append(
-    h("p", {}, "The isotherms are shifted along the frequency, all at once, until they lie on one curve."),
+    h("p", {}, "All isotherms are shifted along the frequency axis at once, onto one master curve."),
     h("div", { class: "waiting" }, wait),
     problem,
     nothing,
@@ -85,14 +85,14 @@ export function mount(section, app) {
   );
 
   const show = (now) => {
-    if (now.running) wait.start(now.words || "Making the rubber");
+    if (now.running) wait.start(now.words || "Fitting the material");
     else wait.finish();
     problem.set(now.error ? [app.explain(now.error, "shift")] : []);
     const { answer } = now;
     const shift = answer?.shift;
     for (const one of [verdict, laws, notes, limits]) shows(one, answer);
     nothing.set(
-      answer && !shift ? ["This rubber has no shift with temperature: it serves at one temperature only."] : [],
+      answer && !shift ? ["This material has no shift factors: it is valid at one temperature only."] : [],
     );
     verdict.show(answer);
     shifted.show(answer, now);
@@ -136,14 +136,14 @@ function settings(app) {
       path: "material.reference_temperature",
       label: "Reference temperature",
       kind: "temperature",
-      help: "Where the shift factor is one.",
+      help: "Where the shift factor is 1.",
     }),
     fields.choiceField({
       path: "material.shift",
       label: "α(T) used",
       options: SHIFTS,
       otherwise: "measured",
-      help: "As measured answers between the isotherms only; a law goes beyond.",
+      help: "Measured factors are valid between the isotherms only; a law extrapolates.",
     }),
     fields.choiceField({
       path: "material.vertical_shift",
@@ -155,17 +155,17 @@ function settings(app) {
     h(
       "details",
       {},
-      h("summary", {}, "Take shift factors from a file"),
+      h("summary", {}, "Use shift factors from a file"),
       fields.fileDrop({
         label: "Drop shift factors",
-        help: "Temperature and α or log₁₀ α, as instruments’ software writes them.",
+        help: "Temperature and α or log₁₀ α, as written by the instrument's software.",
         multiple: false,
         onFiles: takeFactors,
       }),
     ),
     problem,
   );
-  const ready = h("p", { class: "help" }, "A rubber that is ready brings its shift with it.");
+  const ready = h("p", { class: "help" }, "A predefined material has its own shift factors.");
   const element = card("Shift", ofSweeps, ready);
   const refresh = () => {
     const source = sourceOf(state.get("material"));
@@ -177,7 +177,7 @@ function settings(app) {
         ? [
             h("span", {}, `Shift factors of ${name}`),
             button({
-              label: "Find them on the sweeps",
+              label: "Fit them to the sweeps",
               kind: "small",
               onClick: () => state.set("material.shift_factors", undefined),
             }),
@@ -207,7 +207,7 @@ function verdictCard({ fields }) {
     const held = answer.shift.factors.held.filter(Boolean).length;
     numbers.set([
       { label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` },
-      { label: "figure of merit", value: check.figure_of_merit.toPrecision(2), remark: "up to 1 counts as sound" },
+      { label: "figure of merit", value: check.figure_of_merit.toPrecision(2), remark: "good if ≤ 1" },
       {
         label: "E′ against E″",
         value: check.kramers_kronig ? (check.kramers_kronig.holds ? "agree" : "do not agree") : "not tested",
@@ -216,7 +216,7 @@ function verdictCard({ fields }) {
       {
         label: "α(T) used",
         value: used === "measured" ? "as measured" : used,
-        remark: origin === "given" ? "factors of a file" : held ? `${held} held by hand` : "found on the sweeps",
+        remark: origin === "given" ? "from a file" : held ? `${held} fixed manually` : "fitted to the sweeps",
       },
     ]);
   };

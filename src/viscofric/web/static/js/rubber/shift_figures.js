@@ -9,7 +9,7 @@ export function alphaFigure(answer, app) {
   if (factors) {
     for (const [held, name, symbol] of [
       [false, "isotherms, 95 %", "circle"],
-      [true, "held by hand", "square"],
+      [true, "fixed manually", "square"],
     ]) {
       const some = factors.temperature.map((_, at) => at).filter((at) => factors.held[at] === held);
       if (some.length)
@@ -39,12 +39,12 @@ export function alphaFigure(answer, app) {
     traces.push(
       ...lineTraces(
         { line: material.line, limits: material.limits },
-        { name: "α(T) of the rubber", colour: "vermilion" },
+        { name: "α(T) of the material", colour: "vermilion" },
       ),
     );
   return {
     caption:
-      "Bars and bands are 95 %. Where a line is dotted, the law is extrapolated; it ends where it is not trusted.",
+      "Bars and bands are 95 %. Dotted lines are extrapolated; they end at the limits of validity.",
     marks: [{ x: shift.reference, label: "reference" }],
     synthetic: synthetic(answer, app),
     traces,
@@ -87,7 +87,7 @@ export function limitsInWords({ material }, app) {
         ? `above ${named(low, app)}`
         : "at every temperature"
       : `from ${named(low, app)} to ${named(high, app)}`;
-  return `Used: ${words}. It answers ${span}.`;
+  return `Used: ${words}. Valid ${span}.`;
 }
 
 export function lawTable({ laws }, app) {
@@ -169,6 +169,6 @@ export function verticalFigure({ temperature, b, lower, upper, fitted }, answer,
     synthetic: synthetic(answer, app),
     caption: fitted
       ? "Fitted with the shift factors; bars are 95 %."
-      : "ρT/(ρ₀T₀), as the elasticity of rubber has it.",
+      : "ρT/(ρ₀T₀), from rubber elasticity.",
   };
 }

@@ -22,7 +22,7 @@ export function shiftedCard(app) {
   let chosen = null; // K
   let table = null; // misfit over decades moved, of the chosen isotherm
   let timer = null;
-  const element = card("Isotherms on one another");
+  const element = card("Shifted isotherms");
   const choice = pick(
     { label: "Quantity", options: QUANTITIES, value: quantity, onChange: (value) => ((quantity = value), draw()) },
     fields,
@@ -42,8 +42,8 @@ export function shiftedCard(app) {
   const exact = h("input", { type: "number", id: "dragged-to", step: 0.01 });
   const live = h("p", { class: "help", "aria-live": "polite", id: "dragged-misfit" });
   const { hold, release, releaseAll } = heldFactors(app);
-  const free = button({ label: "Let go of it", kind: "small", onClick: () => release(chosen) });
-  const freeAll = button({ label: "Let go of all", kind: "small", onClick: releaseAll });
+  const free = button({ label: "Undo this correction", kind: "small", onClick: () => release(chosen) });
+  const freeAll = button({ label: "Undo all corrections", kind: "small", onClick: releaseAll });
   const why = h("p", { class: "help" });
   const parts = h(
     "div",
@@ -52,7 +52,7 @@ export function shiftedCard(app) {
     h(
       "div",
       { class: "field" },
-      h("label", { class: "field-label", for: "dragged-by" }, "Move it sideways (decades)"),
+      h("label", { class: "field-label", for: "dragged-by" }, "Shift by (decades)"),
       slider,
     ),
     h(
@@ -69,7 +69,7 @@ export function shiftedCard(app) {
     h(
       "p",
       { class: "help" },
-      "Drag it in the figure, or use these. It stays where you put it, and the others are fitted around it.",
+      "Drag the isotherm in the figure, or use these fields. Its shift is then fixed, and the others are refitted.",
     ),
     why,
     parts,
@@ -86,12 +86,12 @@ export function shiftedCard(app) {
     if (!one) return;
     const misfit = misfitAt(by);
     const now = misfitAt(0);
-    const words = [by ? `Moved by ${decades(by)}` : one.held ? "Held by hand" : "As fitted"];
+    const words = [by ? `Shifted by ${decades(by)}` : one.held ? "Fixed manually" : "Fitted"];
     if (misfit !== null)
       words.push(
-        `it misses its neighbours, as they lie now, by ${decades(misfit, 3)} (rms)${by && now !== null ? `, before ${now.toFixed(3)}` : ""}`,
+        `distance from its neighbours ${decades(misfit, 3)} (rms)${by && now !== null ? `, before ${now.toFixed(3)}` : ""}`,
       );
-    else if (table) words.push("it overlaps neither neighbour");
+    else if (table) words.push("it overlaps no neighbour");
     live.textContent = `${words.join("; ")}.`;
   };
   const choose = async (kelvin) => {
@@ -107,7 +107,7 @@ export function shiftedCard(app) {
     if (other) draw();
     table = null;
     live.textContent = one.is_reference
-      ? "It is the reference, where α is one: choose another reference temperature to move it."
+      ? "This is the reference isotherm (α = 1): choose another reference temperature to shift it."
       : "";
     if (one.is_reference) return;
     try {
@@ -174,7 +174,7 @@ export function shiftedCard(app) {
     const [, label] = QUANTITIES.find(([key]) => key === quantity);
     handle.update({
       of: answer,
-      caption: [byTemperature(temperatures, app), isotherms.some((one) => one.held) ? "Squares are held by hand." : ""]
+      caption: [byTemperature(temperatures, app), isotherms.some((one) => one.held) ? "Squares are fixed manually." : ""]
         .filter(Boolean)
         .join(" "),
       y: {
@@ -208,7 +208,7 @@ export function shiftedCard(app) {
     element.toggleAttribute("aria-busy", Boolean(running));
     if (isotherms.length === 0) return;
     const given = answer.shift.origin === "given";
-    why.textContent = given ? "The shift factors are those of a file; find them on the sweeps to correct one." : "";
+    why.textContent = given ? "The shift factors are from a file; fit them to the sweeps to correct one." : "";
     parts.hidden = given;
     freeAll.disabled = !isotherms.some((one) => one.held);
     if (!same) {

@@ -12,7 +12,7 @@ export function mount(section, app) {
   const problem = note([], "error");
   const doubts = note([], "warning");
   const numbers = fields.keyNumbers();
-  const first = card("Modulus over frequency");
+  const first = card("Modulus against frequency");
   const at = temperatureChoice(app, (kelvin) => ask(kelvin));
   const modulus = figures.figure(first, {
     id: "modulus",
@@ -31,7 +31,7 @@ export function mount(section, app) {
     y: { label: "tan δ", log: true },
     traces: [],
   });
-  const third = card("What the fit leaves unexplained");
+  const third = card("Residuals of the fit");
   const residual = figures.figure(third, {
     id: "spectrum-residuals",
     title: "Measured over fitted modulus",
@@ -66,7 +66,7 @@ export function mount(section, app) {
   const table = h("div", {});
   fourth.append(h("details", {}, h("summary", {}, "Table of modes"), table));
   section.append(
-    h("p", {}, "Modes fitted to the master curve, and with them E′ and E″ at any temperature that the shift reaches."),
+    h("p", {}, "Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors."),
     h("div", { class: "waiting" }, wait),
     problem,
     numbers,
@@ -100,7 +100,7 @@ export function mount(section, app) {
       );
       if (running !== mine) return;
       moved = found;
-      at.tell(found.extrapolated ? "Here the shift factor is extrapolated by its law." : "");
+      at.tell(found.extrapolated ? "The shift factor is extrapolated at this temperature." : "");
       draw();
     } catch (error) {
       if (running === mine && error.name !== "AbortError") at.tell(error.message, true);
@@ -160,7 +160,7 @@ export function mount(section, app) {
   const show = (next) => {
     const before = now?.answer?.made_of;
     now = next;
-    if (now.running) wait.start(now.words || "Making the rubber");
+    if (now.running) wait.start(now.words || "Fitting the material");
     else wait.finish(now.answer?.no_band ? `No 95 % band: ${now.answer.no_band}.` : "");
     problem.set(now.error ? [app.explain(now.error, "spectrum")] : []);
     const { answer } = now;

@@ -5,7 +5,7 @@ import { named } from "./made.js";
 const SHOWN = 1e-10; // modes weaker than the strongest by more change nothing that can be seen
 
 export function keyNumbers({ spectrum, band }, { units }) {
-  if (spectrum.E0 === null) return [{ label: "rubber", value: "a table of moduli", remark: "without modes" }];
+  if (spectrum.E0 === null) return [{ label: "material", value: "a table of moduli", remark: "without modes" }];
   const error = (value) => (band && value ? `± ${units.show(value, "modulus", 2)} (95 %)` : "");
   const { fit } = spectrum;
   const all = [
@@ -19,7 +19,7 @@ export function keyNumbers({ spectrum, band }, { units }) {
       value: units.show(spectrum.E_inf, "modulus"),
       remark: [error(band?.E_inf_error95), fit?.E_inf_remark].filter(Boolean).join("; "),
     },
-    { label: "modes", value: String(spectrum.modes.tau.length), remark: fit?.method ?? "as the rubber says" },
+    { label: "modes", value: String(spectrum.modes.tau.length), remark: fit?.method ?? "from the material file" },
     { label: "Poisson’s ratio", value: String(spectrum.poisson_ratio), remark: "" },
   ];
   if (fit && fit.rms_storage !== null)
@@ -33,12 +33,12 @@ export function keyNumbers({ spectrum, band }, { units }) {
 
 export function caption(answer, here, app) {
   const parts = [];
-  if (here.band) parts.push(`Bands hold each modulus with 95 % (${here.band.draws} draws of the rubber).`);
-  if (here.moved) parts.push("Points are all that was measured, brought to this temperature.");
+  if (here.band) parts.push(`95 % bands of each modulus (${here.band.draws} bootstrap samples).`);
+  if (here.moved) parts.push("Points: all measurements, shifted to this temperature.");
   if (here.isotherm)
-    parts.push(`Filled points are the sweep at ${named(here.isotherm.temperature, app)} as it was measured.`);
+    parts.push(`Filled points: the sweep measured at ${named(here.isotherm.temperature, app)}.`);
   const range = answer.spectrum.fit?.frequency_range;
-  if (range) parts.push("Beyond the points the spectrum extrapolates.");
+  if (range) parts.push("Beyond the points the spectrum is extrapolated.");
   return parts.join(" ");
 }
 
@@ -69,7 +69,7 @@ export function modulusTraces({ modulus, band, moved, isotherm }) {
     : [];
   const sweep = isotherm
     ? MODULI.map(([key, name, symbol, colour]) => ({
-        name: `${name} of the sweep here`,
+        name: `${name} of this sweep`,
         legend: false,
         mode: "markers",
         symbol,
@@ -107,7 +107,7 @@ export function tangentTraces({ modulus, band, moved, isotherm }) {
   const sweep = isotherm
     ? [
         {
-          name: "the sweep here",
+          name: "this sweep",
           legend: false,
           mode: "markers",
           symbol: "diamond",
@@ -163,7 +163,7 @@ export function modesFigure(answer, kind, synthetic) {
   const range = spectrum.fit?.frequency_range;
   return {
     title: retardation ? "Retardation modes" : "Relaxation modes (Prony series)",
-    caption: `${retardation ? "Compliance C of each mode over its retardation time." : "Modulus E of each mode over its relaxation time; the same material, converted exactly."} ${range ? "Between the dotted lines lie the times that the measured frequencies reach." : ""} ${retardation && band?.modes ? "A mode by itself is known badly, for its neighbours can stand in for it." : ""}`,
+    caption: `${retardation ? "Compliance C of each mode over its retardation time." : "Modulus E of each mode over its relaxation time; the same material, converted exactly."} ${range ? "The measured frequencies cover the times between the dotted lines." : ""} ${retardation && band?.modes ? "A single mode is poorly determined, since its neighbours can replace it." : ""}`,
     y: retardation ? { label: "compliance C (1/Pa)", log: true } : { label: "modulus E", kind: "modulus", log: true },
     marks: range
       ? [

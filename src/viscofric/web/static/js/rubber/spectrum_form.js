@@ -3,7 +3,7 @@
 import { sourceOf } from "./made.js";
 
 const KINDS = [
-  ["non-negative", "non-negative: as measured"],
+  ["non-negative", "non-negative: smallest misfit"],
   ["regularised", "regularised: smooth"],
   ["sparse", "sparse: few modes"],
 ];
@@ -14,11 +14,11 @@ export function settings(app) {
   const { h, card } = fields;
   const few = fields.numberField({
     path: "material.modes",
-    label: "Modes at most",
+    label: "Largest number of modes",
     min: 1,
     max: 200,
     step: 1,
-    placeholder: "as few as fit",
+    placeholder: "automatic",
   });
   const ratio = fields.numberField({
     path: "material.tau_ratio",
@@ -29,7 +29,7 @@ export function settings(app) {
   });
   const kind = fields.choiceField({
     path: "material.spectrum",
-    label: "Kind of spectrum",
+    label: "Fit method",
     options: KINDS,
     otherwise: "non-negative",
     onChange: (value) =>
@@ -37,19 +37,19 @@ export function settings(app) {
         "material.spectrum": value === "non-negative" ? undefined : value,
         ...(value === "sparse" ? { "material.tau_ratio": undefined } : { "material.modes": undefined }),
       }),
-    help: "Non-negative modes follow the master curve most closely; regularised ones make a smooth spectrum; sparse ones are few, for finite elements.",
+    help: "Non-negative modes have the smallest misfit; regularised ones make a smooth spectrum; sparse ones are few, for finite elements.",
   });
   const draws = fields.numberField({
     path: "uncertainty.draws",
-    label: "Draws for the 95 % band",
+    label: "Bootstrap samples for the 95 % band",
     min: 0,
     max: 10000,
     step: 1,
     placeholder: "200",
-    help: "The rubber as other measurements might have given it; 0 for no band.",
+    help: "Refits to resampled data; 0 for no band.",
   });
   const fitted = h("div", { class: "panel" }, kind, few, ratio, draws);
-  const ready = h("p", { class: "help" }, "A rubber that is ready brings its spectrum with it.");
+  const ready = h("p", { class: "help" }, "A predefined material has its own spectrum.");
   const refresh = () => {
     const source = sourceOf(state.get("material"));
     fitted.hidden = source === "catalogue" || source === "file" || source === null;

@@ -17,7 +17,7 @@ export function mount(section, app) {
   const problem = note([], "error");
   problem.setAttribute("aria-live", "assertive");
   const form = sourceForm(app, (error) => problem.set(error ? [error.message] : []));
-  const told = card("What was recognised");
+  const told = card("Recognised data");
   const numbers = fields.keyNumbers();
   const files = h("div", {});
   const notes = note([]);
@@ -64,7 +64,7 @@ export function mount(section, app) {
       problem.set([]);
       state.setResult("sweeps", answer);
       show(answer);
-      app.announce(answer.source === "dma" ? `${answer.isotherms.length} isotherms read.` : "Rubber read.");
+      app.announce(answer.source === "dma" ? `${answer.isotherms.length} isotherms read.` : "Material read.");
       followRange(app, answer);
     } catch (error) {
       if (running !== mine || error.name === "AbortError") return;

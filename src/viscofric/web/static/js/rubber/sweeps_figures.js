@@ -10,13 +10,13 @@ export function keyNumbers(answer, app) {
     return [
       {
         label: "rubber",
-        value: answer.name || "without a name",
-        remark: answer.synthetic ? "synthetic: made up, not measured" : "",
+        value: answer.name || "unnamed",
+        remark: answer.synthetic ? "synthetic, not measured" : "",
       },
       {
         label: "reference",
         value: answer.reference === null ? "none" : named(answer.reference, app),
-        remark: answer.reference === null ? "serves at one temperature" : "",
+        remark: answer.reference === null ? "valid at one temperature only" : "",
       },
     ];
   }
@@ -29,15 +29,15 @@ export function keyNumbers(answer, app) {
     {
       label: "measured in",
       ...(answer.asks.includes("deformation") && !app.state.get("material.deformation")
-        ? { value: "?", remark: "please say whether in tension or in shear" }
-        : { value: answer.deformation, remark: answer.asks.includes("deformation") ? "as you say" : "as the file says" }),
+        ? { value: "?", remark: "please select tension or shear" }
+        : { value: answer.deformation, remark: answer.asks.includes("deformation") ? "as given" : "from the file" }),
     },
     { label: "isotherms", value: String(answer.isotherms.length), remark: span(kelvin, "temperature") },
     { label: "points", value: String(points), remark: span(omega, "angular_frequency") },
     {
       label: "flagged",
       value: String(answer.left_out + outliers),
-      remark: `${answer.left_out} left out, ${outliers} far off`,
+      remark: `${answer.left_out} left out, ${outliers} outliers`,
     },
   ];
 }
@@ -56,15 +56,15 @@ export function fileTable(answer, app) {
     .map((one) => [
       one.name,
       one.format,
-      one.deformation ?? "not said",
+      one.deformation ?? "not stated",
       String(one.readings),
       span(one.temperature, "temperature"),
       span(one.angular_frequency, "angular_frequency"),
     ]);
   const table = fields.table(
-    ["file", "taken for", "deformation", "readings", "temperatures", "frequencies"],
+    ["file", "format", "deformation", "readings", "temperatures", "frequencies"],
     rows,
-    "Files as they were read",
+    "Files as read",
   );
   return [
     app.fields.h(
@@ -140,6 +140,6 @@ export function isothermFigure(answer, { key, label, primes }, app) {
     synthetic: app.state.get("data_origin") === "synthetic",
     y: { label: modulus ? `${label} ${symbol}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true },
     temperatures,
-    traces: [...traces, ...flags(true, "left out", "x"), ...flags(false, "far off its neighbours", "circle")],
+    traces: [...traces, ...flags(true, "left out", "x"), ...flags(false, "far from its neighbours", "circle")],
   };
 }

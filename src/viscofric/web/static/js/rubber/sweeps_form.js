@@ -26,7 +26,7 @@ const inOrder = new Intl.Collator("en", { numeric: true }).compare;
 /** What a study calls the rubber of some files: the first one's name without its ending. */
 const named = (value) => {
   const names = [value].flat();
-  return names.length > 1 ? `${names.length} files of sweeps` : names[0].replace(/\.[A-Za-z0-9]{1,9}$/, "");
+  return names.length > 1 ? `${names.length} sweep files` : names[0].replace(/\.[A-Za-z0-9]{1,9}$/, "");
 };
 
 /** The form of the source: its kind, its files, and what these leave to the user. */
@@ -37,7 +37,7 @@ export function sourceForm(app, onError) {
   const group = h(
     "div",
     { class: "choices", role: "radiogroup", "aria-labelledby": "material-source-label" },
-    h("span", { class: "field-label", id: "material-source-label" }, "The rubber comes from"),
+    h("span", { class: "field-label", id: "material-source-label" }, "Source of the material"),
   );
   const radios = new Map();
   for (const [key, text] of SOURCES) {
@@ -111,23 +111,23 @@ export function sourceForm(app, onError) {
       label: "Measured in",
       otherwise: null,
       options: [
-        [null, "– please say –"],
+        [null, "– please select –"],
         ["tension", "tension: E′, E″"],
         ["shear", "shear: G′, G″"],
       ],
-      help: "The file does not say it, and it makes a factor of three.",
+      help: "Not stated in the file; the moduli differ by a factor of three.",
     }),
     modulus_unit: fields.textField({
       path: "material.modulus_unit",
       label: "Unit of the moduli",
       placeholder: "MPa",
-      help: "The file names none.",
+      help: "Not stated in the file.",
     }),
     temperature: fields.quantityField({
       path: "material.temperature",
       label: "Temperature of the sweep",
       kind: "temperature",
-      help: "The file holds none.",
+      help: "Not stated in the file.",
     }),
   };
   const useExample = async () => {
@@ -144,7 +144,7 @@ export function sourceForm(app, onError) {
       { class: "panel" },
       fields.fileDrop({
         label: "Drop sweeps here, or choose files",
-        help: "Exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, text tables: told by their content.",
+        help: "Exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, delimited text; recognised by content.",
         onFiles: take("dma", true),
       }),
       present,
@@ -156,13 +156,13 @@ export function sourceForm(app, onError) {
       { class: "panel" },
       fields.fileDrop({
         label: "Drop a master curve",
-        help: "Moduli over reduced frequency: a text table, a workbook or a .tts file of RepTate.",
+        help: "Moduli against reduced frequency: delimited text, a workbook or a .tts file of RepTate.",
         multiple: false,
         onFiles: take("master_curve", false),
       }),
       fields.fileDrop({
         label: "Drop its shift factors",
-        help: "A table of temperature and α; without it the curve serves at its reference alone.",
+        help: "A table of temperature and α; without it the curve is valid at its reference temperature only.",
         multiple: false,
         onFiles: async (files) => {
           try {
@@ -177,7 +177,7 @@ export function sourceForm(app, onError) {
       "div",
       { class: "panel" },
       fields.fileDrop({
-        label: "Drop a ready rubber",
+        label: "Drop a material file",
         help: "rubber.json, or a card of Abaqus, ANSYS, LS-DYNA or COMSOL.",
         multiple: false,
         onFiles: take("file", false),
@@ -193,7 +193,7 @@ export function sourceForm(app, onError) {
       path: "material.reference_temperature",
       label: "Reference temperature",
       kind: "temperature",
-      help: "Where the shift factor is one.",
+      help: "Where the shift factor is 1.",
     }),
     fields.numberField({
       path: "material.poisson_ratio",
@@ -215,7 +215,7 @@ export function sourceForm(app, onError) {
     const first = rubbers[0].name ? `, ${rubbers[0].name}` : "";
     several.set(
       rubbers.length > 1
-        ? [`This study has ${rubbers.length} rubbers. Steps 1 to 3 show the first${first}; friction is predicted for all.`]
+        ? [`This study has ${rubbers.length} materials. Steps 1 to 3 show the first${first}; friction is predicted for all.`]
         : [],
     );
     listFiles();
@@ -223,7 +223,7 @@ export function sourceForm(app, onError) {
   };
   const questions = h("div", { class: "panel questions" }, asks.deformation, asks.modulus_unit, asks.temperature);
   const several = fields.note([], "several");
-  const element = card("Rubber", several, group, questions, ...Object.values(panels), making);
+  const element = card("Material", several, group, questions, ...Object.values(panels), making);
   element.ask = (key) => asks[key] && (asks[key].hidden = false);
   element.show = (answer) => {
     for (const [key, field] of Object.entries(asks))
@@ -240,7 +240,7 @@ export function sourceForm(app, onError) {
 
 function catalogueList({ state, start, fields }, choose) {
   const { h } = fields;
-  const list = h("div", { class: "choices", role: "radiogroup", "aria-label": "Rubbers of the catalogue" });
+  const list = h("div", { class: "choices", role: "radiogroup", "aria-label": "Materials of the catalogue" });
   const radios = (start?.catalogue ?? []).map((entry) => {
     const radio = h("input", { type: "radio", name: "material-catalogue", value: entry.name });
     radio.addEventListener("change", () => choose("catalogue", entry.name, entry.synthetic ? "synthetic" : undefined));

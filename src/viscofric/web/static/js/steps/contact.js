@@ -34,7 +34,7 @@ function mount(section, app) {
   const more = h(
     "div",
     { class: "more-numbers" },
-    h("h3", {}, "Numbers, with their numerical errors"),
+    h("h3", {}, "Results with their numerical errors"),
     h("table", {}, rows),
   );
   pictures.grid.append(more);
@@ -61,14 +61,14 @@ function mount(section, app) {
     fail: (error) => {
       // a position beyond the rubber is the sliders', no field's
       const beyond = error.field === "conditions.temperature";
-      failed.set([beyond ? error.message : app.waits("The contact", error, "live")]);
+      failed.set([beyond ? error.message : app.waits("the contact", error, "live")]);
       outdated(answer);
     },
     busy: (stage) =>
       (status.textContent = {
         coarse: "solving …",
         sharp: "sharpening …",
-        "": answer ? (answer.stage === "sharp" ? "to the accuracy asked for" : "coarse") : "",
+        "": answer ? (answer.stage === "sharp" ? "converged" : "coarse") : "",
       }[stage]),
   });
 
@@ -180,7 +180,7 @@ function mount(section, app) {
       "div",
       { class: "live-contact" },
       numbers,
-      h("div", { class: "why-box" }, h("h3", {}, "Why the pressure leans forward"), why),
+      h("div", { class: "why-box" }, h("h3", {}, "Cause of the friction"), why),
       number,
       pictures.grid,
     ),

@@ -12,7 +12,7 @@ const PROGRAMS = [
   ["csv", "table (CSV)"],
 ];
 const LAWS = [
-  ["", "that of the rubber"],
+  ["", "that of the material"],
   ["best", "the best law"],
   ["wlf", "WLF"],
   ["arrhenius", "Arrhenius"],
@@ -88,7 +88,7 @@ export function cardCard(app) {
     ["frequency", "frequency"],
   ]);
   const law = select(LAWS);
-  const poisson = box("that of the rubber");
+  const poisson = box("that of the material");
   const density = box("none");
   const wrong = note([], "error");
   const notes = note([]);
@@ -98,9 +98,9 @@ export function cardCard(app) {
     system: viewField(app, "card.system", "Units of the model", system),
     temperature: viewField(app, "card.temperature", "Temperatures of the model", temperature),
     domain: viewField(app, "card.domain", "Analysis", domain),
-    law: viewField(app, "card.law", "Shift law", law, "programs take no table; a law is fitted to it"),
-    poisson: viewField(app, "card.poisson", "Poisson's ratio", poisson, "ANSYS and LS-DYNA cannot take 0.5"),
-    density: viewField(app, "card.density", "Density", density, "such as 1800 kg/m^3; LS-DYNA needs it"),
+    law: viewField(app, "card.law", "Shift law", law, "programs take no table; fits a law to it"),
+    poisson: viewField(app, "card.poisson", "Poisson's ratio", poisson, "ANSYS and LS-DYNA do not accept 0.5"),
+    density: viewField(app, "card.density", "Density", density, "e.g. 1800 kg/m^3; required for LS-DYNA"),
   };
   const programField = viewField(app, "card.program", "Program", program);
   const fit = () => {
@@ -127,9 +127,9 @@ export function cardCard(app) {
     go.disabled = true;
     try {
       if (ratio && !Number.isFinite(options.poisson_ratio))
-        throw new Error(`Poisson's ratio: ${ratio} is not a number, such as 0.499.`);
+        throw new Error(`Poisson's ratio: enter a number, e.g. 0.499; got ${ratio}.`);
       const found = await app.api.runJob("export-card", { study: app.state.study, options });
-      if (!isCurrent(found)) throw new Error("The material has changed since; write the card again.");
+      if (!isCurrent(found)) throw new Error("The material has changed; write the card again.");
       text.textContent = found.text;
       text.hidden = false;
       notes.set(found.notes);
@@ -154,7 +154,7 @@ export function cardCard(app) {
     after.replaceChildren();
   });
   return card(
-    "Rubber for finite elements",
+    "Material card for finite elements",
     h("div", { class: "form" }, programField, ...Object.values(optional)),
     h("div", { class: "row" }, go, after),
     wrong,

@@ -10,7 +10,7 @@ export function show(section, app) {
     h(
       "p",
       {},
-      "All that this page shows follows from one run file. Take it along and repeat the study anywhere, or run it here.",
+      "One run file reproduces everything on this page. Download it to repeat the study anywhere, or run it here.",
     ),
     h("div", { class: "grid" }, runFileCard(app), h("div", { class: "stack" }, studyCard(app), cardCard(app))),
   );
@@ -28,7 +28,7 @@ async function openFiles(app, files, wrong) {
   try {
     await app.api.uploadFiles(files.filter((file) => !isRunFile(file)));
     const runFile = files.find(isRunFile);
-    if (!runFile) throw new Error("There is no run file among them; its name ends with .toml.");
+    if (!runFile) throw new Error("No run file was given; its name ends with .toml.");
     const options = { text: await runFile.text() };
     const { study, missing } = await app.api.runJob("open-run-file", { options });
     app.state.replace(study);
@@ -50,9 +50,9 @@ function runFileCard(app) {
     if (!found) return;
     text.replaceChildren(...coloured(found.text.trimEnd(), h));
     const files = found.files?.length
-      ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which are packed with it`}.`
+      ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which the zip contains`}.`
       : "";
-    about.textContent = found.cases ? `It asks for ${found.cases} case${found.cases === 1 ? "" : "s"}.${files}` : "";
+    about.textContent = found.cases ? `It has ${found.cases} case${found.cases === 1 ? "" : "s"}.${files}` : "";
     wrong.set(found.problems.map((one) => (one.field ? `${one.field}: ${one.message}` : one.message)));
     take.disabled = found.problems.length > 0;
   };
@@ -64,7 +64,7 @@ function runFileCard(app) {
       try {
         const found = await app.api.runJob("export-run-file", { study: app.state.study, options: { pack: true } });
         fetchFile(app, found.download.name);
-        app.announce("The run file is packed.");
+        app.announce("The zip file is ready.");
       } catch (error) {
         wrong.set([error.message]);
       }
@@ -73,7 +73,7 @@ function runFileCard(app) {
   app.state.onResult("run_file", show);
   const bring = fileDrop({
     label: "Open a run file",
-    help: "Drop it here, together with its data files, or choose them.",
+    help: "Drop it here with its data files, or choose them.",
     onFiles: (files) => openFiles(app, files, wrong),
   });
   const anew = button({
@@ -81,12 +81,12 @@ function runFileCard(app) {
     kind: "small",
     onClick: () => {
       app.state.replace(app.start.study);
-      app.announce("The page shows its first study again; undo takes that back.");
+      app.announce("The page shows the example study again; Undo restores yours.");
     },
   });
   const made = card(
     "Run file",
-    textField({ path: "title", label: "Title of study and report" }),
+    textField({ path: "title", label: "Title of the study and report" }),
     h(
       "div",
       { class: "row" },
@@ -97,7 +97,7 @@ function runFileCard(app) {
     about,
     wrong,
     text,
-    h("p", { class: "help" }, "In its folder: ", h("code", {}, "viscofric run study.toml")),
+    h("p", { class: "help" }, "Run in its folder: ", h("code", {}, "viscofric run study.toml")),
     bring,
   );
   show(app.state.result("run_file"));
@@ -151,7 +151,7 @@ function studyCard(app) {
       );
       show(found, (performance.now() - began) / 1e3);
     } catch (error) {
-      if (error.name === "AbortError") bar.fail("Cancelled; what is solved so far is kept for the next run.");
+      if (error.name === "AbortError") bar.fail("Cancelled; solved contacts are kept for the next run.");
       else {
         bar.fail("");
         app.fields.showError(error, "study");
@@ -164,7 +164,7 @@ function studyCard(app) {
     }
   }
 
-  const changed = () => bar.finish("The study has changed since; run it again.");
+  const changed = () => bar.finish("The study has changed; run it again.");
 
   function show(found, seconds) {
     if (!isCurrent(found)) return changed();
@@ -200,7 +200,7 @@ function studyCard(app) {
     h(
       "p",
       { class: "help" },
-      "Solves every case to the accuracy asked for, with the rubber's uncertainty, and writes a report, tables and figures.",
+      "Solves every case to the requested accuracy, with the material's uncertainty, and writes a report, tables and figures.",
     ),
     h(
       "div",
@@ -212,7 +212,7 @@ function studyCard(app) {
         max: 0.1,
         placeholder: "0.001",
       }),
-      numberField({ path: "uncertainty.draws", label: "Draws of the rubber", min: 0, step: 1, placeholder: "200" }),
+      numberField({ path: "uncertainty.draws", label: "Bootstrap samples", min: 0, step: 1, placeholder: "200" }),
       choiceField({
         path: "outputs.fields",
         label: "Pressure maps kept",

@@ -19,7 +19,7 @@ function source(state) {
   const rubbers = [state.get("material") ?? {}].flat();
   if (rubbers.length > 1) return `${rubbers.length} rubbers`;
   const value = ["dma", "master_curve", "file", "catalogue"].map((key) => rubbers[0][key]).find((one) => one !== undefined);
-  if (value === undefined) return "no rubber yet";
+  if (value === undefined) return "no material yet";
   return Array.isArray(value) && value.length > 1 ? `${value.length} files` : String(value);
 }
 
@@ -27,7 +27,7 @@ function superposition(state) {
   const answer = state.result("rubber");
   if (!answer) return "";
   if (!answer.shift) return "no shift with temperature";
-  return answer.check ? answer.check.headline.replace(/^Superposition /, "") : "as the rubber says";
+  return answer.check ? answer.check.headline.replace(/^Superposition /, "") : "from the material file";
 }
 
 function modes(state) {

@@ -17,14 +17,14 @@ const OTHERS = [
     of: checkFigure,
     id: "four-runs",
     title: "Check of the four configurations",
-    caption: "(F_I − F_II + F_III − F_IV)/4 over the load, with twice its standard error: zero in a sound test.",
-    y: { label: "left over, share of the load" },
+    caption: "(F_I − F_II + F_III − F_IV)/4 over the load, with twice its standard error: zero in a valid test.",
+    y: { label: "residual over load" },
   },
   {
     of: zeroFigure,
     id: "force-cell-zero",
     title: "Zero of the force cell",
-    caption: "As found at each condition; a zero that drifts is told among the notes.",
+    caption: "As fitted at each condition; a drift is reported in the notes.",
     y: { label: "zero", kind: "load" },
   },
 ];
@@ -45,7 +45,7 @@ export function comparison(app, step, { changed }) {
   const warnings = note([], "warning");
   const byTemperature = h("div", {});
   const checks = checkList(app);
-  const checked = folded(app, "By temperature, and what was checked", byTemperature, checks);
+  const checked = folded(app, "By temperature, and checks", byTemperature, checks);
   const card = fields.card("Measured against predicted", job.bar, job.errors);
   const figure = figures.figure(card, {
     id: "measured-friction",

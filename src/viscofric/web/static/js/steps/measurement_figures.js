@@ -49,9 +49,9 @@ export function frictionFigure(measured, agreement, synthetic) {
   const caption = [
     points.length > 0 ? "Points: measured, with the standard deviation of the repetitions." : "",
     lines.length > 0
-      ? `Lines: predicted for the page's rubber${agreement.band ? ", with the 95 % band of its uncertainty" : ""}.`
+      ? `Lines: predicted for the page's material${agreement.band ? ", with the 95 % band of its uncertainty" : ""}.`
       : "",
-    marked ? "Open points: the prediction there is doubtful; the pointer says why." : "",
+    marked ? "Open points: the prediction there is doubtful; hover to see why." : "",
   ];
   return {
     traces: [...lines, ...points],

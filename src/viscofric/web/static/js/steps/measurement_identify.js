@@ -29,46 +29,46 @@ export function identification(app, step, { alone }) {
     label: "Shift factors",
     options: [
       ["friction", "found from friction"],
-      ["rubber", "of the page's rubber"],
+      ["rubber", "of the page's material"],
     ],
   });
   const anchor = optionChoice(app, {
     key: "identify.anchor",
-    label: "What fixes the level of the modulus",
+    label: "Anchor (fixes the magnitude of the modulus)",
     onChange: () => choose(),
-    help: "Friction tells the shape of E(ω), and hardly its level.",
+    help: "Friction determines the shape of E(ω) but hardly its magnitude.",
     options: [
-      ["rubber", "|E| of the page's rubber at one frequency"],
-      ["modulus", "a modulus that is known"],
-      ["indentation", "how deep the ball went in"],
-      ["contact_area", "the contact's area"],
-      ["half_width", "half the contact's width"],
-      ["nothing", "nothing: the level stays open"],
+      ["rubber", "|E| of the page's material at one frequency"],
+      ["modulus", "a known modulus"],
+      ["indentation", "indentation of the ball"],
+      ["contact_area", "contact area"],
+      ["half_width", "contact half-width"],
+      ["nothing", "none: magnitude not identified"],
     ],
   });
   const boxes = {
     modulus: optionField(app, { key: "identify.modulus", label: "Modulus |E|", kind: "modulus", placeholder: "8 MPa" }),
     frequency: optionField(app, {
       key: "identify.frequency",
-      label: "At the frequency",
+      label: "Anchor frequency",
       kind: "frequency",
       placeholder: "1 Hz",
     }),
     size: optionField(app, { key: "identify.size", label: "Measured size", placeholder: "0.8 mm, or 12 mm^2" }),
-    speed: optionField(app, { key: "identify.speed", label: "At the speed", kind: "speed", placeholder: "100 mm/s" }),
-    load: optionField(app, { key: "identify.load", label: "Under the load", kind: "load", placeholder: "25 N" }),
-    temperature: optionField(app, { key: "identify.temperature", label: "At the temperature", kind: "temperature" }),
+    speed: optionField(app, { key: "identify.speed", label: "Anchor speed", kind: "speed", placeholder: "100 mm/s" }),
+    load: optionField(app, { key: "identify.load", label: "Anchor load", kind: "load", placeholder: "25 N" }),
+    temperature: optionField(app, { key: "identify.temperature", label: "Anchor temperature", kind: "temperature" }),
     error: optionField(app, { key: "identify.error", label: "Relative standard error", placeholder: "0.01" }),
   };
   const job = repeated(app, "identify", { label: "Identifying", done: show });
-  const go = button({ label: "Identify the rubber", kind: "main", onClick: () => job.run(state.study, options()) });
+  const go = button({ label: "Identify the material", kind: "main", onClick: () => job.run(state.study, options()) });
   const told = note([]);
   const family = h("div", {});
-  const card_ = h("a", { class: "button small", hidden: true, download: "rubber_from_friction.json" }, "Rubber (JSON)");
-  const use = button({ label: "Use this rubber on the page", kind: "small", onClick: take });
+  const card_ = h("a", { class: "button small", hidden: true, download: "rubber_from_friction.json" }, "Material (JSON)");
+  const use = button({ label: "Use this material on the page", kind: "small", onClick: take });
   use.hidden = true;
   const card = fields.card(
-    "The rubber behind the friction",
+    "Material identified from friction",
     h("div", { class: "form" }, shift, anchor, Object.values(boxes)),
     h("div", { class: "row" }, go),
     job.bar,
@@ -80,14 +80,14 @@ export function identification(app, step, { alone }) {
   results.append(pair, told, family, h("div", { class: "row" }, card_, use));
   const modulus = figures.figure(pair, {
     id: "identified-modulus",
-    title: "Modulus that friction tells",
+    title: "Modulus identified from friction",
     x: { label: "reduced frequency", kind: "angular_frequency", log: true },
     y: { label: "modulus", kind: "modulus", log: true },
     height: 380,
   });
   const fit = figures.figure(pair, {
     id: "identified-friction",
-    title: "Friction of the identified rubber",
+    title: "Friction of the identified material",
     x: { label: "speed", kind: "speed", log: true },
     y: { label: "viscoelastic friction coefficient" },
     height: 380,
@@ -142,11 +142,11 @@ export function identification(app, step, { alone }) {
       "χ² above the best",
     ];
     family.replaceChildren(
-      ...(rows.length ? [fields.table(head, rows, "Rubbers that friction alone hardly tells apart")] : []),
+      ...(rows.length ? [fields.table(head, rows, "Materials that friction alone hardly distinguishes")] : []),
     );
     card_.href = app.api.downloadUrl(found.download);
     card_.hidden = use.hidden = false;
-    app.announce(`The rubber is identified. ${found.sentences[0]}`);
+    app.announce(`The material is identified. ${found.sentences[0]}`);
   }
 
   /** Make the identified rubber that of the page. */
@@ -155,7 +155,7 @@ export function identification(app, step, { alone }) {
     const answer = await fetch(app.api.downloadUrl(found.download));
     const [name] = await app.api.uploadFiles([new File([await answer.blob()], found.download)]);
     state.set("material", { file: name });
-    app.announce("The identified rubber is the page's rubber now.");
+    app.announce("The page now uses the identified material.");
   }
 
   function clear() {

@@ -47,16 +47,16 @@ export function factorsFigure(result, synthetic) {
   if (other?.points)
     traces.push({
       ...factorPoints(other.points),
-      name: "of the rubber ± standard error",
+      name: "of the material ± standard error",
       colour: "orange",
       symbol: "square",
       open: true,
     });
-  else if (other) traces.push({ ...factorLine(other.line), name: "of the rubber", colour: "orange" });
+  else if (other) traces.push({ ...factorLine(other.line), name: "of the material", colour: "orange" });
   if (found?.law)
     traces.push({
       ...factorLine(found.law),
-      name: "law fitted to friction's, with its 95 % band",
+      name: "law fitted to friction, with its 95 % band",
       colour: "sky",
       width: 1.2,
     });
@@ -116,7 +116,7 @@ export function modulusFigure(found, synthetic) {
               colour: "green",
               dash: "6px,3px",
               width: 1.4,
-              name: `${symbol} of ${beside.name || "the page's rubber"}`,
+              name: `${symbol} of ${beside.name || "the page's material"}`,
             },
           ]
         : []),
@@ -126,15 +126,15 @@ export function modulusFigure(found, synthetic) {
   const marks =
     identified.high > identified.low
       ? [
-          { x: identified.low, label: `known to ${share} from here …` },
-          { x: identified.high, label: "… to here" },
+          { x: identified.low, label: `identified to ${share} from …` },
+          { x: identified.high, label: "… to" },
         ]
       : [];
-  const level = identified.relative ? " but for the level, which friction does not tell" : "";
+  const level = identified.relative ? " except for the magnitude, which friction does not determine" : "";
   const caption =
     identified.high > identified.low
-      ? `Strong lines: |E| is known to ${share}${level}. Beyond, the rubber is what a smooth spectrum would be.`
-      : `Nowhere is |E| known to ${share}.`;
+      ? `Strong lines: |E| is identified to ${share}${level}. Beyond, it follows from the assumption of a smooth spectrum.`
+      : `|E| is not identified to ${share} at any frequency.`;
   return {
     traces,
     marks,

@@ -5,7 +5,7 @@ import { factorsFigure, masterFigure } from "./measurement_inverse.js";
 import { definitions, optionChoice, repeated } from "./measurement_parts.js";
 
 const LAWS = [
-  ["best", "the best one"],
+  ["best", "the best law"],
   ["wlf", "WLF"],
   ["arrhenius", "Arrhenius"],
   ["vft", "VFT"],
@@ -26,10 +26,10 @@ export function masterCurve(app, step, { changed }) {
   const { h, note } = fields;
   const beside = optionChoice(app, {
     key: "friction.beside",
-    label: "Laid beside",
+    label: "Compare with",
     options: [
-      ["rubber", "the page's rubber"],
-      ["nothing", "nothing: friction alone"],
+      ["rubber", "the page's material"],
+      ["nothing", "nothing (friction alone)"],
     ],
     onChange: changed,
   });
@@ -37,14 +37,14 @@ export function masterCurve(app, step, { changed }) {
     key: "friction.shifted",
     label: "Shifted by",
     options: [
-      ["rubber", "the rubber's shift factors"],
-      ["found", "those that friction tells"],
+      ["rubber", "the material's shift factors"],
+      ["found", "shift factors from friction"],
     ],
     onChange: () => draw(),
   });
   const law = optionChoice(app, {
     key: "friction.law",
-    label: "Law fitted to friction's shift factors",
+    label: "Law fitted to the shift factors from friction",
     options: LAWS,
     onChange: () => run(),
   });
@@ -73,12 +73,12 @@ export function masterCurve(app, step, { changed }) {
     x: { label: "temperature", kind: "temperature" },
     y: { label: "log₁₀ α" },
     height: 340,
-    empty: "Friction at one temperature tells no shift factor.",
+    empty: "Friction at one temperature determines no shift factor.",
   });
 
   function show(result) {
     state.setResult("friction_master", result);
-    const refused = result?.refusal ? [`Friction alone tells no shift factors: ${result.refusal}`] : [];
+    const refused = result?.refusal ? [`Friction alone determines no shift factors: ${result.refusal}`] : [];
     notes.set([...refused, ...(result?.notes ?? [])]);
     shiftedBy.hidden = !(result?.found && result.by_rubber);
     for (const one of [law, file]) one.hidden = !result?.found;

@@ -21,28 +21,28 @@ function separationFields({ quantityField, textField, numberField, choiceField, 
       path: at("zero"),
       label: "Zero of the force cell",
       kind: "load",
-      placeholder: "found, or as recorded",
-      help: "Its reading without traction, where it is known.",
+      placeholder: "fitted, or as recorded",
+      help: "Reading without traction, if known.",
     }),
     quantityField({ path: at("zero_error"), label: "Standard error of the zero", kind: "load" }),
     quantityField({
       path: at("coulomb"),
       label: "Assumed Coulomb friction",
       placeholder: "0.05, or constant",
-      help: "Where slip has one direction only: its coefficient, or “constant” over the speed.",
+      help: "If the slip has one direction only: a coefficient, or “constant” over the speed.",
     }),
-    numberField({ path: at("coulomb_error"), label: "Standard error of it", min: 0 }),
+    numberField({ path: at("coulomb_error"), label: "Standard error of Coulomb friction", min: 0 }),
     textField({
       path: at("except_steps"),
       label: "Steps to leave out",
       placeholder: "1, 3",
       read: wholeNumbers,
       write: (value) => [value ?? []].flat().join(", "),
-      help: "Such as those that were not steady.",
+      help: "For example unsteady steps.",
     }),
     choiceField({
       path: at("outliers"),
-      label: "Readings far from the others",
+      label: "Outliers",
       otherwise: "keep",
       options: ["keep", "leave out"].map((word) => [word, word]),
     }),
@@ -52,7 +52,7 @@ function separationFields({ quantityField, textField, numberField, choiceField, 
       placeholder: "0.05",
       min: 0,
       max: 1,
-      help: "Relative; a smaller one is scatter about the same nominal speed.",
+      help: "Relative; a smaller gap is scatter about the same nominal speed.",
     }),
     textField({
       path: at("temperature_tolerance"),
@@ -81,7 +81,7 @@ export function source(app, { done, gone }) {
   const steps = h("ul", { class: "help steps-of-test" });
   const badge = h("span", { class: "badge", hidden: true }, "synthetic data");
   const stepsOfTest = folded(app, "Steps of the test", steps);
-  const doubts = folded(app, "What was noted about the data", notes);
+  const doubts = folded(app, "Notes on the data", notes);
   const more = folded(app, "More: zero, Coulomb friction, steps, outliers", separationFields(fields));
   const csv = h("a", { class: "button small", hidden: true, download: "friction_curves.csv" }, "Friction curves (CSV)");
   const remove = button({
@@ -133,7 +133,7 @@ export function source(app, { done, gone }) {
     refusal.set(result.refusal ? [`The friction cannot be separated: ${result.refusal}`] : []);
     notes.set(result.notes);
     doubts.hidden = result.notes.length === 0;
-    doubts.firstChild.textContent = `What was noted about the data (${result.notes.length})`;
+    doubts.firstChild.textContent = `Notes on the data (${result.notes.length})`;
     steps.replaceChildren(...result.steps.map((step) => h("li", {}, step.text)));
     stepsOfTest.hidden = result.steps.length === 0;
     more.hidden = !result.runs;

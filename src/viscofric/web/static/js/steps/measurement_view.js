@@ -39,8 +39,8 @@ export function mount(section, app) {
     h(
       "p",
       {},
-      "What a traction test says: how much of its friction is viscoelastic, how well the page's rubber predicts it, ",
-      "onto which curve all temperatures fall, and which rubber would have such friction.",
+      "Traction test: separation of Coulomb and viscoelastic friction, comparison with the prediction, ",
+      "friction master curve, and material identified from friction.",
     ),
     h("div", { class: "columns" }, h("div", {}, measured.card), h("div", {}, compared.card)),
     ...after,
