@@ -37,7 +37,8 @@ def read_topography(
     The format is told by the content, never by the name.  Plain tables are read by viscofric itself: a matrix of
     heights as text or as an .npy file, and columns x, z or x, y, z, each with its unit in the heading (as in
     ``x (um)``) or all of them in `unit`.  Files of instruments (some forty formats: SUR, SDF, X3P, OPDX, PLU …)
-    are read by the package SurfaceTopography, which ``pip install 'viscofric[surfaces]'`` brings along.
+    are read by the package SurfaceTopography, which ``pip install 'viscofric[surfaces]'`` brings along, in a process of
+    their own with limits of time (120 s) and memory (6 GB).  Text may have 50 MB, other files 200 MB.
 
     Parameters
     ----------
