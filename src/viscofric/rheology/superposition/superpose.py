@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 
-#: Weight of the model with a free vertical shift beside the one without, where isotherms drift.
+#: Weight of the other model, with a free vertical shift or without one, where isotherms drift.
 OTHER_MODEL = 0.5
 #: Steps of log10 α with a larger standard error are not identified by the sweeps …
 UNIDENTIFIED = 0.3  # decades
@@ -121,8 +121,9 @@ def superpose(
     hold some 95 % of planted factors (`benchmarks/rheology`).  An error of temperature is an error of α itself, and is
     not in them.  With a free vertical shift, offsets that E' and E'' share are part of b.
 
-    Where isotherms drift to one side (`SuperpositionCheck.drift`), a vertical shift may be missing.  Then half of the
-    squared difference to the shifts beside a free one counts as variance of α.  Below what that shows, a vertical shift
+    Where isotherms drift to one side (`SuperpositionCheck.drift`), a vertical shift may be missing, or none describes
+    them.  Then half of the squared difference to the shifts beside a free one counts as variance of α; where they drift
+    beside a free one too, half of that to the shifts without.  Below what drift shows, a vertical shift
     that is left out moves α by more than its errors: what follows ρT, from −30 to 90 °C, by up to 0.13 decades; what it
     costs is the difference to a second superposition, with ``vertical="density"``.
 
@@ -175,9 +176,9 @@ def superpose(
     if shift is None:
         held = held_places(fixed or {}, temperatures, kelvin)
         found = fitted_shifts(joined, kelvin, held, free)
-        log10_b = np.zeros(len(temperatures)) if known is None else np.asarray(known.log10(temperatures))
-        if not free and drift(neighbour_distances(joined.isotherms, log10_b)) is not None:
-            found = _between_models(found, fitted_shifts(joined, kelvin, held, True))
+        log10_b = found.vertical if known is None else np.asarray(known.log10(temperatures))
+        if drift(neighbour_distances(joined.isotherms, log10_b)) is not None:
+            found = _between_models(found, fitted_shifts(joined, kelvin, held, not free), free)
     else:
         found = given_shifts(joined, kelvin, shift.at_reference(kelvin), free)
     factors = ShiftFactors(temperatures, found.values, kelvin, found.covariance)
@@ -209,20 +210,32 @@ def superpose(
     )
 
 
-def _between_models(found: CommonShifts, free: CommonShifts) -> CommonShifts:
-    """Add to the errors of log10 α what a free vertical shift would change.
+def _between_models(found: CommonShifts, other: CommonShifts, free: bool) -> CommonShifts:
+    """Add to the errors what the other model would change: a free vertical shift, or none if `free`.
 
-    Isotherms that drift say that a vertical shift may be missing, or something else; each of the two models is given
-    half of the weight, so that about one the other is off by their difference with a variance of half its square (S. T.
-    Buckland et al., Biometrics 53 (1997) 603).  Differences count step by step, as far as they exceed what is not known
-    of the free one itself.
+    Isotherms that drift contradict the model that was asked for; each of the two models is given half of the weight, so
+    that about one the other is off by their difference with a variance of half its square (S. T. Buckland et al.,
+    Biometrics 53 (1997) 603).  Differences count step by step, as far as they exceed what is not known of the free one.
     """
-    steps = np.diff(free.values - found.values)
-    steps = np.sign(steps) * np.sqrt(np.maximum(steps**2 - _errors_of_steps(free.covariance) ** 2, 0.0))
+    loose = found if free else other
     nearest = int(np.argmin(np.abs(found.values) + np.diag(found.covariance)))
-    difference = np.concatenate([[0.0], np.cumsum(steps)])
-    difference -= difference[nearest]
-    return replace(found, covariance=found.covariance + OTHER_MODEL * np.outer(difference, difference))
+
+    def away(difference: Array, covariance: Array) -> Array:
+        steps = np.diff(difference)
+        steps = np.sign(steps) * np.sqrt(np.maximum(steps**2 - _errors_of_steps(covariance) ** 2, 0.0))
+        total = np.concatenate([[0.0], np.cumsum(steps)])
+        return np.asarray(total - total[nearest])
+
+    horizontal = away(other.values - found.values, loose.covariance)
+    changed = replace(found, covariance=found.covariance + OTHER_MODEL * np.outer(horizontal, horizontal))
+    if not free:
+        return changed
+    vertical = away(other.vertical - found.vertical, loose.vertical_covariance)
+    return replace(
+        changed,
+        vertical_covariance=found.vertical_covariance + OTHER_MODEL * np.outer(vertical, vertical),
+        cross_covariance=found.cross_covariance + OTHER_MODEL * np.outer(horizontal, vertical),
+    )
 
 
 def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None, kelvin: float) -> VerticalShift | None:
