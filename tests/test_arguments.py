@@ -430,6 +430,7 @@ CALLS: dict[str, Any] = {
     "compare_results": lambda: {"first": curves(), "second": curves(), "tolerance": 1e-2},
     "load_study": lambda: {"path": at("study.toml")},
     "open_results": lambda: {"path": results()},
+    "StudyResults.export": lambda: (vf.open_results(results()), {"form": "csv", "path": at("tables")}),
     "StudyResults.to_csv": lambda: (vf.open_results(results()), {"path": at("tables")}),
     "run_study": lambda: {"path": at("study.toml"), "output": results(), "resume": True, "workers": None,
         "scheduler": None, "finished_only": False},
@@ -459,7 +460,7 @@ def call(function, arguments):
 #: Names that take no argument, classes to derive from, and what needs a workbook of an instrument.
 WITHOUT_CALL = {"catalogue", "synthetic_fluoroelastomer", "ShiftLaw", "VerticalShift", "read_vendor_law"}
 #: What takes seconds, for what its good call needs.
-SLOW = {"IdentifiedMaterial.standard_error", "StudyResults.to_csv", "open_results", "run_study"}
+SLOW = {"IdentifiedMaterial.standard_error", "StudyResults.export", "StudyResults.to_csv", "open_results", "run_study"}
 #: argument -> what it may be, where its annotation does not say it
 KINDS = {
     "fitted_range": "numbers", "coefficients": "numbers", "log10_values": "numbers", "levels": "numbers",
