@@ -3,7 +3,7 @@ Shift factors from friction
 ===========================
 
 Friction curves of neighbouring temperatures that overlap after a shift determine the shift factor
-:math:`\\alpha(T)` by themselves, without DMA data.
+:math:`\\alpha(T)` by themselves, without DMA data. The result can be compared with the shift factors of the modulus.
 """
 
 # %%

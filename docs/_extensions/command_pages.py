@@ -1,4 +1,4 @@
-"""The command line as Markdown: every command with its usage, words, arguments and options, as click knows them."""
+"""The command line as Markdown: every command with its usage, help text, arguments and options, from click."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def paragraphs(text: str) -> str:
 
 
 def option_rows(command: click.Command, context: click.Context) -> list[list[str]]:
-    """Return a row for each option: how it is written, and what it is for."""
+    """Return a row for each option: its spelling and its help text."""
     rows = []
     for parameter in command.get_params(context):
         record = parameter.get_help_record(context)
@@ -60,7 +60,7 @@ def option_rows(command: click.Command, context: click.Context) -> list[list[str
 
 
 def section(name: str, command: click.Command) -> str:
-    """Return what the page says of one command."""
+    """Return the section of one command."""
     parts = name.split()
     context = click.Context(main, info_name=parts[0], **main.context_settings)
     if len(parts) > 2:

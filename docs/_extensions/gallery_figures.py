@@ -22,7 +22,7 @@ def plain(text: str) -> str:
 
 
 def words_of_axes(axes: Axes) -> str:
-    """Tell what one Axes shows: its title, what stands on its axes, and the names of its curves."""
+    """Describe one Axes: its title, axis labels, and the names of its curves."""
     x, y = plain(axes.get_xlabel()), plain(axes.get_ylabel())
     against = f"{y} against {x}" if x and y else y or x
     names = [plain(str(label)) for label in axes.get_legend_handles_labels()[1]]
@@ -32,7 +32,7 @@ def words_of_axes(axes: Axes) -> str:
 
 
 def words(figure: Figure) -> str:
-    """Tell what a figure shows; of several Axes one after the other."""
+    """Describe a figure, one Axes after the other."""
     told = dict.fromkeys(words_of_axes(axes) for axes in figure.axes)
     return "; ".join(part for part in told if part)
 

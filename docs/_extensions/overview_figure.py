@@ -1,4 +1,4 @@
-"""The figure of the first page: sweeps become a master curve, that a contact, and many contacts a friction curve."""
+"""The figure of the first page: master curve, contact, friction curve."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def draw() -> bytes:
         plot_master_curve(panels[0], fit, spectrum)
         plot_pressure_map(panels[1], contact)
         plot_friction_curves(panels[2], curves)
-        titles = ("the rubber, from its DMA sweeps", "a contact at 60 °C and 100 mm/s", "its friction")
+        titles = ("material fitted to DMA sweeps", "contact at 60 °C and 100 mm/s", "predicted friction")
         for place, (axes, title) in enumerate(zip(panels, titles, strict=True), start=1):
             axes.set_title(f"{place}   {title}", loc="left", fontsize=11, pad=_ABOVE_THE_LEGEND)
         mark_synthetic(panels)
@@ -49,7 +49,7 @@ def draw() -> bytes:
 
 
 def generate() -> None:
-    """Draw it unless it was drawn by the present code."""
+    """Draw it if the code has changed."""
     state = digest(*_DEPENDS_ON)
     if is_made_of("overview", state):
         return

@@ -1,4 +1,4 @@
-"""Markdown and files that pages are made of: tables, and writing only what has changed."""
+"""Markdown tables, and generated files, which are written only if they changed."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ def table(headings: Iterable[str], rows: Iterable[Iterable[str]], *, numbers: bo
 
 
 def cell(text: str) -> str:
-    """Return text for a cell of a table: on one line, without what Markdown would read as markup."""
+    """Return text for a table cell: on one line, with Markdown's markup escaped."""
     for mark in "\\|*_<>[]$":
         text = text.replace(mark, "\\" + mark)
     return " ".join(text.split())
 
 
 def write(name: str, content: str | bytes) -> None:
-    """Write a generated file unless it is what is there, so that pages are built anew only where they change."""
+    """Write a generated file if its content changed, so that only changed pages are rebuilt."""
     path = GENERATED / name
     path.parent.mkdir(parents=True, exist_ok=True)
     new = content.encode() if isinstance(content, str) else content
@@ -53,7 +53,7 @@ def digest(*folders: str) -> str:
 
 
 def is_made_of(name: str, state: str) -> bool:
-    """Return whether what is called so was made in this state; see `made_of`."""
+    """Return whether the named output was made in this state; see `made_of`."""
     stamp = GENERATED / f"{name}.state"
     return stamp.exists() and stamp.read_text(encoding="utf-8") == state
 

@@ -20,23 +20,23 @@ if TYPE_CHECKING:
 #: Groups that are alike for every number in their name.
 _NUMBERED = re.compile(r"^/(fields|materials)/\d+")
 _WORDS = {
-    "/": "The study itself; it holds attributes only.",
+    "/": "The study; attributes only.",
     "/isotherms": "The measured moduli (tensile) that were used.",
     "/shift_factors": "log10 α of each isotherm.",
-    "/superposition": "Whether superposition holds: what was checked, in numbers and sentences.",
+    "/superposition": "Validity of superposition: the checks, in numbers and sentences.",
     "/master_curve": "The isotherms shifted to the reference temperature, and the fit at the same points.",
-    "/laws": "Every law that describes the shift factors, compared.",
+    "/laws": "Comparison of all shift laws.",
     "/shift_law": "The law that is used, or the best one, over the same temperatures.",
     "/spectrum": "The retardation spectrum at the reference temperature.",
     "/spectrum_curve": "Its storage and loss modulus over a wider range, with the 95 % band.",
-    "/prediction": "All cases over the axes that have more than one point; the others are single coordinates.",
+    "/prediction": "All cases over the axes that have more than one point; the others are scalar coordinates.",
     "/prediction_master": "Friction at the reference temperature over the reduced speeds α(T)·v.",
     "/measurement": "The separated measurement, and the prediction at the same points.",
     "/measurement_master": "Measured friction over the reduced speed, at the load of the master curve.",
     "/agreement": "Prediction against measurement, at each temperature.",
-    "/assumptions": "What the predictions take for granted, as checked.",
-    "/fields/<n>": "Pressure and displacement of the case with the number n, where they were kept.",
-    "/materials/<n>/…": "Of several rubbers, the groups of each from `/isotherms` to `/spectrum_curve`.",
+    "/assumptions": "Assumptions of the predictions, and their checks.",
+    "/fields/<n>": "Pressure and displacement of the case with the number n, if they were kept.",
+    "/materials/<n>/…": "For several materials, the groups of each from `/isotherms` to `/spectrum_curve`.",
 }
 
 
@@ -56,7 +56,7 @@ def example(folder: Path) -> StudyResults:
 
 
 def section(name: str, group: xarray.Dataset) -> str:
-    """Return what the page says of one group."""
+    """Return the section of one group."""
     rows = [
         [
             f"`{variable}`" + (" (coordinate)" if variable in group.coords else ""),
@@ -86,7 +86,7 @@ def page(results: StudyResults) -> str:
 
 
 def generate() -> None:
-    """Write the page's tables unless they are made of the present code."""
+    """Write the page's tables if the code has changed."""
     state = digest("study", "example")
     if is_made_of("results", state):
         return

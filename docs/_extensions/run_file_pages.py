@@ -14,20 +14,20 @@ _WORDS = {2.718281828459045: "e = 2.718…"}
 
 
 class Schema:
-    """The JSON schema of run files, and how parts of it are told in words."""
+    """The JSON schema of run files, and descriptions of its parts."""
 
     def __init__(self) -> None:
         self.root = json_schema()
 
     def resolved(self, node: dict[str, Any]) -> dict[str, Any]:
-        """Return what a reference stands for, with what is said beside it."""
+        """Resolve a reference, and add the keys given with it."""
         if "$ref" not in node:
             return node
         target = self.root["$defs"][node["$ref"].rsplit("/", 1)[1]]
         return target | {key: value for key, value in node.items() if key != "$ref"}
 
     def choices(self, node: dict[str, Any]) -> list[dict[str, Any]]:
-        """Return what a value may be, one after the other."""
+        """Return the permitted types of a value, in order."""
         node = self.resolved(node)
         for kind in ("oneOf", "anyOf"):
             if kind in node:
@@ -35,7 +35,7 @@ class Schema:
         return [node]
 
     def values(self, node: dict[str, Any]) -> str:
-        """Return in words what may stand there."""
+        """Describe the permitted values."""
         found = self.choices(node)
         is_range = any("from" in one.get("properties", {}) for one in found)
         single = [one for one in found if one.get("type") not in ("object", "array")]
@@ -69,9 +69,9 @@ class Schema:
 
 
 def default(key: str, node: dict[str, Any], required: list[str]) -> str:
-    """Return in words what holds without the key."""
+    """Describe the default of a key."""
     if key in required:
-        return "must be given"
+        return "required"
     value = node.get("default")
     if value is None or value in ([], {}, ""):
         return "none"
@@ -99,7 +99,7 @@ def _table(rows_of_keys: list[list[str]]) -> str:
 
 
 def words(model: dict[str, Any]) -> str:
-    """Return what a table says of itself, without its name."""
+    """Return the description of a table, without its name."""
     text = re.sub(r"^\[[\w\]\[ ,]+\]: ", "", model.get("description", ""))
     return cell(text[:1].upper() + text[1:])
 
@@ -110,7 +110,7 @@ def page() -> str:
     tables = {key: schema.choices(node) for key, node in schema.root["properties"].items()}
     tables = {key: [one for one in found if "properties" in one] for key, found in tables.items()}
     plain = {**schema.root, "properties": {k: v for k, v in schema.root["properties"].items() if not tables[k]}}
-    shown = ["## At the top", _table(rows(schema, plain))]
+    shown = ["## Top level", _table(rows(schema, plain))]
     for key, models in tables.items():
         if not models:
             continue
@@ -123,5 +123,5 @@ def page() -> str:
             shown += [words(model), _table(rows(schema, model, common if len(models) > 1 else frozenset()))]
         if len(models) > 1:
             shared = {**models[0], "properties": {k: v for k, v in models[0]["properties"].items() if k in common}}
-            shown += ["### Of every shape", _table(rows(schema, shared))]
+            shown += ["### All shapes", _table(rows(schema, shared))]
     return "\n\n".join(part for part in shown if part)

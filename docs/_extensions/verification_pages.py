@@ -49,13 +49,13 @@ def summary(outcomes: list[Outcome]) -> str:
                 f"`{outcome.check.name}`",
                 f"{outcome.check.title}, against {outcome.check.source}",
                 str(len(outcome.comparisons)),
-                f"{worst.quantity} ({worst.case})" if seen else "all alike",
+                f"{worst.quantity} ({worst.case})" if seen else "all equal",
                 error(worst),
                 # Which of several round-offs is the largest, and how it is counted, is chance.
                 bound(worst) if seen else f"{max(one.bound for one in outcome.comparisons):.1e}",
             ]
         )
-    return table(["check", "what, and against what", "compared", "worst of them", "error", "bound"], rows)
+    return table(["check", "quantity and reference", "comparisons", "worst", "error", "bound"], rows)
 
 
 def reasons(outcomes: list[Outcome]) -> str:
@@ -121,7 +121,9 @@ def orders_table(found: list[Refinement]) -> str:
                     f"{one.order(quantity):.1f}",
                 ]
             )
-    return table(["problem", "quantity", "against", "cells", "error, coarsest → middle → finest", "order seen"], rows)
+    return table(
+        ["problem", "quantity", "against", "cells", "error, coarsest → middle → finest", "observed order"], rows
+    )
 
 
 def windows_table(found: Windows) -> str:
@@ -214,7 +216,7 @@ def figures(outcomes: list[Outcome], refinements: list[Refinement], limit: Windo
 
 
 def generate() -> None:
-    """Call all checks, unless their code is what it was, and write what they say.
+    """Run all checks if their code has changed, and write the results.
 
     Raises
     ------

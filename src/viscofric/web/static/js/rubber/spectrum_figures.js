@@ -10,12 +10,12 @@ export function keyNumbers({ spectrum, band }, { units }) {
   const { fit } = spectrum;
   const all = [
     {
-      label: "E₀, rubber",
+      label: "E₀, relaxed",
       value: units.show(spectrum.E0, "modulus"),
       remark: [error(band?.E0_error95), fit?.E0_remark].filter(Boolean).join("; "),
     },
     {
-      label: "E∞, glass",
+      label: "E∞, glassy",
       value: units.show(spectrum.E_inf, "modulus"),
       remark: [error(band?.E_inf_error95), fit?.E_inf_remark].filter(Boolean).join("; "),
     },

@@ -9,7 +9,7 @@ export function keyNumbers(answer, app) {
   if (answer.source !== "dma") {
     return [
       {
-        label: "rubber",
+        label: "material",
         value: answer.name || "unnamed",
         remark: answer.synthetic ? "synthetic, not measured" : "",
       },

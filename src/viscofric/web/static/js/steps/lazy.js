@@ -17,7 +17,7 @@ const later = (id, title, summary, module, show = "mount") => ({
 
 function source(state) {
   const rubbers = [state.get("material") ?? {}].flat();
-  if (rubbers.length > 1) return `${rubbers.length} rubbers`;
+  if (rubbers.length > 1) return `${rubbers.length} materials`;
   const value = ["dma", "master_curve", "file", "catalogue"].map((key) => rubbers[0][key]).find((one) => one !== undefined);
   if (value === undefined) return "no material yet";
   return Array.isArray(value) && value.length > 1 ? `${value.length} files` : String(value);
