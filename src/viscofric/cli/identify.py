@@ -62,7 +62,7 @@ Example:
 @click.option("--out", type=_FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
 @click.option("--picture", type=_FILE, help="Draw the modulus with its limits (PNG, SVG or PDF).")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
-@click.option("--synthetic", is_flag=True, help="Label the picture as synthetic data.")
+@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...],

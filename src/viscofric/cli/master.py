@@ -57,7 +57,7 @@ Example:
 @separation_options
 @click.option("--out", type=_FILE, help="Write the shift factors with their errors (CSV).")
 @click.option("--picture", type=_FILE, help="Draw master curve and shift factors (PNG, SVG or PDF).")
-@click.option("--synthetic", is_flag=True, help="Label the picture as synthetic data.")
+@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any

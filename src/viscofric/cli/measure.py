@@ -40,7 +40,7 @@ Example:
     type=click.Path(path_type=Path, dir_okay=False),
     help="Draw viscoelastic and Coulomb friction against speed (PNG, SVG or PDF).",
 )
-@click.option("--synthetic", is_flag=True, help="Label the picture as synthetic data.")
+@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
 def command(
     runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any

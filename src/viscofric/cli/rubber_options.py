@@ -46,7 +46,7 @@ _MATERIAL = (
         type=click.Choice(["tension", "shear"]),
         help="With --dma: deformation of the test, if no file states it.",
     ),
-    click.option("--synthetic", is_flag=True, help="With --dma: label the data as synthetic."),
+    click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, not measured."),
     click.option(
         "--E0", "rubber_modulus", metavar="E", help="Alternative: standard linear solid; relaxed modulus, e.g. '1 MPa'."
     ),

@@ -30,7 +30,7 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 @reading_options
 @click.option("--name", default="", help="Name of the material, for reports and cards.")
 @click.option("--master-curve", is_flag=True, help="FILES is one finished master curve at the reference temperature.")
-@click.option("--synthetic", is_flag=True, help="Label figures and report as synthetic data.")
+@click.option("--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly.")
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option(
     "--vertical-shift",
