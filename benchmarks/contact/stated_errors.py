@@ -1,6 +1,7 @@
 """Whether the errors that contacts state hold: random contacts against solutions that are ten times as accurate.
 
-Usage: python benchmarks/contact/stated_errors.py [--count 300] [--first 0] [--accuracy 1e-3 1e-2] [--json FILE]
+Usage: python benchmarks/contact/stated_errors.py [--periodic] [--count 300] [--first 0] [--accuracy 1e-3 1e-2]
+       [--json FILE]
 
 Ball, cylinder, ellipsoid, cone, height map, ball and cylinder on a layer in turn; 1 to 40 modes over up to six decades,
 E_inf/E0 from 1.5 to 1e4, the longest memory vτ/a0 from 1e-3 to 1e3, the load or the indentation given, and an accuracy
@@ -8,6 +9,10 @@ between the two.  Each is compared with the same contact at a tenth of the accur
 An error counts as holding where the difference is no more than it and the error that the finer solution states for
 itself; `strict` leaves the latter out.  A largest pressure that is not resolved is compared, too.  Of derivatives
 it is the largest difference of the logarithmic ones.  Cases that reach no accuracy are counted.
+
+With --periodic: rough surfaces of 64² or 96² points, 3 to 16 of them in the shortest wave, Hurst exponents from 0.3 to
+1, on materials of 1 to 24 modes over seven decades, E_inf/E0 from 2 to 1e4; speeds over six decades, pressures over
+four, one in five on a layer.  Each is compared with the same surface, by its Fourier series, on four times the points.
 """
 
 from __future__ import annotations
@@ -23,8 +28,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import measuring
 import numpy as np
+import problems  # noqa: F401  (where the tests' surfaces are found)
 
 import viscofric as vf
+from contact.made_surfaces import refined, self_affine
 from viscofric.contact.free.scale import Scale
 
 POISSON_RATIO, E0, RADIUS = 0.5, 1e6, 10e-3
@@ -32,6 +39,7 @@ SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "height map", "ball on a laye
 MOST_MODES, MOST_DECADES = 40, 6.0
 #: The finer solution: a part of the accuracy; four times the cells, twice where that would be more than these.
 FINER, FINEST = 0.1, {"point": 512, "line": 32768}
+PERIODIC_FINER = 4
 LEAST = 1e-12  # of rounding
 COLUMNS = (
     ("contacts", "contacts", "d"),
@@ -49,7 +57,7 @@ class Case(NamedTuple):
 
     name: str
     material: vf.Material
-    indenter: Any
+    body: Any  # an indenter, or heights and spacing of a periodic surface
     settings: dict[str, Any]
 
 
@@ -91,6 +99,37 @@ def draw(number: int, accuracy: tuple[float, float] = (1e-3, 1e-2)) -> Case:
     return Case(name, material, indenter, settings)
 
 
+def draw_periodic(number: int) -> Case:
+    """Return one of the random rough contacts."""
+    rng = np.random.default_rng([2, number])
+    points, modes, ratio = int(rng.choice([64, 96])), int(rng.integers(1, 25)), 10.0 ** rng.uniform(0.3, 4.0)
+    tau, share = 10.0 ** np.sort(rng.uniform(-5.0, 2.0, modes)), rng.dirichlet(np.ones(modes))
+    material = vf.Material(vf.RetardationSpectrum(1.0, ratio, share * (1.0 - 1.0 / ratio), tau), poisson_ratio=0.5)
+    hurst, shortest = rng.uniform(0.3, 1.0), float(rng.choice([3.0, 4.0, 8.0, 16.0]))
+    z = self_affine(points, seed=number, hurst=hurst, points_per_shortest_wave=shortest)
+    angle = rng.choice([0.0, 0.0, rng.uniform(0.0, 2.0 * np.pi)])
+    motion: dict[str, Any] = {
+        "speed": 10.0 ** rng.uniform(-2.0, 4.0),
+        "pressure": 10.0 ** rng.uniform(-3.0, 1.0),
+        "direction": (np.cos(angle), np.sin(angle)),
+        "layer": vf.Layer(thickness=10.0 ** rng.uniform(-2.0, 0.0)) if rng.random() < 0.2 else None,
+    }
+    spacing = np.array([1.0, rng.choice([1.0, 0.7])]) / points
+    name = f"{number}: {points}² points, {shortest:.0f} in a wave, E∞/E0 = {ratio:.3g}, p = {motion['pressure']:.2g} E0"
+    return Case(name, material, (z, spacing), motion)
+
+
+def solve_both_periodic(case: Case) -> tuple[vf.PeriodicSolution, vf.PeriodicSolution]:
+    """Solve a rough contact as it stands, and with more points."""
+    z, spacing = case.body
+    surfaces = (z, spacing), (refined(z, PERIODIC_FINER * len(z)), spacing / PERIODIC_FINER)
+    coarse, fine = (
+        vf.solve_periodic(case.material, vf.PeriodicSurface(heights, tuple(cell)), **case.settings)
+        for heights, cell in surfaces
+    )
+    return coarse, fine
+
+
 def solve_both(case: Case) -> tuple[vf.ContactSolution, vf.ContactSolution]:
     """Solve a case as it stands, and much more finely.
 
@@ -100,18 +139,18 @@ def solve_both(case: Case) -> tuple[vf.ContactSolution, vf.ContactSolution]:
         If the accuracy asked for, or a finer grid, cannot be had.
     """
     settings = dict(case.settings, derivatives=True)
-    coarse = vf.solve_steady(case.material, case.indenter, **settings)
+    coarse = vf.solve_steady(case.material, case.body, **settings)
     settings["accuracy"] *= FINER
     cells, finest = max(coarse.diagnostics.shape), FINEST[coarse.geometry]
     wanted = max(2 * cells, min(4 * cells, finest))
     try:
-        fine = vf.solve_steady(case.material, case.indenter, finest=finest, **settings)
+        fine = vf.solve_steady(case.material, case.body, finest=finest, **settings)
     except vf.ConvergenceError:
         wanted = max(wanted, finest)
     else:
         if max(fine.diagnostics.shape) >= wanted:
             return coarse, fine
-    return coarse, vf.solve_steady(case.material, case.indenter, grid=wanted, **settings)
+    return coarse, vf.solve_steady(case.material, case.body, grid=wanted, **settings)
 
 
 def stated(solution: vf.ContactSolution) -> dict[str, tuple[Any, float]]:
@@ -138,7 +177,11 @@ def stated(solution: vf.ContactSolution) -> dict[str, tuple[Any, float]]:
 
 def compare(case: Case) -> list[dict[str, Any]]:
     """Return, for each number, its error as stated, as found, and as the finer solution states its own."""
-    coarse, fine = (stated(one) for one in solve_both(case))
+    if isinstance(case.body, tuple):
+        solved = solve_both_periodic(case)
+        coarse, fine = ({"friction": (one.friction_coefficient, one.diagnostics.friction_error)} for one in solved)
+    else:
+        coarse, fine = (stated(one) for one in solve_both(case))
     rows = []
     for name, (value, error) in coarse.items():
         true, left = fine[name]
@@ -179,12 +222,13 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--first", type=int, default=0, help="number of the first random contact")
     parser.add_argument("--accuracy", type=float, nargs=2, default=(1e-3, 1e-2), help="least and largest")
+    parser.add_argument("--periodic", action="store_true", help="rough surfaces instead of indenters")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
     rows: list[dict[str, Any]] = []
     unsolved: list[str] = []
     for number in range(options.first, options.first + options.count):
-        case = draw(number, tuple(options.accuracy))
+        case = draw_periodic(number) if options.periodic else draw(number, tuple(options.accuracy))
         try:
             found = compare(case)
         except vf.ConvergenceError as failure:

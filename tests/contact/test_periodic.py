@@ -338,6 +338,27 @@ def test_estimated_friction_error_is_of_the_order_of_the_error() -> None:
         assert 0.3 * error < solutions[points].diagnostics.friction_error < 30.0 * error
 
 
+@pytest.mark.parametrize(
+    ("shortest", "seed", "pressure", "rubber"),
+    [
+        (3.0, 0, 0.3, broad()),  # the coarser grid does not have all the waves; energy and slopes agree by luck
+        (3.0, 3, 0.05, broad()),
+        (8.0, 9, 0.03, broad(4, 1000.0)),  # it has, and agrees by luck as well
+        (8.0, 22, 0.03, broad(4, 1000.0)),
+    ],
+)
+def test_friction_that_agrees_by_luck_is_not_trusted(
+    shortest: float, seed: int, pressure: float, rubber: vf.Material
+) -> None:
+    z = self_affine(64, points_per_shortest_wave=shortest, seed=seed)
+    coarse, fine = (
+        solve_periodic(rubber, PeriodicSurface(refined(z, points), 1.0 / points), speed=1.0, pressure=pressure)
+        for points in (64, 256)
+    )
+    missed = abs(coarse.friction_coefficient - fine.friction_coefficient)
+    assert missed <= coarse.diagnostics.friction_error <= 30.0 * missed
+
+
 def test_friction_in_full_contact_has_no_error_of_the_grid() -> None:
     solution = solve_periodic(broad(), rough(64), speed=0.3, pressure=300.0)
     assert solution.diagnostics.full_contact

@@ -120,6 +120,23 @@ def test_indentation_is_known_no_better_than_the_level_it_is_counted_from() -> N
     assert last < missed <= coarse.diagnostics.indentation_error
 
 
+@pytest.mark.parametrize(
+    ("modulus_ratio", "modes", "accuracy"),
+    [
+        (222.0, [(0.57, 17.0), (0.43, 0.4)], 6e-3),
+        (15.7, [(1.0, 0.093)], 5e-3),
+        (55.9, [(0.48, 0.089), (0.24, 0.58), (0.28, 34.0)], 1e-3),
+    ],
+)
+def test_ends_of_a_strip_are_known_to_a_cell(
+    modulus_ratio: float, modes: list[tuple[float, float]], accuracy: float
+) -> None:
+    """Where in its cell an end lies is a matter of luck; the many cells of a rim average that, two ends do not."""
+    problem = cylinder_problem("strip", modulus_ratio, [share for share, _ in modes], [length for _, length in modes])
+    coarse = problem.solve(accuracy=accuracy)
+    sound(coarse, problem.solve(grid=8 * max(coarse.diagnostics.shape)))
+
+
 def test_a_peak_that_is_not_resolved_is_known_to_its_own_size_at_best() -> None:
     problem = standard_linear_solid(1000.0, 0.3)
     solution = problem.solve(accuracy=3e-2)

@@ -29,10 +29,11 @@ class PeriodicDiagnostics:
         Energy balance: friction from the pressure on the slopes less that from the dissipated energy, over the larger
         of them (or over 1e-3 times 2π rms heights per period, a slope).
     friction_error : float
-        Estimated error of the friction coefficient that the grid makes: how far the coefficients from the energy and
-        from the pressure on the slopes differ, which in full contact they do not, or, if that is more, how far that
-        from the next coarser grid does, where it has all the waves of the surface.  It tells the order of magnitude
-        and is no bound: edges of the contact may err alike in all of them.
+        Estimated error of the friction coefficient that the grid makes, the largest of: how far the coefficients from
+        the energy and from the pressure on the slopes differ, which in full contact they do not; how far the one from
+        the next coarser grid differs; and how far the two differ there, over 2^(3/2).  Where that grid does not have
+        all the waves of the surface, a quarter of the load's share on points at the edges of the contact, times the
+        coefficient, is taken in its place.
     full_contact : bool
         Whether everything is in contact; then the problem is linear and solved directly.
     products, ffts, single_ffts : int

@@ -19,6 +19,7 @@ from viscofric.contact.motion import unit_direction
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
+from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, brief
 from viscofric.threads import one_blas_thread
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.levels import Work
-    from viscofric.contact.periodic.surface import Coarser, PeriodicSurface
+    from viscofric.contact.periodic.surface import Coarser
     from viscofric.rheology.material import Material
 
     Array: TypeAlias = NDArray[np.float64]
@@ -41,6 +42,11 @@ TIGHTEST, LOOSEST = 1e-12, 1e-2  # of the complementarity, in rms heights
 FRICTION_FLOOR = 1e-3
 #: Relative loss of rms height up to which a coarser surface counts as the same.
 LIKENESS = 1e-10
+# Part of the load on points at the edges of the contact that friction may be wrong by, where no coarser grid has all
+# the waves.  Seen in random contacts that the other estimate does not cover: 1 to 11 %, 26 % where all points are such.
+_UNSURE_AT_EDGES = 0.25
+# By which errors fall at the least where points are twice as close: pressures rise like square roots at the edges.
+_FADING = 0.5**1.5
 
 
 @one_blas_thread
@@ -251,7 +257,10 @@ def _assemble(
     del waves
     error = abs(by_pressure - by_energy)
     if coarser is not None and work.coarser_pressure is not None:
-        error = max(error, abs(_friction_on(coarser, work.coarser_pressure, solid, units, toward) - by_energy))
+        there = _friction_on(coarser, work.coarser_pressure, solid, units, toward)
+        error = max(error, abs(there[1] - by_energy), _FADING * abs(there[1] - there[0]))
+    else:
+        error = max(error, _UNSURE_AT_EDGES * _load_at_edges(pressure) * abs(by_energy))
     floor = FRICTION_FLOOR * mean_pressure * 2.0 * math.pi * units.depth / max(surface.period)
     mean_gap = float(gap.mean())
     asked, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
@@ -304,10 +313,22 @@ def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, f
     return force, math.sqrt(square)
 
 
+def _load_at_edges(pressure: Array) -> float:
+    """Return the share of the load on points beside free ones, whose cells the edges of the contact cut somewhere."""
+    loaded = pressure > 0.0
+    within = loaded.copy()
+    for axis in (0, 1):
+        for step in (1, -1):
+            within &= np.roll(loaded, step, axis)
+    return 1.0 - float(pressure[within].sum()) / float(pressure.sum())
+
+
 def _friction_on(
     coarser: Coarser, pressure: Array, solid: SlidingSolid, units: _Units, toward: tuple[float, float]
-) -> float:
-    """Return the friction force per area on the next coarser grid."""
-    waves = scipy.fft.rfft2((units.depth / units.compliance) * pressure)
+) -> tuple[float, float]:
+    """Return the friction force per area on the next coarser grid, by the pressure on the slopes and by the energy."""
+    pressure = (units.depth / units.compliance) * pressure
     shape, spacing = pressure.shape, coarser.spacing
-    return dissipation(solid.transfer(shape, spacing), shape, spacing, toward, waves)
+    by_pressure, _ = _on_slopes(PeriodicSurface(*coarser), pressure, toward)
+    waves = scipy.fft.rfft2(pressure)
+    return by_pressure, dissipation(solid.transfer(shape, spacing), shape, spacing, toward, waves)
