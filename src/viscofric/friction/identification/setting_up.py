@@ -16,8 +16,10 @@ from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.problem import Observations, Problem
 from viscofric.friction.identification.shifts import Shifts
 from viscofric.friction.identification.smoothness import EXPECTED, Smoothness
+from viscofric.friction.shifting.refusals import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE
+from viscofric.notes import codes
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.units import celsius
 
@@ -122,9 +124,9 @@ def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputEr
             f"reference = {asked} was not measured, and α(T) is to be found; choose one of {shown} °C, and describe "
             "the material at another with its at_reference()."
         )
-    why = next((note for note in found.notes if asked in note.partition("was left out")[0]), f"{asked} was left out.")
+    why = "; ".join(f"{note[0].lower()}{note[1:-1]}" for note in found.notes if codes([note]) == {LEFT_OUT})
     return InputError(
-        f"reference = {asked}: α(T) is to be found, and {why[0].lower()}{why[1:-1]}; choose one of {shown} °C, give "
+        f"reference = {asked}: α(T) is to be found, and {why}; choose one of {shown} °C, give "
         "shift=, or measure there over more speeds."
     )
 

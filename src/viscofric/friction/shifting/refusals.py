@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from viscofric.friction.shifting.pairs import FEWEST_POINTS
+from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius
 
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 
     from viscofric.friction.shifting.isotherms import FrictionIsotherm
     from viscofric.friction.shifting.placement import Pairs
+
+#: Code of the notes on temperatures that were left out.
+LEFT_OUT = "curve-left-out"
 #: More temperatures than these are told by their range.
 MOST_LISTED = 9
 
@@ -75,10 +79,13 @@ class Doubts:
             f"(friction coefficients from {spans}); measure temperatures in between or over more speeds."
         )
 
-    def left_out(self, members: Sequence[int]) -> tuple[str, ...]:
+    def left_out(self, members: Sequence[int]) -> tuple[Note, ...]:
         """Say of each temperature that is not among the members why it was left out."""
         return tuple(
-            f"The friction curve at {shown(self.isotherms[place])} was left out: {self._reason(place, members)}."
+            Note(
+                LEFT_OUT,
+                f"The friction curve at {shown(self.isotherms[place])} was left out: {self._reason(place, members)}.",
+            )
             for place in range(len(self.isotherms))
             if place not in members
         )
