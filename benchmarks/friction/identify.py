@@ -1,7 +1,8 @@
 """Identification of planted rubbers from their friction: how near, how honest, how fast.
 
 Usage: python benchmarks/friction/identify.py [--seeds N] [--first SEED] [--material NAME] [--json FILE]
-       python benchmarks/friction/identify.py --few {replicates,errors} [--rubbers N] [--seeds N] [--json FILE]
+       python benchmarks/friction/identify.py --few {replicates,errors} [--spectrum {smooth,ending,modes}]
+                                              [--rubbers N] [--seeds N] [--first SEED] [--json FILE]
 
 Nine temperatures from 30 to 90 °C, ten speeds from 20 to 200 mm/s, a ball of 9.525 mm under 25 N; friction is solved
 to 1e-4 with retardation times that the fit does not hold.  α(T) is found too; one modulus, |E| at 1 rad/s and 30 °C, is
@@ -10,7 +11,10 @@ values lies within the 95 % intervals, and which measurements are refused.  CPU 
 does all the work.
 
 With --few, 13 rubbers are drawn and measured at four temperatures and nine speeds only, as means of four replicates of
-3 %, whose number is told (replicates) or not (errors: a table of friction and its standard errors).
+3 %, whose number is given (replicates) or not (errors: a table of friction and its standard errors; the scatter is the
+same).  Their spectra are smooth; or what the prior does not expect: they end at 100 s, among the contact's
+frequencies (ending), or have one mode per decade (modes).  The row ± has the standard error of the mean over the
+measurements: what is found at the frequencies of one measurement errs together.
 """
 
 from __future__ import annotations
@@ -39,13 +43,16 @@ HEADINGS = ("CPU s", "steps", "decades", "|E| %", "E'' %", "α dec", "χ²/ν", 
 #: Temperatures, speeds, scatter and replicates of few measurements.
 FEW_KELVIN, FEW_SPEEDS = np.array([30.0, 40.0, 52.0, 66.0]) + 273.15, np.geomspace(0.01, 0.5, 9)
 FEW_SCATTER, FEW_REPLICATES = 0.03, 4
+#: Decades between the modes of drawn rubbers, and where they end, log10 s.
+SPECTRA = {"smooth": (0.37, 5.0), "ending": (0.37, 2.0), "modes": (1.0, 5.0)}
 
 
-def drawn_rubber(number: int) -> vf.Material:
+def drawn_rubber(number: int, kind: str = "smooth") -> vf.Material:
     """Return a SYNTHETIC rubber, or polymer amidst its transition: a skew bell of compliances, anyhow wide and high."""
+    step, end = SPECTRA[kind]
     random = np.random.default_rng(1000 + number)
     E0, ratio = 10.0 ** random.uniform(6.0, 6.8), 10.0 ** random.uniform(0.3, 2.5)
-    tau = 10.0 ** np.arange(-9.0, 2.0, 0.37)
+    tau = 10.0 ** np.arange(-9.0, end, step)
     away = np.log10(tau) - random.uniform(-6.0, -2.5)
     fast, slow = random.uniform(0.8, 2.5, 2)
     share = np.exp(-0.5 * (away / np.where(away > 0.0, slow, fast)) ** 2)
@@ -128,6 +135,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--first", type=int, default=0, help="seed of the first of them")
     parser.add_argument("--material", choices=MATERIALS, help="only this one")
     parser.add_argument("--few", choices=("replicates", "errors"), help="drawn rubbers, few replicates")
+    parser.add_argument("--spectrum", choices=SPECTRA, default="smooth", help="of the drawn rubbers")
     parser.add_argument("--rubbers", type=int, default=13, help="how many are drawn")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
@@ -142,7 +150,7 @@ def few(options: argparse.Namespace) -> dict[str, Any]:
     print(f"{'':10}" + "".join(f"{heading:>9}" for heading in HEADINGS))
     rows, refused = [], {}
     for number in range(options.rubbers):
-        rubber = drawn_rubber(number)
+        rubber = drawn_rubber(number, options.spectrum)
         exact = vf.predict_friction(
             rubber, BALL, speeds=FEW_SPEEDS, temperatures=FEW_KELVIN, load="25 N", accuracy=1e-3
         )
@@ -158,9 +166,10 @@ def few(options: argparse.Namespace) -> dict[str, Any]:
             else:
                 show(name, rows[-1])
     mean = {key: float(np.mean([row[key] for row in rows])) for key in rows[0]} if rows else {}
-    if mean:
+    if len(rows) > 1:
         show("mean", mean)
-    return {"few": options.few, "scattered": rows, "refused": refused, "mean": mean}
+        show("±", {key: float(np.std([row[key] for row in rows], ddof=1) / np.sqrt(len(rows))) for key in mean})
+    return {"few": options.few, "spectrum": options.spectrum, "scattered": rows, "refused": refused, "mean": mean}
 
 
 def many(options: argparse.Namespace) -> dict[str, Any]:
