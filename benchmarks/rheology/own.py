@@ -93,7 +93,7 @@ def coverage(material: str, seeds: int, samples: int = 200) -> dict[str, Any]:
 def with_offsets(problem: dict[str, Any], seeds: int, samples: int = 100) -> dict[str, Any]:
     """Count the same for a problem of `cases.OFFSET_PROBLEMS`; tan δ and friction at both ends of the temperatures.
 
-    Friction is that of a ball at the second and the last but one temperature, in every fourth sweep only.
+    Friction is that of a ball at the second and the last but one temperature.
     """
     from cases import offset_case
 
@@ -125,8 +125,7 @@ def with_offsets(problem: dict[str, Any], seeds: int, samples: int = 100) -> dic
             limits = drawn.band(lambda one, at=(rates, kelvin): _tangent(one.complex_modulus(*at)))
             true = _tangent(planted.complex_modulus(rates, kelvin))
             inside["tangent"].append(_inside(true, limits.lower, limits.upper))
-            if seed % 4 == 0:
-                inside["friction"].append(_friction_inside(fit, drawn, planted, kelvin))
+            inside["friction"].append(_friction_inside(fit, drawn, planted, kelvin))
     row = {"tool": problem["title"], "seeds": seeds, "seconds": (time.process_time() - start) / max(seeds, 1)}
     row |= {kind: _mean(shares) for kind, shares in (inside | widths).items()}
     return row | {"doubtful": doubtful}

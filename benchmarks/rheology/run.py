@@ -1,7 +1,7 @@
 """viscofric's rheology beside its peers, on the same data and in the same run.
 
-Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--json FILE] [--environment FOLDER]
-       [--limit SECONDS]
+Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--only TEXT] [--json FILE]
+       [--environment FOLDER] [--limit SECONDS]
 
 Shifting of measured and of planted sweeps, spectra of the master curve, honesty of the stated 95 % bands over many
 planted sweeps, exactness of the conversion of spectra.  README.md beside this file says how each is measured.
@@ -91,7 +91,9 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
         ]
     if options.offsets:
         tables["offsets of isotherms: planted truth within the stated 95 % bands"] = [
-            own.with_offsets(problem, options.offsets) for problem in cases.offset_problems()
+            own.with_offsets(problem, options.offsets)
+            for problem in cases.offset_problems()
+            if options.only in problem["title"]
         ]
     tables["retardation spectrum to Prony series and back"] = [own.round_trip()]
     return {"tables": tables, "left_out": left_out}
@@ -136,6 +138,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--peers", action="store_true", help="run the peers too (minutes)")
     parser.add_argument("--seeds", type=int, default=20, help="planted sweeps for the bands; 0 leaves them out")
     parser.add_argument("--offsets", type=int, default=0, help="planted sweeps with offsets of isotherms (minutes)")
+    parser.add_argument("--only", default="", metavar="TEXT", help="of these, problems whose title holds a text")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--environment", type=Path, default=HERE / ".peers", help="the peers' environment")
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for each answer of a peer")
