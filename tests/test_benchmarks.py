@@ -151,6 +151,10 @@ def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys
     }  # fmt: skip
     assert all(row["apart"] > 0.0 for row in numbers.values())  # two different grids
     assert all(row["within"] == (row["worst"] <= 1.0) for row in results["summary"])
+    stated_errors.main(["--periodic", "--first", "1012", "--count", "1", "--json", str(tmp_path / "rough.json")])
+    (row,) = read(tmp_path / "rough.json")["rows"]
+    assert row["number"] == "friction"
+    assert 0.0 < row["apart"] < 0.01 * row["size"]  # nearly in full contact
 
 
 @pytest.mark.usefixtures("contact_path")
