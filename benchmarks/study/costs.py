@@ -20,9 +20,9 @@ import measuring
 import numpy as np
 
 import viscofric as vf
+from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.planning import plan_cases
 from viscofric.study.solving import Task, solve
-from viscofric.study.sweep import Case
 
 COLUMNS = (
     ("accuracy", "accuracy", ".0e"),
@@ -48,7 +48,7 @@ def measure(name: str, accuracy: float, speeds: int) -> dict[str, Any]:
     kind = dict(KINDS[name])
     sensitive = kind.pop("sensitive", False)
     cases = [
-        Case(0, temperature=temperature, speed=float(speed), **kind)
+        IndenterCase(0, temperature=temperature, speed=float(speed), **kind)
         for temperature in TEMPERATURES
         for speed in np.geomspace(1e-4, 1.0, speeds)
     ]

@@ -24,12 +24,12 @@ import measuring
 import numpy as np
 from problems import CURVE_BALL, CURVE_LOAD, CURVE_RUBBER
 
+from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.planning import Plan, plan_cases
-from viscofric.study.record import CaseRecord
+from viscofric.study.record import Record
 from viscofric.study.running import Processes, Serial, run_plan
 from viscofric.study.solving import Task, solve
 from viscofric.study.store import CaseStore
-from viscofric.study.sweep import Case
 
 COLUMNS = (
     ("cases", "cases", "d"),
@@ -43,10 +43,10 @@ COLUMNS = (
 )
 
 
-def cases_of(speeds: int, temperatures: int) -> list[Case]:
+def cases_of(speeds: int, temperatures: int) -> list[IndenterCase]:
     """Speeds from 1 mm/s to 1 m/s at temperatures from 20 to 115 °C: 14 decades of αv."""
     return [
-        Case(0, CURVE_BALL, float(temperature), float(speed), CURVE_LOAD)
+        IndenterCase(0, CURVE_BALL, float(temperature), float(speed), CURVE_LOAD)
         for temperature in np.linspace(293.15, 388.15, temperatures)
         for speed in np.geomspace(1e-3, 1.0, speeds)
     ]
@@ -58,7 +58,7 @@ class Timed:
     def __init__(self) -> None:
         self.seconds, self.solved = 0.0, 0
 
-    def __call__(self, task: Task) -> CaseRecord:
+    def __call__(self, task: Task) -> Record:
         """Solve a task."""
         start = time.process_time()
         try:
@@ -68,7 +68,7 @@ class Timed:
             self.solved += 1
 
 
-def carried_out(name: str, cases: list[Case], workers: int, folder: Path, **settings: Any) -> dict[str, Any]:
+def carried_out(name: str, cases: list[IndenterCase], workers: int, folder: Path, **settings: Any) -> dict[str, Any]:
     """Plan, solve and store cases; a row of the table and, under "found", what was found."""
     timed, store = Timed(), CaseStore(folder)
     before = len(list(folder.glob("*.json")))
@@ -87,17 +87,17 @@ def carried_out(name: str, cases: list[Case], workers: int, folder: Path, **sett
         "wall_seconds": time.perf_counter() - wall,
         "seconds": _cpu_with_children() - cpu,
         "solved": len(list(folder.glob("*.json"))) - before,
-        "failures": sum(not isinstance(one, CaseRecord) for one in found),
+        "failures": sum(not isinstance(one, Record) for one in found),
         "found": found,
     }
-    known = [one for one in found if isinstance(one, CaseRecord)]
+    known = [one for one in found if isinstance(one, Record)]
     row["worst_estimate"] = max(one.friction_error / one.friction_coefficient for one in known)
     if workers == 1 and timed.seconds:
         row["added"] = row["seconds"] / timed.seconds - 1.0
     return row
 
 
-def worst_error(cases: list[Case], found: list[Any], accuracy: float, checks: int) -> float:
+def worst_error(cases: list[IndenterCase], found: list[Any], accuracy: float, checks: int) -> float:
     """Return the largest relative difference from cases solved by themselves, five times as accurately."""
     worst = 0.0
     for number in np.random.default_rng(0).choice(len(cases), checks, replace=False):

@@ -11,11 +11,12 @@ import numpy as np
 import xarray
 
 import viscofric as vf
+from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.labels import dataset
-from viscofric.study.record import CaseRecord, ContactFields, Failure
+from viscofric.study.record import ContactFields, Failure, Record
 from viscofric.study.results import StudyResults, provenance
 from viscofric.study.results_file import save_results
-from viscofric.study.sweep import Axis, Case, Sweep
+from viscofric.study.sweep import Axis, Sweep
 from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 #: Any numbers that a ball's contact might have.
-RECORD = CaseRecord(
+RECORD = Record.of(
     speed=0.1,
     temperature=303.15,
     load=25.0,
@@ -71,33 +72,34 @@ def made_sweep(
         Axis("speed", {"speed": tuple(speeds)}),
     )
     cases = tuple(
-        Case(number, vf.Ball(radius), temperature, speed, load)
+        IndenterCase(number, vf.Ball(radius), temperature, speed, load)
         for number, (load, radius), temperature, speed in product(range(len(materials)), places, temperatures, speeds)
     )
     return Sweep(axes, cases)
 
 
-def friction_of(case: Case) -> float:
+def friction_of(case: Any) -> float:
     """Friction of a formula that no two cases share."""
     return (
         0.01
         + 1e-4 * (case.temperature - 273.15)
         - 1e-3 * float(np.log10(case.speed))
         + 1e-5 * case.load
-        + 0.1 * case.indenter.radius  # type: ignore[attr-defined]
+        + 0.1 * case.indenter.radius
         + 0.5 * case.material
     )
 
 
-def made_outcomes(sweep: Sweep, failed: Sequence[int] = (), fields: Sequence[int] = ()) -> list[CaseRecord | Failure]:
+def made_outcomes(sweep: Sweep, failed: Sequence[int] = (), fields: Sequence[int] = ()) -> list[Record | Failure]:
     """Return what became of each case: numbers of the formula, but for those that failed."""
-    found: list[CaseRecord | Failure] = []
+    found: list[Record | Failure] = []
     for number, case in enumerate(sweep.cases):
         if number in failed:
             found.append(Failure("accuracy not reached.", f"case {number}"))
             continue
         place: dict[str, Any] = {"speed": case.speed, "temperature": case.temperature, "load": case.load}
-        record = replace(RECORD, friction_coefficient=friction_of(case), interpolated=number % 2 == 1, **place)
+        numbers = RECORD.numbers | place | {"friction_coefficient": friction_of(case)}
+        record = replace(RECORD, numbers=numbers, interpolated=number % 2 == 1)
         if number in fields:
             x, y = np.linspace(-1e-3, 1e-3, 5), np.linspace(0.0, 1e-3, 3)
             pressure = np.add.outer(x, y) + number

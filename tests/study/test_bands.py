@@ -12,7 +12,7 @@ import pytest
 import viscofric as vf
 from viscofric.errors import ConvergenceError
 from viscofric.study import StudyResults, run_study
-from viscofric.study.record import CaseRecord
+from viscofric.study.record import Record
 from viscofric.study.rubber import make_rubber
 from viscofric.study.run_file import load_study
 
@@ -86,8 +86,8 @@ def test_a_sensitivity_that_is_none_is_refused(results: StudyResults) -> None:
     stored = json.loads(first.read_text(encoding="utf-8"))["case"]
     for change in ({"slope": [1.0]}, {"slope": [None] * 60}, {"glass": "high"}, {"more": 1.0}):
         with pytest.raises((ValueError, TypeError)):
-            CaseRecord.from_values(stored | {"sensitivity": stored["sensitivity"] | change})
-    assert CaseRecord.from_values(stored).sensitivity is not None
+            Record.from_values(stored | {"sensitivity": stored["sensitivity"] | change})
+    assert Record.from_values(stored).sensitivity is not None
 
 
 def test_modulus_has_its_band_too(results: StudyResults) -> None:

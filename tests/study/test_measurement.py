@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import viscofric as vf
 from viscofric.study import StudyResults, run_study
+from viscofric.study.contacts import Contacts
+from viscofric.study.measurement import Measurement
+from viscofric.study.run_file import parse_study
+from viscofric.study.study_rubber import StudyRubber
 
 ROOT = Path(__file__).resolve().parents[2]
 STUDY = """
@@ -116,3 +121,16 @@ def test_the_report_says_so(results: StudyResults) -> None:
     assert told["Half-space"] == "look at this"
     assert told["Shear leaves the pressure alone"] == "look at this"
     assert told["Shift factors from friction"] == "passed"
+
+
+def test_measured_points_are_solved_with_the_elastic_ball_of_the_study(tmp_path: Path) -> None:
+    """As soft as the rubber, the ball changes friction: cases, measured points and master curve are of the same one."""
+    text = STUDY.replace('"9.525 mm"', '"9.525 mm"\nmodulus = "5 MPa"')
+    vf.write_friction_curves(curves(), tmp_path / "curves.csv")
+    study = parse_study(text, tmp_path / "study.toml")
+    rubber = StudyRubber.of(study.material, study.uncertainty, study.conditions.temperature)
+    contacts = Contacts(study, [rubber], Measurement(curves(), rubber.material, vf.Ball(9.525e-3), 25.0))
+    assert len(contacts.at_points) == len(curves())
+    assert len(contacts.along) == 9
+    solved: list[Any] = [*contacts.sweep.cases, *contacts.at_points, *contacts.along]
+    assert {case.modulus for case in solved} == {5e6}

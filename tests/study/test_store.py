@@ -11,7 +11,7 @@ import pytest
 from study import sweeps
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
-from viscofric.study.keys import _sources, case_key
+from viscofric.study.cases.keys import _sources, key_of
 from viscofric.study.record import Failure
 from viscofric.study.store import CaseStore, Damaged
 
@@ -19,7 +19,11 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 # Friction is no short decimal: it must come back to the last bit.
-RECORD = replace(sweeps.RECORD, friction_coefficient=0.1 + 0.2, warnings=("a sentence",))
+RECORD = replace(
+    sweeps.RECORD,
+    numbers={**sweeps.RECORD.numbers, "friction_coefficient": 0.1 + 0.2},
+    warnings=("a sentence",),
+)
 
 
 def test_a_stored_case_comes_back_to_the_last_bit(tmp_path: Path) -> None:
@@ -36,8 +40,8 @@ def test_a_half_written_case_counts_as_not_solved(tmp_path: Path, kept: int) -> 
     path = tmp_path / "a.json"
     path.write_bytes(path.read_bytes()[:kept])
     assert isinstance(store.get("a"), Damaged)
-    store.put("a", replace(RECORD, cells=512))
-    assert store.get("a") == replace(RECORD, cells=512)
+    store.put("a", replace(RECORD, numbers={**RECORD.numbers, "cells": 512}))
+    assert store.get("a") == replace(RECORD, numbers={**RECORD.numbers, "cells": 512})
 
 
 def test_no_changed_digit_becomes_a_result(tmp_path: Path) -> None:
@@ -81,7 +85,7 @@ def test_cases_without_a_checksum_are_told_from_damaged_ones(tmp_path: Path) -> 
 
 def test_key_changes_with_every_input() -> None:
     description: dict[str, object] = {"speed": 0.1, "load": 25.0, "C": [1.0, 2.0]}
-    keys = {case_key(description), *(case_key({**description, name: 7.0}) for name in description)}
+    keys = {key_of(description), *(key_of({**description, name: 7.0}) for name in description)}
     assert len(keys) == 4
 
 

@@ -10,21 +10,20 @@ import pytest
 
 import viscofric as vf
 from viscofric.study import open_results, run_study
+from viscofric.study.cases.surface_case import SurfaceCase
 from viscofric.study.checking import check_study
 from viscofric.study.planning import plan_cases
-from viscofric.study.record import Failure
+from viscofric.study.record import Failure, Record
 from viscofric.study.run_file import parse_study
 from viscofric.study.solving import solve
 from viscofric.study.store import CaseStore
-from viscofric.study.surface_record import SurfaceRecord
 from viscofric.study.surface_source import MadeSurface
-from viscofric.study.sweep import SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.study import StudyResults
-    from viscofric.study.sweep import AnyCase
+    from viscofric.study.cases.case import Case
 
 STUDY = """
 [material]
@@ -121,7 +120,7 @@ def test_stored_results_are_taken_up_and_exported(results: StudyResults) -> None
     store = CaseStore(folder / "cases")
     records = [store.get(key) for key in store.stored()]
     assert len(records) == 8
-    assert all(isinstance(record, SurfaceRecord) for record in records)
+    assert all(isinstance(record, Record) for record in records)
     solved: list[str] = []
     again = run_study(
         folder.parent / "study.toml",
@@ -144,7 +143,7 @@ def test_two_processes_find_the_same(results: StudyResults, tmp_path: Path) -> N
     assert run_study(path, workers=2).dataset.equals(results.dataset)
 
 
-def carried_out(cases: Sequence[AnyCase], material: vf.Material, each: bool) -> list[SurfaceRecord]:
+def carried_out(cases: Sequence[Case], material: vf.Material, each: bool) -> list[Record]:
     plan = plan_cases(cases, [material], accuracy=1e-3, each=each)
     while tasks := plan.wanted():
         for task in tasks:
@@ -184,10 +183,8 @@ def test_with_a_vertical_shift_the_pressure_counts_as_p_over_b() -> None:
     # Enough cases close to each other for a curve at either temperature.
     speeds = np.geomspace(0.01, 0.03, 4).tolist()
     alpha = float(RUBBER.shift(343.15))  # type: ignore[misc]
-    hot = [
-        SurfaceCase(0, SURFACE, 343.15, speed / alpha, factor * 5e4, surface_modulus=factor * 1e7) for speed in speeds
-    ]
-    cold = [SurfaceCase(0, SURFACE, 303.15, speed, 5e4, surface_modulus=1e7) for speed in speeds]
+    hot = [SurfaceCase(0, SURFACE, 343.15, speed / alpha, factor * 5e4, modulus=factor * 1e7) for speed in speeds]
+    cold = [SurfaceCase(0, SURFACE, 303.15, speed, 5e4, modulus=1e7) for speed in speeds]
     found, alone = (carried_out([*hot, *cold], rubber, each) for each in (False, True))
     for records in (found, alone):
         for one, other in zip(records[:4], records[4:], strict=True):
@@ -199,7 +196,7 @@ def test_with_a_vertical_shift_the_pressure_counts_as_p_over_b() -> None:
 
 def test_sheared_layers_and_directions_are_those_of_the_solver() -> None:
     layer = vf.Layer("0.2 mm")
-    case = SurfaceCase(0, SURFACE, 303.15, 0.1, 5e4, direction=0.5, layer=layer, surface_modulus=2e7)
+    case = SurfaceCase(0, SURFACE, 303.15, 0.1, 5e4, direction=0.5, layer=layer, modulus=2e7)
     (record,) = carried_out([case], RUBBER, True)
     solution = vf.solve_periodic(
         RUBBER,

@@ -12,10 +12,10 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.study.cases.surface_case import SurfaceCase
 from viscofric.study.run_file import load_study, parse_study
 from viscofric.study.surface_source import MadeSurface, ScannedSurface, surface_of, unit_vector
 from viscofric.study.surface_steps import STEPS, step_of
-from viscofric.study.sweep import SurfaceCase
 
 MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'
 MADE = """[surface]
@@ -60,7 +60,7 @@ def test_seeds_and_pressures_are_axes() -> None:
         rms_slope=0.2,
     )
     assert isinstance(last, SurfaceCase)
-    assert (last.pressure, last.speed, last.direction, last.surface_modulus) == (pytest.approx(5e4), 1.0, 0.0, None)
+    assert (last.pressure, last.speed, last.direction, last.modulus) == (pytest.approx(5e4), 1.0, 0.0, None)
     assert last.surface == replace(first.surface, seed=5)  # type: ignore[type-var]
 
 
@@ -78,7 +78,7 @@ def test_directions_and_elastic_surfaces_reach_every_case() -> None:
     assert sweep.axes[-3].columns["direction"] == pytest.approx((-0.5 * math.pi, 0.0, 0.5 * math.pi))
     for case in sweep.cases:
         assert isinstance(case, SurfaceCase)
-        assert (case.surface_modulus, case.surface_poisson_ratio, case.layer) == (3e9, 0.3, vf.Layer("2 mm"))
+        assert (case.modulus, case.poisson_ratio, case.layer) == (3e9, 0.3, vf.Layer("2 mm"))
 
 
 @pytest.mark.parametrize(("degrees", "vector"), [(0, (1, 0)), (90, (0, 1)), (180, (-1, 0)), (-90, (0, -1))])

@@ -17,8 +17,8 @@ from viscofric.study.run_file import parse_study
 from viscofric.study.sweep import axes_of, count_cases
 
 if TYPE_CHECKING:
+    from viscofric.study.cases.indenter_case import IndenterCase as Case
     from viscofric.study.run_file import Study
-    from viscofric.study.sweep import Case
 
 MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'
 TWO = (
@@ -86,7 +86,7 @@ def test_cylinder_layer_and_elastic_indenter_reach_every_case() -> None:
     assert sweep.dimensions == ("material", "sample", "radius", "thickness", "load", "temperature", "speed")
     for case in sweep.cases:
         assert case.indenter == vf.Cylinder(1e-2)
-        assert (case.load, case.indenter_modulus, case.indenter_poisson_ratio) == (2000.0, 3e9, 0.4)
+        assert (case.load, case.modulus, case.poisson_ratio) == (2000.0, 3e9, 0.4)
         assert type(case.load) is float
         assert case.layer is not None
         assert not case.layer.bonded

@@ -12,8 +12,9 @@ import xarray
 from study.sweeps import RECORD, friction_of, made_outcomes, made_sweep
 from viscofric.contact.indenters.indenter import Cylinder
 from viscofric.friction.curves import FrictionCurves
-from viscofric.study.record import NUMBERS, CaseRecord
-from viscofric.study.sweep import Axis, Case, Sweep
+from viscofric.study.cases.indenter_case import IndenterCase
+from viscofric.study.record import NUMBERS, Record
+from viscofric.study.sweep import Axis, Sweep
 from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 
@@ -39,7 +40,7 @@ def test_what_is_stepped_together_shares_a_dimension() -> None:
     for (row, load), temperature in product(enumerate((10.0, 25.0)), found["temperature"].values):
         one = found.isel(load_radius=row).sel(temperature=temperature, speed=0.1)
         assert float(one["load"]) == load
-        expected = Case(0, sweep.cases[9 * row].indenter, temperature, 0.1, load)
+        expected = IndenterCase(0, sweep.cases[9 * row].indenter, temperature, 0.1, load)
         assert float(one["friction_coefficient"]) == friction_of(expected)
 
 
@@ -70,7 +71,7 @@ def test_a_failed_case_is_missing_and_says_so() -> None:
 def test_bands_and_frequencies_of_solved_cases_stand_beside_them() -> None:
     sweep = made_sweep()
     outcomes = made_outcomes(sweep, failed=[2])
-    records = [outcome for outcome in outcomes if isinstance(outcome, CaseRecord)]
+    records = [outcome for outcome in outcomes if isinstance(outcome, Record)]
     friction = np.array([record.friction_coefficient for record in records])
     flat = np.ones_like(friction)
     curves = FrictionCurves(
@@ -98,8 +99,8 @@ def test_bands_and_frequencies_of_solved_cases_stand_beside_them() -> None:
 
 def test_a_line_contact_has_a_load_per_length_and_no_half_width() -> None:
     axes = (Axis("load", {"load": (100.0,)}), Axis("speed", {"speed": (0.1, 0.2)}))
-    sweep = Sweep(axes, tuple(Case(0, Cylinder(0.01), 303.15, speed, 100.0) for speed in (0.1, 0.2)))
-    found = prediction(sweep, [replace(RECORD, half_width=np.inf)] * 2)
+    sweep = Sweep(axes, tuple(IndenterCase(0, Cylinder(0.01), 303.15, speed, 100.0) for speed in (0.1, 0.2)))
+    found = prediction(sweep, [replace(RECORD, numbers={**RECORD.numbers, "half_width": np.inf})] * 2)
     assert found["load"].attrs["units"] == "N/m"
     assert found["contact_area"].attrs["units"] == "m"
     assert "half_width" not in found

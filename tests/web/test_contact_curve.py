@@ -11,7 +11,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import ViscofricError
-from viscofric.study.surface_record import SurfaceRecord
+from viscofric.study.record import SURFACE_NUMBERS
 from viscofric.web.jobs import curve
 from viscofric.web.study_text import study_text
 from web.contact_studies import BALL, ROUGH, Desk
@@ -161,7 +161,7 @@ def test_surfaces_whose_grid_is_too_coarse_are_marked(desk: Desk) -> None:
     assert any(unresolved)
     assert answer["lower"] is None
     assert any("no linearised 95 % bands" in note for note in answer["notes"])
-    assert set(SurfaceRecord.numbers()) >= {"contact_area_fraction", "mean_gap"}
+    assert set(SURFACE_NUMBERS) >= {"contact_area_fraction", "mean_gap"}
     assert len(answer["contact_area_fraction"]) == 12
 
 

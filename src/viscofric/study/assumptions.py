@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from viscofric.friction.assumption_check import AssumptionCheck
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.study.cases.indenter_case import IndenterCase
     from viscofric.study.contacts import Contacts, Solved
-    from viscofric.study.record import CaseRecord
-    from viscofric.study.sweep import Case
+    from viscofric.study.record import Record
 
 _OF_HALF_SPACES = "half-space"
 # What a run warns of; what else does not hold is told contact by contact, or is no fault.
@@ -50,7 +50,7 @@ def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> l
     """
     if contacts.study.indenter is None:
         return surface_checks(contacts.study, asked.of_records)
-    alike: dict[object, list[tuple[Case, CaseRecord]]] = {}
+    alike: dict[object, list[tuple[IndenterCase, Record]]] = {}
     for case, record in zip(asked.of_records, asked.records, strict=True):
         alike.setdefault(case.alike, []).append((case, record))
     found: dict[str, AssumptionCheck] = {}
@@ -67,7 +67,7 @@ def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> l
 
 
 def _checked(
-    contacts: Contacts, case: Case, curves: FrictionCurves, records: list[CaseRecord]
+    contacts: Contacts, case: IndenterCase, curves: FrictionCurves, records: list[Record]
 ) -> Iterable[AssumptionCheck]:
     """Check contacts of one rubber, shape and load."""
     reach = np.array([_reach(record) for record in records])
@@ -77,7 +77,7 @@ def _checked(
     return (check for check in checks if case.layer is None or check.name != _OF_HALF_SPACES)
 
 
-def _reach(record: CaseRecord) -> float:
+def _reach(record: Record) -> float:
     """Return half the contact's length or its half-width, whichever is larger, m."""
     along, across = 0.5 * (record.front + record.rear), record.half_width
     return max(along, across) if np.isfinite(across) else along

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-    from viscofric.study.record import CaseRecord
+    from viscofric.study.record import Record
     from viscofric.study.rubber import Rubber
 
 
@@ -52,7 +52,7 @@ def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples 
     return sample_materials(rubber.fit, spectrum, samples=samples, seed=seed, law=law, poisson_ratio=ratio, name=name)
 
 
-def curves_of(records: Sequence[CaseRecord]) -> FrictionCurves:
+def curves_of(records: Sequence[Record]) -> FrictionCurves:
     """Return the friction of solved cases, in their order."""
     return FrictionCurves(
         speed=np.array([record.speed for record in records]),
@@ -99,7 +99,7 @@ class FrictionBands:
                 "Friction has no 95 % bands: only the sweeps that a rubber is made of tell how well it is known."
             )
 
-    def curves(self, records: Sequence[CaseRecord]) -> FrictionCurves:
+    def curves(self, records: Sequence[Record]) -> FrictionCurves:
         """Return the friction of solved cases, in their order; without bands if any of them has no sensitivity."""
         found = curves_of(records)
         sensitivities = [record.sensitivity for record in records if record.sensitivity is not None]

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.study.cases.case import moved
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
 from viscofric.study.results_file import DIGEST, RESULTS_FILE, open_tree
@@ -18,7 +19,6 @@ from viscofric.study.running.folder import CASES_FOLDER
 from viscofric.study.store import CaseStore
 from viscofric.study.surface_source import surface_of
 from viscofric.study.surface_words import surface_notes, uncertainty_of
-from viscofric.study.sweep import Case
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -59,9 +59,9 @@ class CheckedStudy:
         """What solving will take, roughly: the cases asked for and the measured points."""
         study, cases = self.study, [*self.sweep.cases]
         first = cases[0]
-        if self.measured is not None and isinstance(first, Case):
+        if self.measured is not None:
             points = zip(self.measured.temperature, self.measured.speed, self.measured.load, strict=True)
-            cases += [replace(first, temperature=T, speed=v, load=F) for T, v, F in points]
+            cases += [moved(first, temperature=T, speed=v, load=F) for T, v, F in points]
         return estimate(
             cases,
             [rubber.material for rubber in self.rubbers],
@@ -138,7 +138,8 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     try:
         sweep = study.sweep()
         if study.surface is not None:
-            surface_of(sweep.cases[0].surface)  # type: ignore[union-attr]
+            first: Any = sweep.cases[0]
+            surface_of(first.surface)
     except InputError as error:
         wrong.append(f"surface: {error}")
     if wrong:

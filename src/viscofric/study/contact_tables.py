@@ -11,6 +11,7 @@ from pydantic import Discriminator, Field, Tag
 from viscofric.contact.indenters.indenter import Ball, Cylinder
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid
 from viscofric.study.axis_values import Angles, Directions, Lengths, Loads, Pressures, Speeds, Temperatures  # noqa: TC001 - pydantic looks at them
+from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.quantities import Length, Modulus, Number  # noqa: TC001 - likewise
 from viscofric.study.table import Table
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.study.cases.case import Case
     from viscofric.study.table import Problem
 
 _SHAPE = "Its shape; each has lengths or an angle of its own."
@@ -30,6 +32,9 @@ class AnyIndenterTable(Table, ABC):
     poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
 
     shape: str
+    #: What its contacts are, and the keys of [conditions] that they take.
+    CASE: ClassVar[type[Case]] = IndenterCase
+    CONDITIONS: ClassVar[tuple[str, ...]] = ("load",)
     #: Keys whose values are axes of the study.
     AXES: ClassVar[tuple[str, ...]]
     #: Whether its load is per length.
@@ -46,7 +51,7 @@ class AnyIndenterTable(Table, ABC):
         return {name: getattr(self, name) for name in self.AXES}
 
     @abstractmethod
-    def indenter(self, *values: float) -> Indenter:
+    def made(self, *values: float) -> Indenter:
         """Return the indenter of one value for each axis, in their order."""
 
 
@@ -57,7 +62,7 @@ class BallTable(AnyIndenterTable):
     radius: Lengths = Field(description="Radius of the ball.")
     AXES = ("radius",)
 
-    def indenter(self, *values: float) -> Indenter:
+    def made(self, *values: float) -> Indenter:
         """Return the indenter of one value for each axis, in their order."""
         return Ball(*values)
 
@@ -70,7 +75,7 @@ class CylinderTable(AnyIndenterTable):
     AXES = ("radius",)
     LINE = True
 
-    def indenter(self, *values: float) -> Indenter:
+    def made(self, *values: float) -> Indenter:
         """Return the indenter of one value for each axis, in their order."""
         return Cylinder(*values)
 
@@ -83,7 +88,7 @@ class EllipsoidTable(AnyIndenterTable):
     radius_y: Lengths = Field(description="Radius of curvature across the motion.")
     AXES = ("radius_x", "radius_y")
 
-    def indenter(self, *values: float) -> Indenter:
+    def made(self, *values: float) -> Indenter:
         """Return the indenter of one value for each axis, in their order."""
         return Ellipsoid(*values)
 
@@ -101,7 +106,7 @@ class ConeTable(AnyIndenterTable):
         if max(self.angle) >= 0.5 * math.pi:
             yield "angle", f"{math.degrees(max(self.angle)):.4g}° is not less than a right angle, such as '10 deg'"
 
-    def indenter(self, *values: float) -> Indenter:
+    def made(self, *values: float) -> Indenter:
         """Return the indenter of one value for each axis, in their order."""
         return Cone(*values)
 

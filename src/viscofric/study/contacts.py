@@ -7,20 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.study.cases.case import moved
 from viscofric.study.places import place, place_in
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import CaseRecord, Failure, Record
-from viscofric.study.sweep import AnyCase, Case, Sweep
+from viscofric.study.record import Failure, Record
+from viscofric.study.study_rubber import all_within
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from viscofric.study.cases.case import Case
     from viscofric.study.measurement import Measurement
     from viscofric.study.planning.plan import Plan
     from viscofric.study.run_file import Study
     from viscofric.study.study_rubber import StudyRubber
+    from viscofric.study.sweep import Sweep
 
-_OF_SURFACES = "some frequencies 2πv/λ of the surface's wavelengths lie"
 # A little beyond the speeds asked for, so that rounding leaves no point outside the master curve.
 _ROUNDING = 1e-6
 
@@ -31,13 +33,13 @@ class Solved:
 
     Attributes
     ----------
-    cases : tuple of Case or SurfaceCase
-    outcomes : tuple of CaseRecord, SurfaceRecord or Failure
+    cases : tuple of Case
+    outcomes : tuple of Record or Failure
     sweep : Sweep, optional
         That the cases are, where they are one.
     """
 
-    cases: tuple[AnyCase, ...]
+    cases: tuple[Case, ...]
     outcomes: tuple[Record | Failure, ...]
     sweep: Sweep | None = None
 
@@ -47,7 +49,7 @@ class Solved:
 
     @property
     def records(self) -> list[Any]:
-        """Those that have one, in their order; of an indenter's cases `CaseRecord`, else `SurfaceRecord`."""
+        """Those that have one, in their order."""
         return [outcome for outcome in self.outcomes if isinstance(outcome, Record)]
 
     @property
@@ -133,14 +135,13 @@ class Contacts:
         )
 
     def _at_points(self) -> tuple[Case, ...]:
-        first = self.sweep.cases[0]
-        if self.measured is None or not isinstance(first, Case):
+        if self.measured is None:
             return ()
-        curves, ball = self.measured.curves, first.indenter
+        curves, first = self.measured.curves, self.sweep.cases[0]
         points = zip(curves.temperature.tolist(), curves.speed.tolist(), curves.load.tolist(), strict=True)
-        return tuple(Case(0, ball, *point) for point in points)
+        return tuple(moved(first, temperature=T, speed=v, load=F) for T, v, F in points)
 
-    def _reduced(self, case: AnyCase) -> float:
+    def _reduced(self, case: Case) -> float:
         return case.speed * float(self.rubbers[case.material].shift(case.temperature))
 
     def _along(self) -> tuple[Case, ...]:
@@ -150,7 +151,7 @@ class Contacts:
         """
         points = self.study.solver.points_along(measured=self.measured is not None)
         one, alike = self.sweep.cases[0], {case.alike for case in self.sweep.cases if case.sample is None}
-        if not isinstance(one, Case) or (len(alike) > 1 and self.measured is None):
+        if not one.HAS_MASTER_CURVE or (len(alike) > 1 and self.measured is None):
             return ()
         reduced = np.array([self._reduced(case) for case in self.sweep.cases])
         if self.measured is not None:
@@ -159,20 +160,8 @@ class Contacts:
             return ()
         ends = reduced.min() * (1.0 - _ROUNDING), reduced.max() * (1.0 + _ROUNDING)
         speeds = np.geomspace(*ends, points)
-        rubber = self.rubbers[one.material]
-        return tuple(
-            Case(
-                one.material,
-                one.indenter,
-                rubber.shift.reference,
-                speed,
-                one.load,
-                one.layer,
-                one.indenter_modulus,
-                one.indenter_poisson_ratio,
-            )
-            for speed in speeds.tolist()
-        )
+        reference = self.rubbers[one.material].shift.reference
+        return tuple(moved(one, temperature=reference, speed=speed, sample=None) for speed in speeds.tolist())
 
     def _few(self) -> list[int]:
         """Choose cases whose fields are kept: of the first load, shape … the slowest, middle and fastest, reduced."""
@@ -193,28 +182,16 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[str]
     sentences = []
     wide = [one for one in found if one[2].warnings]
     if wide:
-        part, number, record = max(wide, key=lambda one: _relative_reach(one[0].cases[one[1]], one[2]))
+        part, number, record = max(wide, key=lambda one: one[0].cases[one[1]].reach(one[2]))
         said = " ".join(record.warnings)
         sentences.append(f"In {len(wide)} of all {len(found)} contacts, most of all at {part.place(number)}: {said}")
-    beyond = [one for one in found if not _is_within(rubbers, one[0].cases[one[1]], one[2])]
+    within = all_within(rubbers, [part.cases[number] for part, number, _ in found], [record for *_, record in found])
+    beyond = [one for one, known in zip(found, within, strict=True) if not known]
     if beyond:
         part, number, _ = beyond[0]
-        what = "the contact's frequency v/a lies" if isinstance(part.cases[number], Case) else _OF_SURFACES
+        what = part.cases[number].FREQUENCIES
         sentences.append(
             f"In {len(beyond)} of all {len(found)} contacts, such as {part.place(number)}, {what} beyond the reduced "
             "frequencies at which the rubber is known: their friction rests on the extrapolated spectrum."
         )
     return sentences
-
-
-def _is_within(rubbers: Sequence[StudyRubber], case: AnyCase, record: Record) -> bool:
-    return rubbers[case.material].is_within(case, record)
-
-
-def _relative_reach(case: AnyCase, record: Record) -> float:
-    """Tell which of several contacts is the largest: its reach over the indenter's size, or a rough one's pressure."""
-    if not isinstance(record, CaseRecord) or not isinstance(case, Case):
-        return float(record.max_pressure)
-    farthest = max(size for size in (record.front, record.rear, record.half_width) if np.isfinite(size))
-    size = case.indenter.reach
-    return float(farthest / size) if np.isfinite(size) else float(farthest)

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.study.record import NUMBERS, CaseRecord
+from viscofric.study.record import NUMBERS, Record
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -154,9 +154,7 @@ def dataset(
     return result.set_coords(coordinate) if coordinate else result
 
 
-def prediction_data(
-    records: Sequence[CaseRecord], within: Sequence[bool] | None, curves: FrictionCurves
-) -> xarray.Dataset:
+def prediction_data(records: Sequence[Record], within: Sequence[bool] | None, curves: FrictionCurves) -> xarray.Dataset:
     """Label solved cases, with whether they lie within the measured frequencies, and their bands, where known."""
     columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in NUMBERS}
     columns |= band(curves, "friction")
@@ -178,7 +176,7 @@ def band(curves: FrictionCurves | BandColumns, name: str) -> dict[str, Any]:
 def measurement_data(
     measured: FrictionCurves,
     reduced_speed: Any,
-    records: Sequence[CaseRecord | None],
+    records: Sequence[Record | None],
     within: Sequence[bool] | None,
     predicted: FrictionCurves,
 ) -> xarray.Dataset:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.study.bands import FrictionBands
     from viscofric.study.measurement_table import MeasurementTable
-    from viscofric.study.record import CaseRecord
+    from viscofric.study.record import Record
 
     Array = NDArray[np.float64]
     Groups = dict[str, xarray.Dataset]
@@ -93,7 +93,7 @@ class Measurement:
 
     def groups(
         self,
-        at_points: list[CaseRecord | None],
+        at_points: list[Record | None],
         within: list[bool] | None,
         at_reference: FrictionCurves,
         bands: FrictionBands,
@@ -102,7 +102,7 @@ class Measurement:
 
         Parameters
         ----------
-        at_points : list of CaseRecord or None
+        at_points : list of Record or None
             Solved at each measured point; None where that failed.
         within : list of bool or None
             Whether each of these lies within the measured frequencies, where those are known.
@@ -122,7 +122,7 @@ class Measurement:
         }
 
     def _agreement(
-        self, at_points: list[CaseRecord | None], predicted: FrictionCurves, at_reference: FrictionCurves
+        self, at_points: list[Record | None], predicted: FrictionCurves, at_reference: FrictionCurves
     ) -> Groups:
         """Compare where there is a prediction, and a friction above zero to relate the difference to."""
         solved = np.array([record is not None for record in at_points])

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.study.sweep import Case
 from viscofric.units import celsius, plain, told_speed
 
 if TYPE_CHECKING:
-    from viscofric.study.sweep import AnyCase, Axis, Sweep
+    from viscofric.study.cases.case import Case
+    from viscofric.study.sweep import Axis, Sweep
 
 _RATE = ("temperature", "speed")
 _COUNTED = ("sample", "seed")
@@ -44,7 +44,7 @@ def shown(name: str, value: float | str, line: bool = False) -> str:
     return f"{value:g}" if name in _COUNTED else f"{plain(1e3 * value)} mm"
 
 
-def place(case: AnyCase) -> str:
+def place(case: Case) -> str:
     """Say at which temperature and speed a case lies."""
     return f"{plain(celsius(case.temperature))} °C, {plain(1e3 * case.speed)} mm/s"
 
@@ -52,13 +52,12 @@ def place(case: AnyCase) -> str:
 def place_in(sweep: Sweep, number: int) -> str:
     """Say where a case of a sweep lies: its temperature and speed, and its place on every other axis."""
     case = sweep.cases[number]
-    line = isinstance(case, Case) and case.indenter.geometry.load_unit == "N/m"
     points = np.unravel_index(number, sweep.shape)
     others = [
         words
         for axis, point in zip(sweep.axes, points, strict=True)
         if len(axis) > 1
-        for words in _others(axis, int(point), line)
+        for words in _others(axis, int(point), case.geometry == "line")
     ]
     return ", ".join([place(case), *others])
 

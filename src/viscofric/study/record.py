@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeAlias
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from viscofric.friction.sensitivity import ComplianceSensitivity
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
 
     Array: TypeAlias = NDArray[np.float64]
@@ -54,153 +55,105 @@ class Failure:
         return f"{self.label}: {self.reason}"
 
 
-@dataclass(frozen=True, kw_only=True)
+#: Numbers that every contact has, in the order in which results list them.
+_SHARED = (
+    "speed",
+    "temperature",
+    "friction_coefficient",
+    "friction_error",
+    "max_pressure",
+    "energy_balance",
+    "complementarity",
+    "cells",
+    "products",
+    "interpolation_error",
+)
+#: Those of an indenter's contact.
+NUMBERS = (
+    *_SHARED,
+    "load",
+    "indentation",
+    "indentation_error",
+    "contact_area",
+    "contact_area_error",
+    "front",
+    "rear",
+    "half_width",
+    "edge_error",
+    "max_pressure_error",
+    "centre_of_pressure",
+)
+#: Those of a contact on a rough surface.
+SURFACE_NUMBERS = (
+    *_SHARED,
+    "pressure",
+    "lateral_friction_coefficient",
+    "contact_area_fraction",
+    "mean_gap",
+)
+# Numbers that may be infinite.
+_ENDLESS = ("half_width",)
+
+
+@dataclass(frozen=True)
 class Record:
-    """What the numbers of every contact have in common, all SI.
+    """What is kept of one contact, SI; each of its numbers is an attribute, too.
 
     Attributes
     ----------
-    speed, temperature : float
-        m/s, K.
-    friction_coefficient, friction_error : float
-    max_pressure : float
-        Pa.
-    energy_balance, complementarity : float
-        Residuals of the solution; where the contact is interpolated, the largest of those that it lies between.
-    cells, products : int
-        Along the longer edge of the window, or of the period, and products with the influence matrix, or with its
-        transfer function; none where it is interpolated.
+    numbers : dict of str to float
+        `NUMBERS` of an indenter's contact, `SURFACE_NUMBERS` of one on a rough surface, as `ContactSolution`,
+        `PeriodicSolution` and `Diagnostics` have them: m/s, K, N (N/m), m, m² (m of a line contact), Pa.  The
+        half-width of a line contact is infinite.  Of contacts that were not solved, the residuals are the largest of
+        those that they lie between, and there are no cells and products; `interpolation_error` is what that adds to
+        the error of friction, which holds it.
     warnings : tuple of str
     interpolated : bool
         Whether it was not solved, but lies between contacts that were.
-    interpolation_error : float
-        What that adds to the error of the friction coefficient, which holds it.
+    sensitivity : ComplianceSensitivity or None
+        How friction answers to the rubber's compliance, where bands are wanted.
     fields : ContactFields or None
         Where they are wanted; kept apart from the other numbers on disk.
     """
 
-    speed: float
-    temperature: float
-    friction_coefficient: float
-    friction_error: float
-    max_pressure: float
-    energy_balance: float
-    complementarity: float
-    cells: int
-    products: int
+    numbers: dict[str, float]
     warnings: tuple[str, ...] = ()
     interpolated: bool = False
-    interpolation_error: float = 0.0
-    fields: ContactFields | None = field(default=None, repr=False, compare=False)
-
-    @classmethod
-    def numbers(cls) -> tuple[str, ...]:
-        """Return the names of those attributes that are single numbers."""
-        other = ("warnings", "sensitivity", "interpolated", "fields")
-        return tuple(field.name for field in fields(cls) if field.name not in other)
-
-    @classmethod
-    def from_values(cls, values: dict[str, Any]) -> Self:
-        """Make a record of its `values`, as JSON's reader returns them; without fields.
-
-        Raises
-        ------
-        ValueError, TypeError, KeyError
-            If it is something else.
-        """
-        record = cls(**{**values, "warnings": tuple(values["warnings"])})
-        if not all(isinstance(text, str) for text in record.warnings) or not isinstance(record.interpolated, bool):
-            raise TypeError("warnings are no texts.")
-        if not all(is_number(getattr(record, name)) for name in cls.numbers() if name not in cls.ENDLESS):
-            raise ValueError("a number is none.")
-        return record
-
-    #: Numbers that may be infinite.
-    ENDLESS: ClassVar[tuple[str, ...]] = ()
-
-    def values(self) -> dict[str, Any]:
-        """Return everything but the fields, in types that JSON keeps to the last digit."""
-        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "fields"}
-
-
-@dataclass(frozen=True, kw_only=True)
-class CaseRecord(Record):
-    """The numbers of one indenter's contact, all SI; see `ContactSolution`, `Diagnostics` and `Record`.
-
-    Attributes
-    ----------
-    load : float
-        N (N/m of a line contact).
-    indentation, indentation_error : float
-        m.
-    contact_area, contact_area_error : float
-        m²; the width, m, of a line contact.
-    front, rear, half_width : float
-        m; the half width of a line contact is infinite.
-    edge_error : float
-        Of the three, m.
-    max_pressure_error : float
-        Pa.
-    centre_of_pressure : float
-        Ahead of the axis, m.
-    sensitivity : ComplianceSensitivity or None
-        How friction answers to the rubber's compliance, where bands are wanted.
-    """
-
-    load: float
-    indentation: float
-    indentation_error: float
-    contact_area: float
-    contact_area_error: float
-    front: float
-    rear: float
-    half_width: float
-    edge_error: float
-    max_pressure_error: float
-    centre_of_pressure: float
     sensitivity: ComplianceSensitivity | None = None
-    ENDLESS: ClassVar[tuple[str, ...]] = ("half_width",)
+    fields: ContactFields | None = field(default=None, repr=False, compare=False)
 
     @classmethod
     def of(
         cls,
-        solution: ContactSolution,
-        temperature: float,
+        *,
+        warnings: tuple[str, ...] = (),
+        interpolated: bool = False,
         sensitivity: ComplianceSensitivity | None = None,
-        with_fields: bool = False,
-    ) -> CaseRecord:
-        """Take the numbers out of a solution, and its fields where they are wanted."""
-        diagnostics = solution.diagnostics
-        kept = ContactFields(solution.x, solution.y, solution.pressure, solution.displacement) if with_fields else None
-        return cls(
-            speed=solution.speed,
-            temperature=temperature,
-            load=solution.load,
-            friction_coefficient=solution.friction_coefficient,
-            friction_error=diagnostics.friction_error,
-            indentation=solution.indentation,
-            indentation_error=diagnostics.indentation_error,
-            contact_area=solution.contact_area,
-            contact_area_error=diagnostics.contact_area_error,
-            front=solution.front,
-            rear=solution.rear,
-            half_width=solution.half_width,
-            edge_error=diagnostics.edge_error,
-            max_pressure=solution.max_pressure,
-            max_pressure_error=diagnostics.max_pressure_error,
-            centre_of_pressure=solution.centre_of_pressure,
-            energy_balance=diagnostics.energy,
-            complementarity=diagnostics.complementarity,
-            cells=max(diagnostics.shape),
-            products=diagnostics.products,
-            warnings=solution.warnings,
-            sensitivity=sensitivity,
-            fields=kept,
-        )
+        fields: ContactFields | None = None,
+        **numbers: float,
+    ) -> Self:
+        """Make a record of its numbers by their names.
+
+        Raises
+        ------
+        TypeError
+            If one is missing, or is none of such a contact.
+        """
+        names = SURFACE_NUMBERS if "contact_area_fraction" in numbers else NUMBERS
+        given = {"interpolation_error": 0.0, **numbers}
+        if given.keys() != set(names):
+            raise TypeError(f"numbers of a contact are missing or too many: {sorted(given.keys() ^ set(names))}.")
+        return cls({name: given[name] for name in names}, warnings, interpolated, sensitivity, fields)
+
+    def __getattr__(self, name: str) -> float:
+        numbers: dict[str, float] = self.__dict__.get("numbers", {})
+        if name not in numbers:
+            raise AttributeError(f"a record of a contact has no {name}.")
+        return numbers[name]
 
     @property
     def frequency(self) -> float:
-        """Speed over half the contact's length, rad/s."""
+        """Speed over half the length of an indenter's contact, rad/s."""
         return self.speed / (0.5 * (self.front + self.rear))
 
     @classmethod
@@ -212,28 +165,84 @@ class CaseRecord(Record):
         ValueError, TypeError, KeyError
             If it is something else.
         """
-        sensitivity = values["sensitivity"]
-        if sensitivity is not None:
-            columns = {name: np.array(sensitivity[name], dtype=float) for name in _COLUMNS}
-            sensitivity = ComplianceSensitivity(**{**sensitivity, **columns})
-        record = super().from_values({**values, "sensitivity": sensitivity})
-        if not _is_sound(sensitivity):
+        given = {**values, "warnings": tuple(values["warnings"])}
+        if "contact_area_fraction" not in values and (told := values["sensitivity"]) is not None:
+            columns = {name: np.array(told[name], dtype=float) for name in _COLUMNS}
+            given["sensitivity"] = ComplianceSensitivity(**{**told, **columns})
+        record = cls.of(**given)
+        if not all(isinstance(text, str) for text in record.warnings) or not isinstance(record.interpolated, bool):
+            raise TypeError("warnings are no texts.")
+        sound = (is_number(value) or (name in _ENDLESS and value == math.inf) for name, value in record.numbers.items())
+        if not all(sound) or not _is_sound(record.sensitivity):
             raise ValueError("a number is none.")
-        if not (is_number(record.half_width) or record.half_width == math.inf):
-            raise ValueError("the half width is none.")
         return record
 
     def values(self) -> dict[str, Any]:
-        """Return everything but the fields."""
-        values = super().values()
+        """Return everything but the fields, in types that JSON keeps to the last digit."""
+        values: dict[str, Any] = {**self.numbers, "warnings": self.warnings, "interpolated": self.interpolated}
+        if "contact_area_fraction" in self.numbers:
+            return values
+        values["sensitivity"] = None
         if self.sensitivity is not None:
             told = {field.name: getattr(self.sensitivity, field.name) for field in fields(self.sensitivity)}
             values["sensitivity"] = told | {name: told[name].tolist() for name in _COLUMNS}
         return values
 
 
-#: Attributes of an indenter's record that are single numbers.
-NUMBERS = CaseRecord.numbers()
+def indenter_record(
+    solution: ContactSolution,
+    temperature: float,
+    sensitivity: ComplianceSensitivity | None = None,
+    with_fields: bool = False,
+) -> Record:
+    """Take the numbers out of the solution of an indenter's contact, and its fields where they are wanted."""
+    diagnostics = solution.diagnostics
+    return Record.of(
+        **{name: getattr(solution, name) for name in _OF_SOLUTION},
+        **{name: getattr(diagnostics, name) for name in NUMBERS if name.endswith("_error") and name != _ADDED},
+        **_common(solution, temperature, max(diagnostics.shape)),
+        sensitivity=sensitivity,
+        fields=_fields(solution) if with_fields else None,
+    )
+
+
+def surface_record(solution: PeriodicSolution, temperature: float, with_fields: bool = False) -> Record:
+    """Take the numbers out of the solution of a contact on a rough surface, and its fields where they are wanted."""
+    return Record.of(
+        pressure=solution.mean_pressure,
+        friction_error=solution.diagnostics.friction_error,
+        lateral_friction_coefficient=solution.lateral_friction_coefficient,
+        contact_area_fraction=solution.contact_area_fraction,
+        mean_gap=solution.mean_gap,
+        **_common(solution, temperature, max(solution.pressure.shape)),
+        fields=_fields(solution) if with_fields else None,
+    )
+
+
+_ADDED = "interpolation_error"
+# Numbers that a solution of an indenter's contact has under the same names.
+_OF_SOLUTION = ("load", "indentation", "contact_area", "front", "rear", "half_width", "centre_of_pressure")
+
+
+def _common(solution: ContactSolution | PeriodicSolution, temperature: float, cells: int) -> dict[str, Any]:
+    diagnostics = solution.diagnostics
+    return {
+        "speed": solution.speed,
+        "temperature": temperature,
+        "friction_coefficient": solution.friction_coefficient,
+        "max_pressure": solution.max_pressure,
+        "energy_balance": diagnostics.energy,
+        "complementarity": diagnostics.complementarity,
+        "cells": cells,
+        "products": diagnostics.products,
+        "warnings": solution.warnings,
+    }
+
+
+def _fields(solution: ContactSolution | PeriodicSolution) -> ContactFields:
+    return ContactFields(solution.x, solution.y, solution.pressure, solution.displacement)
+
+
 # Arrays of a sensitivity.
 _COLUMNS = ("log_tau", "slope")
 

@@ -15,7 +15,6 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.files import LARGEST_FILE, insist_on_size, parse_json, read_bytes, write_atomically
 from viscofric.study.record import ContactFields, Failure, Record
-from viscofric.study.surface_record import read_record
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -79,7 +78,7 @@ class CaseStore:
             values = parse_json(stored)
             if "failed" in values:
                 return Failure(values["failed"], values["label"])
-            record, fields = read_record(values["case"]), values["fields"]
+            record, fields = Record.from_values(values["case"]), values["fields"]
             if not with_fields:
                 return record
             return None if fields is None else replace(record, fields=self._fields(key, fields))

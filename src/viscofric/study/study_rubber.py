@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -13,9 +12,7 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
 from viscofric.study.bands import BandColumns, FrictionBands, draw_rubber
 from viscofric.study.checking import shift_of
-from viscofric.study.record import CaseRecord
 from viscofric.study.rubber import Rubber, make_rubber
-from viscofric.study.sweep import SurfaceCase
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -23,10 +20,10 @@ if TYPE_CHECKING:
 
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.study.cases.case import Case
     from viscofric.study.material_table import MaterialTable
     from viscofric.study.record import Record
     from viscofric.study.settings_tables import UncertaintyTable
-    from viscofric.study.sweep import AnyCase
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +73,7 @@ class StudyRubber:
         fit = getattr(self.material.spectrum, "fit", None)
         return None if fit is None else fit.frequency_range
 
-    def is_within(self, case: AnyCase, record: Record) -> bool:
+    def is_within(self, case: Case, record: Record) -> bool:
         """Whether a contact's frequencies, reduced by α(T), lie within the master curve's, as far as is known.
 
         That of an indenter is v/a; a rough surface has 2πv/λ for the shortest and the longest of its wavelengths.
@@ -85,11 +82,8 @@ class StudyRubber:
             return True
         low, high = self.frequency_range
         rate = float(self.shift(record.temperature)) * record.speed
-        if isinstance(record, CaseRecord):
-            half = record.half_width if math.isfinite(record.half_width) else 0.5 * (record.front + record.rear)
-            return low <= rate / half <= high
-        shortest, longest = case.surface.wavelengths if isinstance(case, SurfaceCase) else (math.nan, math.nan)
-        return low <= 2.0 * math.pi * rate / longest and 2.0 * math.pi * rate / shortest <= high
+        shortest, longest = case.lengths(record)
+        return low <= rate / longest and rate / shortest <= high
 
     def doubts(self, temperatures: Sequence[float]) -> list[str]:
         """Tell what of the prediction rests on more than was measured, or does not lie on one curve."""
@@ -116,14 +110,12 @@ class StudyRubber:
         return said
 
 
-def all_within(rubbers: Sequence[StudyRubber], cases: Sequence[AnyCase], records: Sequence[Record]) -> list[bool]:
+def all_within(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Record]) -> list[bool]:
     """Whether each case, solved, lies within the frequencies at which its rubber is known, as far as these are."""
     return [rubbers[case.material].is_within(case, record) for case, record in zip(cases, records, strict=True)]
 
 
-def band_columns(
-    rubbers: Sequence[StudyRubber], cases: Sequence[AnyCase], records: Sequence[Any]
-) -> BandColumns | None:
+def band_columns(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Any]) -> BandColumns | None:
     """Return the bands of solved cases; None if no rubber has any.  Those of a posterior's members have none."""
     if all(rubber.bands.samples is None for rubber in rubbers):
         return None

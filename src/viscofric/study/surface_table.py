@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from viscofric.errors import InputError
 from viscofric.study.axis_values import Seeds  # noqa: TC001 - pydantic looks at it
+from viscofric.study.cases.surface_case import SurfaceCase
 from viscofric.study.quantities import (
     Count,
     Direction,
@@ -20,6 +21,7 @@ from viscofric.study.quantities import (
     listed,
     one_or_more,
 )
+from viscofric.study.surface_source import MadeSurface, ScannedSurface, file_digest
 from viscofric.study.surface_steps import step_of
 from viscofric.study.table import Table
 from viscofric.units import conversion
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from viscofric.study.cases.case import Case
     from viscofric.study.surface_source import SurfaceSource
     from viscofric.study.table import Problem
 
@@ -64,6 +67,9 @@ class SurfaceTable(Table):
     """[surface]: a rough surface that repeats itself, self-affine by its numbers, or read from a file."""
 
     shape: ClassVar[str] = "rough surface"
+    #: What its contacts are, and the keys of [conditions] that they take.
+    CASE: ClassVar[type[Case]] = SurfaceCase
+    CONDITIONS: ClassVar[tuple[str, ...]] = ("pressure", "direction")
     #: Whether its load is per length.
     LINE: ClassVar[bool] = False
 
@@ -174,7 +180,7 @@ class SurfaceTable(Table):
         """Distance of neighbouring points of a made surface, m."""
         return self.spacing if self.spacing is not None else (self.period or math.nan) / self.points[0]
 
-    def source(self, *seed: int) -> SurfaceSource:
+    def made(self, *seed: int) -> SurfaceSource:
         """Return the surface of one value for each axis.
 
         Raises
@@ -182,8 +188,6 @@ class SurfaceTable(Table):
         DataFileError
             If its file cannot be read.
         """
-        from viscofric.study.surface_source import MadeSurface, ScannedSurface, file_digest
-
         if self.file is not None:
             steps = None if self.spacing is None else (self.spacing, self.spacing)
             return ScannedSurface(

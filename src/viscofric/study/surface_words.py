@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.friction.assumption_check import AssumptionCheck
 from viscofric.study.surface_source import MadeSurface, surface_of
-from viscofric.study.sweep import SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from viscofric.study.cases.surface_case import SurfaceCase
     from viscofric.study.run_file import Study
     from viscofric.study.settings_tables import UncertaintyTable
     from viscofric.study.sweep import Sweep
@@ -43,8 +43,7 @@ def surface_notes(study: Study) -> list[str]:
 
 def surface_setting(study: Study, sweep: Sweep) -> dict[str, Any]:
     """Return the attributes that results have of the surface: in words, and by its numbers."""
-    first = sweep.cases[0]
-    assert isinstance(first, SurfaceCase)
+    first: Any = sweep.cases[0]
     topography = first.surface.topography()
     many = f", {len(study.body.axes['seed'])} seeds" if len(study.body.axes.get("seed", ())) > 1 else ""
     elastic = "" if study.body.modulus is None else f", of E = {study.body.modulus:.4g} Pa"

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
-
-import numpy as np
 
 from viscofric.contact.layers import Layer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.study.surface_source import SurfaceSource
+    from viscofric.study.cases.case import Case
 
     Values: TypeAlias = tuple[float | str, ...]
 
@@ -23,95 +22,6 @@ if TYPE_CHECKING:
 MOST_CASES = 1_000_000
 #: Axes of [conditions], in their order, as far as they are given.
 CONDITIONS = ("load", "pressure", "direction", "temperature", "speed")
-
-
-@dataclass(frozen=True, slots=True)
-class Case:
-    """One contact, SI.
-
-    Parameters
-    ----------
-    material : int
-        Its number in `Study.materials`, from 0.
-    indenter : Indenter
-        Ball, Cylinder, Ellipsoid or Cone.
-    temperature : float
-        K.
-    speed : float
-        m/s.
-    load : float
-        N; N/m for a cylinder.
-    layer : Layer, optional
-        A half-space without.
-    indenter_modulus : float, optional
-        Young's modulus of an elastic indenter, Pa; rigid without.
-    indenter_poisson_ratio : float
-        Of an elastic indenter.
-    sample : int, optional
-        Member of the material's posterior that it is solved with, from 1; the best estimate if None.
-    """
-
-    material: int
-    indenter: Indenter
-    temperature: float
-    speed: float
-    load: float
-    layer: Layer | None = None
-    indenter_modulus: float | None = None
-    indenter_poisson_ratio: float = 0.3
-    sample: int | None = None
-
-    @property
-    def alike(self) -> tuple[object, ...]:
-        """What cases have in common that differ by temperature and speed at most."""
-        return (self.material, self.sample, self.indenter, self.load, self.layer)
-
-
-@dataclass(frozen=True, slots=True)
-class SurfaceCase:
-    """One contact of a rough surface, SI.
-
-    Parameters
-    ----------
-    material : int
-        Its number in `Study.materials`, from 0.
-    surface : MadeSurface or ScannedSurface
-    temperature : float
-        K.
-    speed : float
-        m/s.
-    pressure : float
-        Mean pressure, Pa.
-    direction : float
-        Of the motion, from x towards y, rad.
-    layer : Layer, optional
-        A half-space without.
-    surface_modulus : float, optional
-        Young's modulus of an elastic surface, Pa; rigid without.
-    surface_poisson_ratio : float
-        Of an elastic surface.
-    sample : int, optional
-        Member of the material's posterior that it is solved with, from 1; the best estimate if None.
-    """
-
-    material: int
-    surface: SurfaceSource
-    temperature: float
-    speed: float
-    pressure: float
-    direction: float = 0.0
-    layer: Layer | None = None
-    surface_modulus: float | None = None
-    surface_poisson_ratio: float = 0.3
-    sample: int | None = None
-
-    @property
-    def alike(self) -> tuple[object, ...]:
-        """What cases have in common that differ by temperature and speed at most."""
-        return (self.material, self.sample, self.surface, self.pressure, self.direction, self.layer)
-
-
-AnyCase: TypeAlias = Case | SurfaceCase
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,17 +54,22 @@ class Sweep:
     axes : tuple of Axis
         In the order material, sample, shape of the indenter or seed of the surface, thickness, load or pressure,
         direction, temperature, speed; those of one point included.
-    cases : tuple of Case or SurfaceCase
+    cases : tuple of Case
         One for each combination of the axes' points; the last axis runs fastest.
     """
 
     axes: tuple[Axis, ...]
-    cases: tuple[AnyCase, ...]
+    cases: tuple[Case, ...]
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Points of each axis."""
         return tuple(map(len, self.axes))
+
+    @property
+    def geometry(self) -> str:
+        """What touches in all cases: "point", "line" or "rough"."""
+        return self.cases[0].geometry if self.cases else "point"
 
     @property
     def dimensions(self) -> tuple[str, ...]:
@@ -206,47 +121,30 @@ def count_cases(axes: Sequence[Axis]) -> int:
 def sweep_of(tables: Mapping[str, Any]) -> Sweep:
     """Return all cases that the tables of a run file ask for; see `Study.sweep`."""
     axes = axes_of(coordinates(tables), tables["sweep"].together)
-    indenter, base = tables["indenter"], tables["layer"]
-    column = _columns(axes)
-    layers: dict[float, Layer] = {}
+    body, layer = body_of(tables), tables["layer"]
+    # Cases that have a body or a layer in common have the same one.
+    made = functools.cache(body.made)
+    layered = functools.cache(partial(Layer, bonded=layer is None or layer.base == "bonded"))
 
-    def layer(thickness: float) -> Layer:
-        if thickness not in layers:
-            layers[thickness] = Layer(thickness, bonded=base.base == "bonded")
-        return layers[thickness]
+    def case(place: dict[str, Any]) -> Case:
+        return body.CASE(  # type: ignore[no-any-return]
+            place["material"],
+            made(*(place[name] for name in body.axes)),
+            place["temperature"],
+            place["speed"],
+            *(float(place.get(name, 0.0)) for name in body.CONDITIONS),
+            None if layer is None else layered(place["thickness"]),
+            body.modulus,
+            body.poisson_ratio,
+            place["sample"] or None,
+        )
 
-    body = body_of(tables)
-    make = body.source if indenter is None else indenter.indenter
-    made: dict[tuple[Any, ...], Any] = {}
-
-    def one(*values: Any) -> Any:
-        if values not in made:
-            made[values] = make(*values)
-        return made[values]
-
-    count = count_cases(axes)
-    bodies = map(one, *(column[name] for name in body.axes)) if body.axes else itertools.repeat(one(), count)
-    first, then = ((column["material"], bodies), (column["temperature"], column["speed"]))
-    last = (
-        itertools.repeat(None) if base is None else map(layer, column["thickness"]),
-        itertools.repeat(body.modulus),
-        itertools.repeat(body.poisson_ratio),
-        (number or None for number in column["sample"]),
-    )
-    if indenter is not None:
-        return Sweep(axes, tuple(map(Case, *first, *then, map(float, column["load"]), *last)))
-    toward = column.get("direction", itertools.repeat(0.0))
-    return Sweep(axes, tuple(map(SurfaceCase, *first, *then, column["pressure"], toward, *last)))
+    return Sweep(axes, tuple(map(case, _places(axes))))
 
 
-def _columns(axes: Sequence[Axis]) -> dict[str, list[Any]]:
-    """Return each coordinate of all cases; a material's is its number."""
-    shape = [len(axis) for axis in axes]
-    columns = {}
-    for place, axis in enumerate(axes):
-        point = np.arange(len(axis)).reshape([-1 if place == other else 1 for other in range(len(axes))])
-        points = np.broadcast_to(point, shape).ravel().tolist()
-        for name, values in axis.columns.items():
-            of_point = range(len(axis)) if name == "material" else values
-            columns[name] = [of_point[number] for number in points]
-    return columns
+def _places(axes: Sequence[Axis]) -> Iterator[dict[str, Any]]:
+    """Yield the coordinates of every case, the last axis running fastest; a material's is its number."""
+    columns = [axis.columns | ({"material": range(len(axis))} if "material" in axis.columns else {}) for axis in axes]
+    names = [name for axis in columns for name in axis]
+    for points in itertools.product(*(zip(*axis.values(), strict=True) for axis in columns)):
+        yield dict(zip(names, itertools.chain.from_iterable(points), strict=True))

@@ -18,7 +18,6 @@ import numpy as np
 
 from viscofric.study.labels import MEANING, band
 from viscofric.study.record import Record
-from viscofric.study.sweep import Case, SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -62,6 +61,7 @@ _OF_A_LINE = {
     "contact_area": ("m", "width of the contact along the motion"),
     "contact_area_error": ("m", "error estimate of the width of the contact"),
 }
+_OTHER = {"rough": _OF_A_SURFACE, "line": _OF_A_LINE}
 #: What a coordinate is called beside a field of its name.
 _BESIDE_FIELDS = {"pressure": "mean_pressure"}
 # field -> unit, long name
@@ -85,7 +85,7 @@ def prediction(
     Parameters
     ----------
     sweep : Sweep
-    outcomes : sequence of CaseRecord, SurfaceRecord or Failure
+    outcomes : sequence of Record or Failure
         One for each case, in their order.
     within : sequence of bool, optional
         Of those that were solved, in their order: whether the contact's frequency lies within those measured.
@@ -104,7 +104,7 @@ def prediction(
     records = [outcome for outcome in outcomes if isinstance(outcome, Record)]
     columns: dict[str, Any] = {
         name: [getattr(record, name) for record in records]
-        for name in (records[0].numbers() if records else ())
+        for name in (records[0].numbers if records else ())
         if name not in _PLACES
     }
     columns |= {} if curves is None else band(curves, "friction")
@@ -141,7 +141,7 @@ def field_groups(sweep: Sweep, outcomes: Sequence[Record | Failure]) -> dict[str
     import xarray
 
     meaning, of_fields = _meaning(sweep), _FIELDS
-    if sweep.cases and isinstance(sweep.cases[0], SurfaceCase):
+    if sweep.geometry == "rough":
         of_fields = _FIELDS | {name: ("m", f"position along {name}") for name in ("x", "y")}
     groups = {}
     for number, outcome in enumerate(outcomes):
@@ -198,10 +198,7 @@ def material_groups(
 
 
 def _meaning(sweep: Sweep) -> dict[str, tuple[str, str]]:
-    if sweep.cases and isinstance(sweep.cases[0], SurfaceCase):
-        return MEANING | _COORDINATES | _OF_A_SURFACE
-    line = any(isinstance(case, Case) and case.indenter.geometry.load_unit == "N/m" for case in sweep.cases[:1])
-    return MEANING | _COORDINATES | (_OF_A_LINE if line else {})
+    return MEANING | _COORDINATES | _OTHER.get(sweep.geometry, {})
 
 
 def _attributes(name: str, meaning: Mapping[str, tuple[str, str]]) -> dict[str, str]:

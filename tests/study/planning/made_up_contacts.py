@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import viscofric as vf
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.cases.indenter_case import IndenterCase
+from viscofric.study.record import Failure, Record
 from viscofric.study.solving import Task, solve
-from viscofric.study.sweep import Case
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,9 +29,9 @@ SLS = vf.Material(
 
 def case_of(
     speed: float, temperature: float = 303.15, load: float = 0.05, indenter: Indenter = BALL, **others: Any
-) -> Case:
+) -> IndenterCase:
     """Return a contact asked for, in all that matters to few as it mostly is."""
-    return Case(0, indenter, temperature, speed, load, **others)
+    return IndenterCase(0, indenter, temperature, speed, load, **others)
 
 
 def bell(x: float) -> float:
@@ -39,19 +39,20 @@ def bell(x: float) -> float:
     return 0.4 / (math.exp(0.5 * x) + math.exp(-0.8 * x)) + 1e-3
 
 
-def made_up(task: Task, curve: Callable[[float], float] = bell) -> CaseRecord:
+def made_up(task: Task, curve: Callable[[float], float] = bell) -> Record:
     """Numbers of a contact of one mode that depend on vτ/a0 only, but for units; made up."""
-    modes = task.modes
-    assert isinstance(task.indenter, vf.Ball)
-    stiffness, radius = modes.E0 / (1.0 - task.poisson_ratio**2), float(task.indenter.radius)  # type: ignore[arg-type]
-    length = (0.75 * task.load * radius / stiffness) ** (1.0 / 3.0)  # Hertz
-    scale = Scale(task.indenter.geometry, length, length**2 / radius, stiffness)
-    memory = task.speed * float(modes.tau[0]) / scale.length
+    asked = task.arguments
+    modes, indenter, speed, load = asked["modes"], asked["indenter"], asked["speed"], asked["load"]
+    assert isinstance(indenter, vf.Ball)
+    stiffness, radius = modes.E0 / (1.0 - asked["poisson_ratio"] ** 2), float(indenter.radius)  # type: ignore[arg-type]
+    length = (0.75 * load * radius / stiffness) ** (1.0 / 3.0)  # Hertz
+    scale = Scale(indenter.geometry, length, length**2 / radius, stiffness)
+    memory = speed * float(modes.tau[0]) / scale.length
     friction, opened = curve(math.log(memory)), 1.0 / (1.0 + memory)
-    return CaseRecord(
-        speed=task.speed,
-        temperature=task.temperature,
-        load=task.load,
+    return Record.of(
+        speed=speed,
+        temperature=asked["temperature"],
+        load=load,
         friction_coefficient=scale.slope * friction,
         friction_error=1e-6 * scale.slope * friction,
         indentation=scale.depth * (0.5 + opened),

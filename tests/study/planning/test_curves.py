@@ -11,29 +11,27 @@ import pytest
 
 import viscofric as vf
 from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
-from viscofric.study.planning.conditions import Rubbers, Settings, task_of
-from viscofric.study.planning.curve_records import Representative
-from viscofric.study.planning.families import Placing
-from viscofric.study.planning.numbers import ERRORS, NAMES, Node, units_of
+from viscofric.study.cases.case import Rubbers, Settings
+from viscofric.study.planning.numbers import ERRORS, NAMES, units_of
 from viscofric.study.planning.plan import Outcome, plan_cases
-from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.record import Failure, Record
 from viscofric.study.solving import Task, solve
 
 if TYPE_CHECKING:
-    from viscofric.study.sweep import Case
+    from viscofric.study.cases.indenter_case import IndenterCase
 
 TEMPERATURES = np.linspace(283.15, 383.15, 8).tolist()
 SPEEDS = np.geomspace(1e-3, 1.0, 30).tolist()
 CASES = [case_of(speed, temperature) for temperature in TEMPERATURES for speed in SPEEDS]
 
 
-def records(outcomes: list[Outcome]) -> list[CaseRecord]:
+def records(outcomes: list[Outcome]) -> list[Record]:
     """All of them, none of which may have failed."""
     assert not [outcome for outcome in outcomes if isinstance(outcome, Failure)]
-    return [outcome for outcome in outcomes if isinstance(outcome, CaseRecord)]
+    return [outcome for outcome in outcomes if isinstance(outcome, Record)]
 
 
-def alone(case: Case) -> Task:
+def alone(case: IndenterCase) -> Task:
     """Return what solving a case by itself takes."""
     (task,) = plan_cases([case], [SLS], each=True).wanted()
     return task
@@ -77,12 +75,12 @@ def test_more_accuracy_takes_more_contacts() -> None:
 
 
 def test_scatter_of_the_contacts_does_not_refine_without_end() -> None:
-    def scattered(task: Task) -> CaseRecord:
+    def scattered(task: Task) -> Record:
         record = made_up(task)
-        noise = np.random.default_rng(int(1e9 * task.speed)).uniform(-1.0, 1.0)
+        noise = np.random.default_rng(int(1e9 * task.arguments["speed"])).uniform(-1.0, 1.0)
         error = 1e-3 * record.friction_coefficient
         friction = record.friction_coefficient + noise * error
-        return replace(record, friction_coefficient=friction, friction_error=error)
+        return replace(record, numbers={**record.numbers, "friction_coefficient": friction, "friction_error": error})
 
     smooth, rough = plan_cases(CASES, [SLS]), plan_cases(CASES, [SLS])
     few = sum(map(len, carry_out(smooth)))
@@ -128,7 +126,7 @@ def test_a_study_that_gains_cases_uses_the_nodes_it_had() -> None:
 def test_fewer_cases_than_nodes_are_solved_by_themselves() -> None:
     cases = [case_of(speed) for speed in (1e-3, 1e-2, 1e-1, 1.0)]
     plan = plan_cases(cases, [SLS])
-    assert [task.speed for task in plan.wanted()] == [case.speed for case in cases]
+    assert [task.arguments["speed"] for task in plan.wanted()] == [case.speed for case in cases]
     carry_out(plan)
     assert not any(record.interpolated for record in records(plan.found()))
 
@@ -137,14 +135,14 @@ def test_no_value_is_found_beyond_the_nodes() -> None:
     plan = plan_cases(CASES, [SLS])
     speeds = []
 
-    def noted(task: Task) -> CaseRecord:
-        speeds.append(task.speed * float(task.modes.tau[0]))
+    def noted(task: Task) -> Record:
+        speeds.append(task.arguments["speed"] * float(task.arguments["modes"].tau[0]))
         return made_up(task)
 
     carry_out(plan, noted)
-    asked = [case.speed * float(alone(case).modes.tau[0]) for case in CASES]
+    asked = [case.speed * float(alone(case).arguments["modes"].tau[0]) for case in CASES]
     # Nodes are contacts of a unit length of 10 mm, cases of another.
-    length = Placing(Rubbers([SLS], {})).place(CASES[0]).scale.length
+    length = CASES[0].place(Rubbers([SLS], {})).units.length
     assert min(speeds) / 0.01 <= min(asked) / length
     assert max(speeds) / 0.01 >= max(asked) / length
 
@@ -175,7 +173,7 @@ def test_where_all_fails_every_case_says_so() -> None:
 
 def test_fields_are_kept_of_cases_that_are_solved_by_themselves() -> None:
     plan = plan_cases(CASES, [SLS], fields=[3, 5])
-    assert [task.speed for task in plan.wanted() if task.fields] == [CASES[3].speed, CASES[5].speed]
+    assert [task.arguments["speed"] for task in plan.wanted() if task.fields] == [CASES[3].speed, CASES[5].speed]
     everywhere = plan_cases(CASES[:5], [SLS], fields=True)
     assert [task.fields for task in everywhere.wanted()] == [True] * 5
 
@@ -203,27 +201,26 @@ VERTICAL = replace(
         case_of(1.0, load=30.0, indenter=vf.Cylinder(0.02)),
         case_of(1.0, load=0.1, indenter=vf.Cone(0.1)),
         case_of(1.0, load=0.1, indenter=vf.Ellipsoid(0.01, 0.03)),
-        case_of(1.0, indenter_modulus=5e6, indenter_poisson_ratio=0.4),
+        case_of(1.0, modulus=5e6, poisson_ratio=0.4),
         case_of(1.0, layer=vf.Layer(1e-3)),
-        case_of(1.0, layer=vf.Layer(1e-3), indenter_modulus=5e6),
+        case_of(1.0, layer=vf.Layer(1e-3), modulus=5e6),
     ],
-    ids=lambda case: (
-        f"{case.indenter.noun}{'-layer' * (case.layer is not None)}{'-elastic' * bool(case.indenter_modulus)}"
-    ),
+    ids=lambda case: f"{case.indenter.noun}{'-layer' * (case.layer is not None)}{'-elastic' * bool(case.modulus)}",
 )
-def test_the_contact_that_stands_for_a_case_is_the_same_in_other_units(case: Case) -> None:
+def test_the_contact_that_stands_for_a_case_is_the_same_in_other_units(case: IndenterCase) -> None:
     rubbers, settings = Rubbers([VERTICAL], {}), Settings(0.02, False, frozenset())
     case = replace(case, temperature=343.15)
-    place = Placing(rubbers).place(case)
+    place = case.place(rubbers)
     node = 40
     case = replace(case, speed=math.exp(node / 32.0 - place.s))
-    place = Placing(rubbers).place(case)
+    place = case.place(rubbers)
     assert place.s == pytest.approx(node / 32.0, abs=1e-12)
-    stands_for = Representative(place.family, VERTICAL, settings)
-    theirs = Node.of(solve(stands_for.task(node)), stands_for.scale).values * units_of(place.scale, place.b)
-    task = task_of(case, rubbers, settings, fields=False)
+    stands_for = rubbers.node_task(place.family, math.exp(node / 32.0), settings)
+    theirs = place.family.node(solve(stands_for), rubbers, settings.accuracy).values * units_of(place.units, place.b)
+    task = rubbers.task(case, settings, fields=False)
     assert isinstance(task, Task)
-    assert (task.modes.E0, task.load) != (stands_for.task(node).modes.E0, stands_for.task(node).load)
+    one, other = ((asked.arguments["modes"].E0, asked.arguments["load"]) for asked in (task, stands_for))
+    assert one != other
     own = solve(task)
     for name, value in zip(NAMES, theirs, strict=True):
         if math.isfinite(getattr(own, name)):

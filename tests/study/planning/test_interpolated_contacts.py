@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from study.planning.made_up_contacts import carry_out, case_of, solved
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import CaseRecord
+from viscofric.study.record import Record
 from viscofric.study.solving import solve
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def random_rubber(random: np.random.Generator) -> vf.Material:
 
 def interpolated_and_solved(
     material: vf.Material, cases: list[Case], accuracy: float, checked: np.ndarray, better: float = 0.2
-) -> list[tuple[CaseRecord, CaseRecord]]:
+) -> list[tuple[Record, Record]]:
     """Interpolate many cases, and solve some of them by themselves, more accurately."""
     plan = plan_cases(cases, [material], accuracy=accuracy)
     assert sum(map(len, carry_out(plan, solved))) < 0.6 * len(cases)
@@ -39,13 +39,13 @@ def interpolated_and_solved(
     for number in checked:
         (task,) = plan_cases([cases[number]], [material], accuracy=better * accuracy, each=True).wanted()
         one = found[number]
-        assert isinstance(one, CaseRecord)
+        assert isinstance(one, Record)
         if one.interpolated:
             pairs.append((one, solve(task)))
     return pairs
 
 
-def ratio_of_errors(pairs: list[tuple[CaseRecord, CaseRecord]], name: str, error: str) -> np.ndarray:
+def ratio_of_errors(pairs: list[tuple[Record, Record]], name: str, error: str) -> np.ndarray:
     """Divide differences by what both claim: those that are solved again are not exact either."""
     return np.array(
         [
@@ -99,7 +99,7 @@ def test_sensitivity_of_an_interpolated_contact_tells_what_its_own_would() -> No
     plan = plan_cases(cases, [material], accuracy=1e-2, sensitive=True)
     carry_out(plan, solved)
     one = plan.found()[11]
-    assert isinstance(one, CaseRecord)
+    assert isinstance(one, Record)
     assert one.interpolated
     (task,) = plan_cases([cases[11]], [material], accuracy=1e-2, sensitive=True, each=True).wanted()
     told, own = one.sensitivity, solve(task).sensitivity
@@ -112,5 +112,8 @@ def test_sensitivity_of_an_interpolated_contact_tells_what_its_own_would() -> No
         assert getattr(told, name) == pytest.approx(getattr(own, name), rel=0.02), name
     # A rubber that is the same has the same friction, whatever the rest.
     assert told.friction == one.friction_coefficient
-    own_modes = told.at(np.log(task.modes.tau)) @ task.modes.C + told.glass / task.modes.E_inf
+    own_modes = (
+        told.at(np.log(task.arguments["modes"].tau)) @ task.arguments["modes"].C
+        + told.glass / task.arguments["modes"].E_inf
+    )
     assert own_modes == pytest.approx(told.compliance_part, rel=1e-9)

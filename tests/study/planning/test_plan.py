@@ -13,13 +13,13 @@ import viscofric as vf
 from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from viscofric.errors import InputError
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.record import Failure, Record
 from viscofric.study.solving import solve
 
 
 def test_equal_cases_are_solved_once() -> None:
     plan = plan_cases([case_of(0.1), case_of(0.2), case_of(0.1)], [SLS], each=True)
-    assert [task.speed for task in plan.wanted()] == [0.1, 0.2]
+    assert [task.arguments["speed"] for task in plan.wanted()] == [0.1, 0.2]
     for task in reversed(plan.wanted()):
         plan.receive(task.key, made_up(task))
     assert plan.wanted() == []
@@ -50,9 +50,9 @@ def test_a_case_that_cannot_be_is_a_failure_and_the_others_go_on() -> None:
 def test_key_changes_with_all_that_decides_the_answer() -> None:
     (task,) = plan_cases([case_of(0.1)], [SLS]).wanted()
     others = [
-        replace(task, **change)  # type: ignore[arg-type]
+        replace(task, arguments=task.arguments | change)
         for change in (
-            {"modes": task.modes.shifted(2.0)},
+            {"modes": task.arguments["modes"].shifted(2.0)},
             {"poisson_ratio": 0.4},
             {"indenter": vf.Ball(0.02)},
             {"indenter": vf.Cylinder(0.01)},
@@ -84,21 +84,21 @@ def test_a_task_that_travelled_gives_the_same_bits() -> None:
     np.testing.assert_array_equal(here.fields.pressure, there.fields.pressure)
     # The fields hold what the numbers tell: the load, to what the solver promises of it.
     cell = np.ptp(here.fields.x[:2]) * np.ptp(here.fields.y[:2])
-    assert here.fields.pressure.sum() * cell == pytest.approx(task.load, rel=1e-6)
+    assert here.fields.pressure.sum() * cell == pytest.approx(task.arguments["load"], rel=1e-6)
 
 
 def test_members_of_the_posterior_are_solved_with_their_own_modes() -> None:
     softer = replace(SLS, spectrum=SLS.at().shifted(1.0, 0.5))  # type: ignore[union-attr]
     plan = plan_cases([case_of(0.1), case_of(0.1, sample=1)], [SLS], members={0: [softer]}, sensitive=True)
-    best, drawn = plan.wanted()
-    assert (best.sensitive, drawn.sensitive) == (True, False)  # bands are those of the best estimate
-    assert (best.modes.E0, drawn.modes.E0) == (1e6, 0.5e6)
+    best, drawn = (task.arguments for task in plan.wanted())
+    assert (best["sensitive"], drawn["sensitive"]) == (True, False)  # bands are those of the best estimate
+    assert (best["modes"].E0, drawn["modes"].E0) == (1e6, 0.5e6)
 
 
 def test_line_contacts_are_recorded_too() -> None:
     (task,) = plan_cases([case_of(0.1, load=100.0, indenter=vf.Cylinder(0.01))], [SLS], accuracy=1e-2).wanted()
     record = solve(task)
-    assert CaseRecord.from_values(json.loads(json.dumps(record.values()))) == record
+    assert Record.from_values(json.loads(json.dumps(record.values()))) == record
 
 
 def test_what_lies_between_solved_contacts_is_told_before_the_end() -> None:
@@ -125,8 +125,8 @@ def test_what_lies_between_solved_contacts_is_told_before_the_end() -> None:
     assert all(known for _, _, known in end)
     for number, outcome, _ in end:
         drafted, known = half_way[number]
-        assert isinstance(outcome, CaseRecord)
-        assert isinstance(drafted, CaseRecord)
+        assert isinstance(outcome, Record)
+        assert isinstance(drafted, Record)
         # What counts as known is so within the accuracy; drafts between contacts a factor of e apart are near it.
         allowed = 1e-2 if known else 0.1
         assert drafted.friction_coefficient == pytest.approx(outcome.friction_coefficient, rel=allowed)

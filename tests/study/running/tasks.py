@@ -10,7 +10,9 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.errors import ConvergenceError
-from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.cases.case import Settings
+from viscofric.study.cases.indenter_case import IndenterCase
+from viscofric.study.record import Failure, Record
 from viscofric.study.solving import Task, solve
 
 if TYPE_CHECKING:
@@ -20,17 +22,9 @@ RUBBER = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3, poisson_
 
 
 def task(speed: float, fields: bool = False) -> Task:
-    return Task(
-        RUBBER.modes_at(None),
-        RUBBER.poisson_ratio,
-        vf.Ball(radius=1e-2),
-        speed=speed,
-        load=1.0,
-        temperature=300.0,
-        accuracy=0.05,
-        fields=fields,
-        label=f"{speed:.4g} m/s",
-    )
+    case = IndenterCase(0, vf.Ball(radius=1e-2), 300.0, speed, 1.0)
+    settings = Settings(0.05, sensitive=False, fields=frozenset())
+    return case.task(RUBBER.modes_at(None), RUBBER.poisson_ratio, settings, fields=fields, label=f"{speed:.4g} m/s")
 
 
 class TwoWaves:
@@ -39,7 +33,7 @@ class TwoWaves:
     def __init__(self, count: int = 6, fields: bool = False) -> None:
         self.first = [task(float(speed), fields) for speed in np.geomspace(0.1, 5.0, count)]
         self.second: list[Task] = []
-        self.known: dict[str, CaseRecord | Failure] = {}
+        self.known: dict[str, Record | Failure] = {}
         self.total = count + 2
 
     @property
@@ -52,33 +46,32 @@ class TwoWaves:
             return waiting
         if not self.second:
             # Depends on the order in which answers came, which is to be that in which they were wanted.
-            found = [one.friction_coefficient for one in self.known.values() if isinstance(one, CaseRecord)]
+            found = [one.friction_coefficient for one in self.known.values() if isinstance(one, Record)]
             self.second = [task(1.0 + found[0] / found[-1]), task(2.0 + found[1])]
         return [one for one in self.second if one.key not in self.known]
 
-    def receive(self, key: str, outcome: CaseRecord | Failure) -> None:
+    def receive(self, key: str, outcome: Record | Failure) -> None:
         assert key not in self.known
         self.known[key] = outcome
 
     def bits(self) -> list[tuple[str, str]]:
         """Return all that is known, to the last digit, in the order in which it became known."""
         return [
-            (key, json.dumps(one.values()) if isinstance(one, CaseRecord) else str(one))
-            for key, one in self.known.items()
+            (key, json.dumps(one.values()) if isinstance(one, Record) else str(one)) for key, one in self.known.items()
         ]
 
 
-def solve_or_end(asked: Task) -> CaseRecord:
+def solve_or_end(asked: Task) -> Record:
     """Solve a contact, unless it is the one that ends its process."""
-    if asked.speed < 0.11:
+    if asked.arguments["speed"] < 0.11:
         os._exit(1)
     return solve(asked)
 
 
-def solve_some(asked: Task) -> CaseRecord:
+def solve_some(asked: Task) -> Record:
     """Solve a contact, unless it is one of those that fail."""
-    if asked.speed < 0.11:
+    if asked.arguments["speed"] < 0.11:
         raise ConvergenceError("it does not converge.")
-    if asked.speed > 4.9:
+    if asked.arguments["speed"] > 4.9:
         raise MemoryError("nobody thought of that")
     return solve(asked)

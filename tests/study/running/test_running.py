@@ -10,7 +10,7 @@ import pytest
 
 from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
-from viscofric.study.record import CaseRecord, Failure
+from viscofric.study.record import Failure, Record
 from viscofric.study.running import Event, Processes, Serial, run_plan
 from viscofric.study.running import task as doing
 from viscofric.study.solving import solve
@@ -65,7 +65,7 @@ def test_processes_find_the_same_bits_and_one_may_be_killed(
 
 
 def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -> None:
-    def refuse(_: object) -> CaseRecord:
+    def refuse(_: object) -> Record:
         raise AssertionError("a stored case was solved again")
 
     plan, heard = TwoWaves(), []
@@ -103,12 +103,12 @@ def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processe
 def test_interrupt_loses_no_more_than_what_is_worked_on(tmp_path: Path) -> None:
     store, solved = CaseStore(tmp_path), []
 
-    def interrupted(asked: Any) -> CaseRecord:
+    def interrupted(asked: Any) -> Record:
         if len(solved) == 3:
             raise KeyboardInterrupt
         return counted(asked)
 
-    def counted(asked: Any) -> CaseRecord:
+    def counted(asked: Any) -> Record:
         solved.append(asked.key)
         return solve(asked)
 
@@ -134,7 +134,7 @@ def test_full_disk_ends_a_run_and_leaves_the_finished_cases(tmp_path: Path, monk
     with pytest.raises(DataFileError, match=r"\.json: cannot be written \(No space left on device\)"):
         run_plan(TwoWaves(), store, Serial())
     assert len(list(tmp_path.iterdir())) == 2
-    assert all(isinstance(store.get(key), CaseRecord) for key in store.stored())
+    assert all(isinstance(store.get(key), Record) for key in store.stored())
 
 
 def test_fields_are_kept_beside_the_numbers(tmp_path: Path) -> None:
@@ -142,7 +142,7 @@ def test_fields_are_kept_beside_the_numbers(tmp_path: Path) -> None:
     record = solve(asked)
     store.put(asked.key, record)
     again = store.get(asked.key, with_fields=True)
-    assert isinstance(again, CaseRecord)
+    assert isinstance(again, Record)
     assert again == store.get(asked.key) == record
     assert record.fields is not None
     assert again.fields is not None

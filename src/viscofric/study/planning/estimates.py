@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Ball, Cylinder
-from viscofric.contact.indenters.shapes import Ellipsoid
 from viscofric.errors import InputError
-from viscofric.study.planning.conditions import Rubbers
+from viscofric.study.cases.case import Rubbers
 from viscofric.study.planning.curve import Curve
-from viscofric.study.planning.families import Placing
-from viscofric.study.planning.surfaces import surface_place
-from viscofric.study.sweep import SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from viscofric.rheology.material import Material
-    from viscofric.study.planning.families import Family, Place
-    from viscofric.study.planning.surfaces import SurfaceFamily, SurfacePlace
-    from viscofric.study.sweep import AnyCase
+    from viscofric.study.cases.case import Case
 
 # Processor time of a contact on one core of 2020, s: at low accuracy, what 1e-3 adds, and the power of 1/accuracy with
 # which that grows.  Means over six speeds at two temperatures of the synthetic fluoroelastomer
@@ -74,7 +66,7 @@ class Expectation:
 
 
 def estimate(
-    cases: Sequence[AnyCase],
+    cases: Sequence[Case],
     materials: Sequence[Material],
     *,
     accuracy: float = 1e-3,
@@ -97,7 +89,7 @@ def estimate(
     drawn = max((case.sample or 0 for case in cases), default=0)
     rubbers = Rubbers(materials, {number: [material] * drawn for number, material in enumerate(materials)})
     solves: dict[tuple[str, bool], float] = defaultdict(float)
-    points = _points(cases)
+    points = cases[0].points if cases else 0
     if each:
         for case in set(cases):
             solves[_kind(case)] += 1
@@ -120,30 +112,22 @@ def estimate(
     )
 
 
-def _points(cases: Sequence[AnyCase]) -> int:
-    """Return the points of the rough surface; none of an indenter."""
-    first = cases[0] if cases else None
-    return math.prod(first.surface.shape) if isinstance(first, SurfaceCase) else 0
-
-
 def _curves(
-    cases: Sequence[AnyCase],
+    cases: Sequence[Case],
     rubbers: Rubbers,
     kept: Collection[int],
     accuracy: float,
     solves: dict[tuple[str, bool], float],
 ) -> list[tuple[tuple[str, bool], Curve]]:
     """Return the curves of all families, with their kinds; cases that are solved by themselves are counted."""
-    placing = Placing(rubbers)
-    places: dict[Family | SurfaceFamily, list[float]] = defaultdict(list)
-    kinds: dict[Family | SurfaceFamily, tuple[str, bool]] = {}
+    places: dict[Case, list[float]] = defaultdict(list)
+    kinds: dict[Case, tuple[str, bool]] = {}
     for number, case in enumerate(cases):
         if number in kept:
             solves[_kind(case)] += 1
             continue
-        place: Place | SurfacePlace
         try:
-            place = surface_place(case, rubbers) if isinstance(case, SurfaceCase) else placing.place(case)
+            place = case.place(rubbers)
         except InputError:
             continue  # it fails at once
         places[place.family].append(place.s)
@@ -151,19 +135,9 @@ def _curves(
     return [(kinds[family], Curve(np.array(values), accuracy)) for family, values in places.items()]
 
 
-def _kind(case: AnyCase) -> tuple[str, bool]:
+def _kind(case: Case) -> tuple[str, bool]:
     """Tell what contact it is, and whether with the best estimate of the rubber."""
-    best = case.sample is None
-    if isinstance(case, SurfaceCase):
-        return "surface", best
-    if case.layer is not None:
-        return "layer", best
-    match case.indenter:
-        case Cylinder():
-            return "line", best
-        case Ball() | Ellipsoid():
-            return "paraboloid", best
-    return "other", best
+    return case.cost, case.sample is None
 
 
 def _seconds(kind: str, accuracy: float, points: int) -> float:

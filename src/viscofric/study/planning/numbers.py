@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.free.scale import Scale
-    from viscofric.study.record import CaseRecord
+    from viscofric.study.record import Record
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ class Node:
 
     Attributes
     ----------
-    record : CaseRecord or SurfaceRecord
+    record : Record
     values, errors : (columns,) array
         In the units of its contact.
     """
@@ -49,7 +49,7 @@ class Node:
     errors: Array
 
     @classmethod
-    def of(cls, record: CaseRecord, scale: Scale) -> Node:
+    def of(cls, record: Record, scale: Scale) -> Node:
         """Take the units off a record."""
         units = units_of(scale)
         values = np.array([getattr(record, name) for name in NAMES]) / units

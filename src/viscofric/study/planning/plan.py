@@ -2,32 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.study.planning.conditions import Rubbers, Settings, label_of, task_of
-from viscofric.study.planning.curve_records import Representative
-from viscofric.study.planning.families import Placing
-from viscofric.study.planning.surfaces import SurfaceFamily, SurfaceRepresentative, surface_place
+from viscofric.study.cases.case import Rubbers, Settings
+from viscofric.study.planning.curve import STEP, Curve
 from viscofric.study.record import Failure, Record
-from viscofric.study.sweep import SurfaceCase
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
     from viscofric.rheology.material import Material
-    from viscofric.study.planning.conditions import AnyTask
-    from viscofric.study.planning.curve import Curve
-    from viscofric.study.planning.families import Family, Place
+    from viscofric.study.cases.case import Case, Place
     from viscofric.study.planning.numbers import Node
-    from viscofric.study.planning.surfaces import SurfacePlace
-    from viscofric.study.sweep import AnyCase
-
-    AnyFamily: TypeAlias = Family | SurfaceFamily
-    AnyPlace: TypeAlias = Place | SurfacePlace
+    from viscofric.study.solving import Task
 
 Outcome: TypeAlias = Record | Failure
 
@@ -45,11 +37,11 @@ class Plan:
         Those of them whose outcome is known, or that lie where no more need be solved for them.
     """
 
-    def __init__(self, cases: Sequence[AnyCase], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
+    def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
         self.total, self.done = len(cases), 0
-        self._cases, self._rubbers, self._settings = cases, rubbers, settings
+        self._cases, self.rubbers, self.settings = cases, rubbers, settings
         self._outcomes: list[Outcome | None] = [None] * len(cases)
-        self._waiting: dict[str, AnyTask] = {}
+        self._waiting: dict[str, Task] = {}
         self._told: dict[str, list[Callable[[Outcome], None]]] = {}
         self._known: dict[str, Outcome] = {}
         alone = set(apart)
@@ -59,7 +51,7 @@ class Plan:
         for number in sorted(alone):
             self.solve_alone(number)
 
-    def wanted(self) -> list[AnyTask]:
+    def wanted(self) -> list[Task]:
         """Return what is to be solved next, all of it independent of each other; empty when every case is known."""
         return list(self._waiting.values())
 
@@ -70,7 +62,7 @@ class Plan:
         ----------
         key : str
             Of the task.
-        outcome : CaseRecord, SurfaceRecord or Failure
+        outcome : Record or Failure
 
         Raises
         ------
@@ -108,7 +100,7 @@ class Plan:
         ------
         number : int
             Of a case.
-        outcome : CaseRecord, SurfaceRecord or Failure
+        outcome : Record or Failure
             Once more when it is asked again; it may change as long as its curve is solved.
         known : bool
             Whether it is within the accuracy already, or lies between contacts that may be too far from each other.
@@ -130,13 +122,13 @@ class Plan:
 
     def solve_alone(self, number: int) -> None:
         """Have a case solved by itself."""
-        task = task_of(self._cases[number], self._rubbers, self._settings, number in self._settings.fields)
+        task = self.rubbers.task(self._cases[number], self.settings, fields=number in self.settings.fields)
         if isinstance(task, Failure):
             self.settle(number, task)
         else:
             self.ask(task, partial(self.settle, number))
 
-    def ask(self, task: AnyTask, tell: Callable[[Outcome], None]) -> None:
+    def ask(self, task: Task, tell: Callable[[Outcome], None]) -> None:
         """Have a task solved, or its outcome told at once where it is known."""
         if task.key in self._known:
             tell(self._known[task.key])
@@ -144,42 +136,36 @@ class Plan:
         self._waiting.setdefault(task.key, task)
         self._told.setdefault(task.key, []).append(tell)
 
-    def representative(self, family: AnyFamily) -> Any:
-        """Return what is solved for a family."""
-        material = self._rubbers.named(*family.rubber)
-        if isinstance(family, SurfaceFamily):
-            return SurfaceRepresentative(family, material, self._settings)
-        return Representative(family, material, self._settings)
-
-    def case(self, number: int) -> AnyCase:
+    def case(self, number: int) -> Case:
         """Return a case by its number."""
         return self._cases[number]
 
-    def _families(self, alone: Collection[int]) -> dict[AnyFamily, list[tuple[int, AnyPlace]]]:
+    def _families(self, alone: Collection[int]) -> dict[Case, list[tuple[int, Place]]]:
         """Sort all cases but some into families."""
-        placing = Placing(self._rubbers)
-        families: dict[AnyFamily, list[tuple[int, AnyPlace]]] = {}
+        families: dict[Case, list[tuple[int, Place]]] = {}
         for number, case in enumerate(self._cases):
             if number not in alone:
-                place: AnyPlace
                 try:
-                    place = surface_place(case, self._rubbers) if isinstance(case, SurfaceCase) else placing.place(case)
+                    place = case.place(self.rubbers)
                 except InputError as error:
-                    self.settle(number, Failure(str(error), label_of(case)))
+                    self.settle(number, Failure(str(error), case.label))
                 else:
                     families.setdefault(place.family, []).append((number, place))
         return families
 
 
 class _FamilyPlan:
-    """The part of a plan that concerns one family: its curve, and the wave that is under way."""
+    """The part of a plan that concerns one family: its curve, and the wave that is under way.
 
-    def __init__(self, plan: Plan, family: AnyFamily, members: list[tuple[int, AnyPlace]]) -> None:
-        self._plan = plan
+    What is solved are the family's contacts at the reference temperature.
+    """
+
+    def __init__(self, plan: Plan, family: Case, members: list[tuple[int, Place]]) -> None:
+        self._plan, self._family = plan, family
         self._numbers = [number for number, _ in members]
         self._places = [place for _, place in members]
-        self._solved = plan.representative(family)
-        self._curve: Curve = self._solved.curve(np.array([place.s for place in self._places]))
+        accuracy, places = plan.settings.accuracy, np.array([place.s for place in self._places])
+        self._curve = Curve(places, accuracy, family.LOGARITHMIC)
         self._wave: dict[int, Node | None] = {}
         self._counted = 0
         self._settled = False
@@ -188,13 +174,16 @@ class _FamilyPlan:
         """Ask for the next wave, or settle all cases where there is none."""
         self._wave = {}
         asked = self._curve.wanted
+        rubbers, settings = self._plan.rubbers, self._plan.settings
         for place in asked:
-            self._plan.ask(self._solved.task(place), partial(self._hear, place))
+            task = rubbers.node_task(self._family, math.exp(STEP * place), settings)
+            self._plan.ask(task, partial(self._hear, place))
         if not asked:
             self._settle()
 
     def _hear(self, place: int, outcome: Outcome) -> None:
-        self._wave[place] = None if isinstance(outcome, Failure) else self._solved.node(outcome)
+        rubbers, accuracy = self._plan.rubbers, self._plan.settings.accuracy
+        self._wave[place] = None if isinstance(outcome, Failure) else self._family.node(outcome, rubbers, accuracy)
         if len(self._wave) == len(self._curve.wanted):
             self._curve.advance(self._wave)
             self._count(sum(len(one.cases) for one in self._curve.closed))
@@ -208,7 +197,7 @@ class _FamilyPlan:
         curve = self._curve.drafted(self._wave)
         for place, one in enumerate(curve.closed):
             known = place < len(self._curve.closed)
-            for row, outcome in self._solved.between(curve, one, cases, self._places):
+            for row, outcome in self._family.between(curve, one, cases, self._places, self._plan.rubbers):
                 yield self._numbers[row], outcome, known
 
     def _count(self, cases: int) -> None:
@@ -220,14 +209,14 @@ class _FamilyPlan:
         self._settled = True
         cases = [self._plan.case(number) for number in self._numbers]
         for one in self._curve.closed:
-            for row, outcome in self._solved.between(self._curve, one, cases, self._places):
+            for row, outcome in self._family.between(self._curve, one, cases, self._places, self._plan.rubbers):
                 self._plan.settle(self._numbers[row], outcome)
         for row in sorted(self._curve.alone):
             self._plan.solve_alone(self._numbers[row])
 
 
 def plan_cases(
-    cases: Sequence[AnyCase],
+    cases: Sequence[Case],
     materials: Sequence[Material],
     *,
     members: Mapping[int, Sequence[Material]] | None = None,
@@ -240,7 +229,7 @@ def plan_cases(
 
     Parameters
     ----------
-    cases : sequence of Case or SurfaceCase
+    cases : sequence of Case
     materials : sequence of Material
         That the cases name by number; with a shift where cases differ in temperature.
     members : mapping of int to sequence of Material, optional

@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError, ViscofricError, not_imported
-from viscofric.study.keys import solver_fingerprint
+from viscofric.study.cases.keys import solver_fingerprint
 from viscofric.study.running.executors import Executor, Waiting
 from viscofric.study.running.task import Lost, take_on_cluster
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from viscofric.processes import Workers, as_they_come
-from viscofric.study.keys import solver_fingerprint
+from viscofric.study.cases.keys import solver_fingerprint
 from viscofric.study.running.task import Lost, attempt, take
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class Executor(contextlib.AbstractContextManager["Executor"]):
         ------
         key : str
             Of a task, in the order in which they are finished.
-        outcome : CaseRecord, Failure, Waiting or None
+        outcome : Record, Failure, Waiting or None
             None, where that is known: the task is begun.  A `Lost` one, where its workers ended again and again.
             `Waiting`, of no task, where there are no workers for the time being.
 

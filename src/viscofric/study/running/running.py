@@ -80,7 +80,18 @@ def run_plan(
     An interrupt loses the tasks that are worked on, and no others.
     """
     run = _Run(plan, store, executor, progress, solve)
-    run.all_waves()
+    run.tell("stage")
+    while tasks := list(plan.wanted()):
+        run.wave(tasks)
+    removed = run.kept.difference(store.stored()) if store.made else ()
+    if removed:
+        raise DataFileError(
+            store.folder,
+            f"{len(removed)} of {len(run.kept)} solved contacts were removed while the study ran; run it again with "
+            "--resume, and leave the folder alone until it ends.",
+        )
+    run.count_again()
+    run.tell("stage")
     return run.damaged
 
 
@@ -91,25 +102,11 @@ class _Run:
         self.plan, self.store, self.executor, self.progress, self.solve = plan, store, executor, progress, solve
         self.solves = 0
         self.damaged: list[str] = []
-        self._kept: set[str] = set()
+        self.kept: set[str] = set()
         self._counted = -math.inf
         self._done = 0
 
-    def all_waves(self) -> None:
-        self._tell("stage")
-        while tasks := list(self.plan.wanted()):
-            self._wave(tasks)
-        removed = self._kept.difference(self.store.stored()) if self.store.made else ()
-        if removed:
-            raise DataFileError(
-                self.store.folder,
-                f"{len(removed)} of {len(self._kept)} solved contacts were removed while the study ran; run it again "
-                "with --resume, and leave the folder alone until it ends.",
-            )
-        self._counted = -math.inf
-        self._tell("stage")
-
-    def _wave(self, tasks: Sequence[Task]) -> None:
+    def wave(self, tasks: Sequence[Task]) -> None:
         """Do tasks that are independent of each other."""
         by_key = {task.key: task for task in tasks}
         order = iter(by_key)
@@ -128,26 +125,26 @@ class _Run:
             if found is None or isinstance(found, Damaged):
                 if found is not None:
                     self.damaged.append(task.label)
-                    self._tell("damaged", task, reason=found.reason)
+                    self.tell("damaged", task, reason=found.reason)
                 missing.append(task)
                 continue
-            self._kept.add(task.key)
+            self.kept.add(task.key)
             outcomes[task.key] = found
             hand_on()
-            self._tell("stored", task)
+            self.tell("stored", task)
         begun: dict[str, float] = {}
         with contextlib.closing(self.executor.map(self.solve, missing)) as answers:
             for key, outcome in answers:
                 if outcome is None:
                     begun[key] = time.monotonic()
-                    self._tell("solving", by_key[key])
+                    self.tell("solving", by_key[key])
                     continue
                 if isinstance(outcome, Waiting):
-                    self._tell("waiting", reason=outcome.reason)
+                    self.tell("waiting", reason=outcome.reason)
                     continue
                 if not isinstance(outcome, Lost):
                     self.store.put(key, outcome)
-                    self._kept.add(key)
+                    self.kept.add(key)
                     self.solves += 1
                 outcomes[key] = outcome
                 hand_on()
@@ -156,7 +153,11 @@ class _Run:
     def _tell_outcome(self, task: Task, outcome: Outcome, begun: float | None) -> None:
         seconds = None if begun is None else round(time.monotonic() - begun, 6)
         reason = getattr(outcome, "reason", None)
-        self._tell("solved" if reason is None else "failed", task, seconds=seconds, reason=reason)
+        self.tell("solved" if reason is None else "failed", task, seconds=seconds, reason=reason)
+
+    def count_again(self) -> None:
+        """Have the cases that are known counted at the next event, however short ago that was."""
+        self._counted = -math.inf
 
     def _cases_done(self) -> int:
         """Ask the plan how many cases are known; not too often, as it may have many to look through."""
@@ -165,7 +166,7 @@ class _Run:
             self._counted = time.monotonic()
         return self._done
 
-    def _tell(
+    def tell(
         self, event: str, task: Task | None = None, seconds: float | None = None, reason: str | None = None
     ) -> None:
         self.progress(

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
-from viscofric.study.keys import solver_fingerprint
+from viscofric.study.cases.keys import solver_fingerprint
 from viscofric.study.record import Failure, Record
 from viscofric.threads import one_blas_thread
 

@@ -10,8 +10,9 @@ from viscofric.web.jobs.context import JobError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from viscofric.study.cases.case import Case
     from viscofric.study.run_file import Study
-    from viscofric.study.sweep import AnyCase, Sweep
+    from viscofric.study.sweep import Sweep
 
 #: Cases that the page solves at most; a browser shows no more.
 MOST_CASES = 2_000
@@ -59,7 +60,7 @@ def combinations(sweep: Sweep) -> tuple[dict[object, int], list[str]]:
     return numbers, words
 
 
-def of_combination(sweep: Sweep, number: int) -> AnyCase:
+def of_combination(sweep: Sweep, number: int) -> Case:
     """Return the first case of a combination.
 
     Raises
@@ -67,7 +68,7 @@ def of_combination(sweep: Sweep, number: int) -> AnyCase:
     JobError
         If there is none.
     """
-    cases: dict[object, AnyCase] = {}
+    cases: dict[object, Case] = {}
     for case in sweep.cases:
         cases.setdefault(case.alike, case)
     if number >= len(cases):

@@ -2,29 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.study.planning.conditions import Rubbers, Settings, task_of
-from viscofric.study.record import Failure
-from viscofric.study.surface_solving import SurfaceTask
-from viscofric.study.surface_source import surface_of
+from viscofric.study.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.contact_fields import told
 from viscofric.web.jobs.contact_pictures import Asked
-from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
 if TYPE_CHECKING:
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.study.planning.conditions import AnyTask
-    from viscofric.study.study_rubber import StudyRubber
-    from viscofric.study.sweep import AnyCase
     from viscofric.web.jobs.context import Context
 
 #: Accuracy of coarse answers, the loosest that a run file may ask for.
@@ -78,38 +67,16 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     _, checked = study_of(study, context.files)
     first = of_combination(page_sweep(checked), options.combination)
     rubber = study_rubber(of_material(study, first.material), context, [options.temperature])
-    case = replace(first, material=0, speed=options.speed, temperature=options.temperature)
+    case = moved(first, material=0, speed=options.speed, temperature=options.temperature)
     asked, accuracy = Asked(case, rubber, checked), checked.solver.accuracy
+    rubbers = Rubbers([rubber.material], {})
     if options.stages != "sharp":
-        solution, settled = _coarse(_task(case, rubber, COARSE), accuracy)
+        solution: Any = case.solution(rubbers, COARSE, COARSE_POINTS)
+        # Grids are refined until they promise the accuracy: where the first of them do, no others are looked at.
+        allowed = 0.0 if case.geometry == "rough" else accuracy * abs(solution.friction_coefficient)
+        settled = solution.diagnostics.friction_error <= allowed
         found = told(asked, solution, sharp=settled)
         if settled or options.stages == "coarse":
             return found
         context.part(found)
-    return told(asked, _task(case, rubber, accuracy).solution(), sharp=True)
-
-
-def _task(case: AnyCase, rubber: StudyRubber, accuracy: float) -> AnyTask:
-    settings = Settings(accuracy, sensitive=False, fields=frozenset())
-    task = task_of(case, Rubbers([rubber.material], {}), settings, fields=False)
-    if isinstance(task, Failure):
-        raise JobError(task.reason)
-    return task
-
-
-def _coarse(task: AnyTask, accuracy: float) -> tuple[ContactSolution | PeriodicSolution, bool]:
-    """Return a coarse answer, and whether one to an accuracy would be the same."""
-    if isinstance(task, SurfaceTask):
-        return _coarse_on_surface(task), False
-    solution = task.solution()
-    # Grids are refined until they promise the accuracy: where the first of them do, no others are looked at.
-    return solution, solution.diagnostics.friction_error <= accuracy * abs(solution.friction_coefficient)
-
-
-def _coarse_on_surface(task: SurfaceTask) -> PeriodicSolution:
-    whole = surface_of(task.surface)
-    every = -(-max(whole.shape) // COARSE_POINTS)
-    if every == 1:
-        return task.solution()
-    (likeness,) = whole.coarser([(max(1, whole.shape[0] // every), max(1, whole.shape[1] // every))])
-    return task.solution(PeriodicSurface(likeness.z, likeness.spacing))
+    return told(asked, case.solution(rubbers, accuracy), sharp=True)

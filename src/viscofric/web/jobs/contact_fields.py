@@ -5,17 +5,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from viscofric.contact.solution import ContactSolution
-from viscofric.study.record import CaseRecord
-from viscofric.study.surface_record import SurfaceRecord
-from viscofric.study.sweep import Case
 from viscofric.web.jobs.contact_pictures import Asked, around, outline, pressure_map, profile, shown, surface_profile
 from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
     from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.study.record import Record
-    from viscofric.study.sweep import SurfaceCase
+    from viscofric.contact.solution import ContactSolution
+    from viscofric.study.cases.indenter_case import IndenterCase
+    from viscofric.study.cases.surface_case import SurfaceCase
 
 _DIGITS = 6
 
@@ -40,24 +37,16 @@ def told(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: b
         where it is extrapolated, null where that is not known.
     """
     case = asked.case
-    record: Record
-    if isinstance(solution, ContactSolution):
-        record = CaseRecord.of(solution, case.temperature)
-    else:
-        record = SurfaceRecord.of(solution, case.temperature)
     known = asked.rubber.frequency_range is not None
-    within = asked.rubber.is_within(case, record) if known else None
+    within = asked.rubber.is_within(case, case.record(solution)) if known else None
     shared: dict[str, Any] = {
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
         "warnings": [*solution.warnings, *_doubts(asked, within)],
     }
-    if isinstance(solution, ContactSolution):
-        assert isinstance(case, Case)
-        found = _of_indenter(asked, case, solution)
-    else:
-        found = _of_surface(asked, case, solution)  # type: ignore[arg-type]  # it is one of a surface
+    tell: Any = _of_surface if case.geometry == "rough" else _of_indenter
+    found: dict[str, Any] = tell(asked, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
     return shared | found
 
@@ -68,14 +57,15 @@ def _doubts(asked: Asked, within: bool | None) -> list[str]:
     at_any = rubber.doubts([])  # of the rubber as such, which other steps tell
     said = [words for words in rubber.doubts([asked.case.temperature]) if words not in at_any]
     if within is False:
-        what = "The frequency v/a lies" if isinstance(asked.case, Case) else "Frequencies 2πv/λ of its waves lie"
+        rough = asked.case.geometry == "rough"
+        what = "Frequencies 2πv/λ of its waves lie" if rough else "The frequency v/a lies"
         said.append(
             f"{what} beyond those at which the rubber was measured: the friction rests on the extrapolated spectrum."
         )
     return said
 
 
-def _of_indenter(asked: Asked, case: Case, solution: ContactSolution) -> dict[str, Any]:
+def _of_indenter(asked: Asked, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
     line = solution.geometry == "line"
     return {
         "kind": solution.geometry,
@@ -124,7 +114,7 @@ def _with_error(value: float | None, error: float | None = None) -> dict[str, fl
     return {"value": value, "error": error}
 
 
-def _numbers(asked: Asked, case: Case, solution: ContactSolution) -> dict[str, Any]:
+def _numbers(asked: Asked, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
     found = solution.diagnostics
     length = solution.front + solution.rear
     frequency = case.speed / (0.5 * length)

@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
+    from viscofric.study.cases.case import Case
+    from viscofric.study.cases.indenter_case import IndenterCase
     from viscofric.study.run_file import Study
     from viscofric.study.study_rubber import StudyRubber
-    from viscofric.study.sweep import AnyCase, Case
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -39,12 +40,12 @@ class Asked:
 
     Attributes
     ----------
-    case : Case or SurfaceCase
+    case : Case
     rubber : StudyRubber
     study : Study
     """
 
-    case: AnyCase
+    case: Case
     rubber: StudyRubber
     study: Study
 
@@ -126,7 +127,7 @@ def _closed(line: Any) -> Array:
     return np.asarray(line if np.array_equal(line[0], line[-1]) else np.vstack([line, line[:1]]))
 
 
-def profile(asked: Asked, case: Case, solution: ContactSolution) -> Profile:
+def profile(asked: Asked, case: IndenterCase, solution: ContactSolution) -> Profile:
     """Cut a contact along its centre line, with the trail behind it.
 
     Where the indenter is elastic, what is solved for is the sum of both bodies' displacements; the rubber's share is
@@ -138,10 +139,10 @@ def profile(asked: Asked, case: Case, solution: ContactSolution) -> Profile:
     gap = displacement - (solution.indentation - case.indenter.height(x, np.zeros_like(x)))
     loaded = pressure > 0.0
     own = np.interp(x, trail_x, trail)
-    if case.indenter_modulus is None or solution.geometry == "line":  # a line's level is a convention
+    if case.modulus is None or solution.geometry == "line":  # a line's level is a convention
         trail += float(np.mean((displacement - own)[loaded]))
         own = np.interp(x, trail_x, trail)
-    surface = displacement if case.indenter_modulus is None else own
+    surface = displacement if case.modulus is None else own
     beyond = (trail_x < x[0]) | (trail_x > x[-1])
     order = np.argsort(np.concatenate([x, trail_x[beyond]]))
 
@@ -157,7 +158,7 @@ def profile(asked: Asked, case: Case, solution: ContactSolution) -> Profile:
     )
 
 
-def _trail(asked: Asked, case: Case, solution: ContactSolution) -> tuple[Array, Array]:
+def _trail(asked: Asked, case: IndenterCase, solution: ContactSolution) -> tuple[Array, Array]:
     """Return the rubber's displacement on the centre line, from well behind the contact to well ahead."""
     modes = asked.rubber.material.modes_at(case.temperature)
     x, y, pressure = solution.x, solution.y, solution.pressure

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from viscofric.study.contacts import Contacts, Solved
     from viscofric.study.planning.plan import Outcome
-    from viscofric.study.record import CaseRecord
+    from viscofric.study.record import Record
     from viscofric.study.study_rubber import StudyRubber
 
 #: Friction counts as unresolved where its error is more than so many times what was asked for.
@@ -77,7 +77,7 @@ def master_curve(contacts: Contacts, along: Solved) -> dict[str, Any] | None:
     """Return friction along the master curve, at the reference temperature; None where there is more than one."""
     if not along.records:
         return None
-    records: list[CaseRecord] = along.records
+    records: list[Record] = along.records
     curves = contacts.rubbers[0].bands.curves(records)
     shown = {
         "reduced_speed": curves.speed,

@@ -118,7 +118,7 @@ def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
     for name, sizes in table.axes.items():
         if len(sizes) > 1:
             raise StudyError(f"indenter.{name}: has {len(sizes)} values; friction was measured with one.")
-    return table.indenter(*(sizes[0] for sizes in table.axes.values()))
+    return table.made(*(sizes[0] for sizes in table.axes.values()))
 
 
 def _insist_on_upload(path: Path, folder: Path) -> None:

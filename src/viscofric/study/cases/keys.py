@@ -5,22 +5,23 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
     from importlib.resources.abc import Traversable
 
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-
-def case_key(description: dict[str, object]) -> str:
-    """Return a name for a case that changes with anything that could change its answer."""
-    text = json.dumps({"solver": solver_fingerprint(), **description}, sort_keys=True)
+def key_of(arguments: Mapping[str, Any]) -> str:
+    """Return a name for a contact that changes with any argument that could change its answer."""
+    described = {name: written(value) for name, value in arguments.items()}
+    text = json.dumps({"solver": solver_fingerprint(), **described}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
@@ -33,16 +34,16 @@ def modes_written(modes: RetardationSpectrum) -> str:
     return digest.hexdigest()
 
 
-def written(shape: Any) -> list[object]:
-    """Write an indenter or a layer down, whatever its kind."""
-    values = ((entry.name, getattr(shape, entry.name)) for entry in fields(shape))
-    return [type(shape).__name__, *((name, _digest(value)) for name, value in values)]
-
-
-def _digest(value: Any) -> object:
-    """Return a number as it is, and of an array what changes with any of its entries."""
+def written(value: Any) -> object:
+    """Return a value in plain types that change with it: of modes and arrays, a digest; of shapes, all their fields."""
+    if isinstance(value, RetardationSpectrum):
+        return modes_written(value)
     if isinstance(value, np.ndarray):
         return [value.shape, hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()]
+    if hasattr(value, "described"):  # a surface, by what its heights are made from
+        return value.described()
+    if is_dataclass(value):
+        return [type(value).__name__, *((entry.name, written(getattr(value, entry.name))) for entry in fields(value))]
     return value.item() if isinstance(value, np.generic) else value
 
 
@@ -50,11 +51,9 @@ def _digest(value: Any) -> object:
 _OWN = {
     "friction": ("sensitivity.py",),
     "study": (
-        "keys.py",
+        "cases/keys.py",
         "solving.py",
         "record.py",
-        "surface_solving.py",
-        "surface_record.py",
         "surface_source.py",
         "surface_steps.py",
     ),

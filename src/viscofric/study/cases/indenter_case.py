@@ -1,0 +1,271 @@
+"""Contacts of an indenter, and what of them is the same contact seen in other units.
+
+Friction at the shift factors α and b is that at the reference temperature, at the speed αv, under the load F/b and an
+indenter's modulus E_i/b (Eq. 10).  A paraboloid or a cone on a half-space is the same shape at every size, so that its
+load and radius are units only: over a unit of slope, friction depends on αv over a length alone, and so do all other
+numbers over their units (see `viscofric.contact.free.scale`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.counterface import indenter_compliance
+from viscofric.contact.free.geometry import LINE
+from viscofric.contact.free.grids import Extent
+from viscofric.contact.indenters.indenter import Ball, Cylinder
+from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.contact.steady import solve_steady
+from viscofric.errors import InputError
+from viscofric.rheology.material import Material
+from viscofric.study.cases.case import Case, Place
+from viscofric.study.planning.numbers import ERRORS, FRICTION, LOGARITHMIC, NAMES, Node, units_of
+from viscofric.study.planning.sensitivities import Sensitivities
+from viscofric.study.record import Failure, Record, indenter_record
+from viscofric.study.solving import Task, solve_indenter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.contact.free.scale import Scale
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.layers import Layer
+    from viscofric.contact.solution import ContactSolution
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.study.cases.case import Rubbers, Settings
+    from viscofric.study.planning.curve import Curve, Interval
+    from viscofric.study.planning.stencils import Interpolated
+
+    Array: TypeAlias = NDArray[np.float64]
+
+# Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
+_LOW_SLOPE = 0.01
+_BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
+
+
+@dataclass(frozen=True, slots=True)
+class IndenterCase(Case):
+    """One contact of an indenter, SI; see `Case`.
+
+    Parameters
+    ----------
+    material : int
+    indenter : Indenter
+        Ball, Cylinder, Ellipsoid or Cone.
+    temperature, speed : float
+    load : float
+        N; N/m for a cylinder.
+    layer : Layer, optional
+    modulus : float, optional
+        Young's modulus of an elastic indenter, Pa; rigid without.
+    poisson_ratio : float
+        Of an elastic indenter.
+    sample : int, optional
+    """
+
+    material: int
+    indenter: Indenter
+    temperature: float
+    speed: float
+    load: float
+    layer: Layer | None = None
+    modulus: float | None = None
+    poisson_ratio: float = 0.3
+    sample: int | None = None
+
+    FREQUENCIES: ClassVar[str] = "the contact's frequency v/a lies"
+    HAS_MASTER_CURVE: ClassVar[bool] = True
+    LOGARITHMIC: ClassVar[NDArray[np.bool_]] = LOGARITHMIC
+
+    @property
+    def alike(self) -> tuple[object, ...]:
+        """What cases have in common that differ by temperature and speed at most."""
+        return (self.material, self.sample, self.indenter, self.load, self.layer)
+
+    @property
+    def geometry(self) -> str:
+        """What touches: "point" or "line"."""
+        return "line" if self.indenter.geometry is LINE else "point"
+
+    @property
+    def cost(self) -> str:
+        """What it is in the estimates of what contacts take."""
+        if self.layer is not None:
+            return "layer"
+        match self.indenter:
+            case Cylinder():
+                return "line"
+            case Ball() | Ellipsoid():
+                return "paraboloid"
+        return "other"
+
+    def lengths(self, record: Record) -> tuple[float, float]:
+        """Return half the contact's width, or length where it has no width, twice: there is one frequency."""
+        half = record.half_width if math.isfinite(record.half_width) else 0.5 * (record.front + record.rear)
+        return half, half
+
+    def reach(self, record: Record) -> float:
+        """Return how far the contact reaches over the indenter's size."""
+        farthest = max(size for size in (record.front, record.rear, record.half_width) if np.isfinite(size))
+        size = self.indenter.reach
+        return float(farthest / size) if np.isfinite(size) else float(farthest)
+
+    def task(
+        self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
+    ) -> Task:
+        """Return what solving it takes; see `Case.task`."""
+        kept = {"temperature": self.temperature, "fields": fields}
+        sensitive = settings.sensitive and self.sample is None
+        rubber = {"modes": modes, "poisson_ratio": poisson_ratio}
+        contact = self._contact(settings.accuracy)
+        return Task(solve_indenter, rubber | contact | kept | {"sensitive": sensitive}, label)
+
+    def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> ContactSolution:
+        """Solve it, and return all that was found instead of what is kept of it; see `solve_steady`."""
+        rubber = Material(rubbers.modes(self), poisson_ratio=rubbers.of(self).poisson_ratio)
+        return solve_steady(rubber, **self._contact(accuracy))
+
+    def _contact(self, accuracy: float) -> dict[str, Any]:
+        return {
+            "indenter": self.indenter,
+            "speed": self.speed,
+            "load": self.load,
+            "accuracy": accuracy,
+            "layer": self.layer,
+            "indenter_modulus": self.modulus,
+            "indenter_poisson_ratio": self.poisson_ratio,
+        }
+
+    def record(self, solution: ContactSolution) -> Record:
+        """Return what is kept of its solution."""
+        return indenter_record(solution, self.temperature)
+
+    def place(self, rubbers: Rubbers) -> Place:
+        """Return where it lies; see `Case.place`."""
+        self.insist_on_motion()
+        alpha, b = rubbers.shifts(self)
+        indenter, load = None if self.layer is not None else representative(self.indenter), self.load / b
+        modulus = None if self.modulus is None else self.modulus / b
+        stiffness = _stiffness(rubbers.of(self), modulus, self.poisson_ratio)
+        scale = rubbers.scale(self.indenter, stiffness, load)
+        if indenter is None:
+            indenter, own = self.indenter, scale
+        else:
+            load = indenter.geometry.parabolic_load * rubbers.force(indenter, stiffness, _LOW_SLOPE**2)
+            own = rubbers.scale(indenter, stiffness, load)
+        family = IndenterCase(
+            self.material,
+            indenter,
+            rubbers.reference(self),
+            own.length,
+            load,
+            self.layer,
+            modulus,
+            self.poisson_ratio,
+            self.sample,
+        )
+        return Place(family, math.log(alpha * self.speed / scale.length), b, math.log(alpha), scale)
+
+    def node_label(self, ratio: float) -> str:
+        """Say which contact of a family is solved."""
+        return f"friction curve at αv/a = {ratio:.3g} 1/s"
+
+    def node(self, record: Record, rubbers: Rubbers, accuracy: float) -> Node:
+        """Return a solved contact of a family as a node of its curve."""
+        return Node.of(record, self._units(rubbers))
+
+    def _units(self, rubbers: Rubbers) -> Scale:
+        """Return the units of a family's contacts."""
+        return rubbers.scale(self.indenter, _stiffness(rubbers.of(self), self.modulus, self.poisson_ratio), self.load)
+
+    def between(
+        self, curve: Curve, one: Interval, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
+    ) -> Iterator[tuple[int, Record | Failure]]:
+        """Yield the records of the cases of a closed interval; failures where they would be wider than the indenter."""
+        chosen, found = curve.between(one)
+        nodes = [(node, curve.node(node).record) for node in chosen.nodes]
+        ends = [curve.node(end).record for end in (one.low, one.high)]
+        numbers = one.cases.tolist()
+        here = [places[number] for number in numbers]
+        sensitivities = Sensitivities.between(nodes, here, rubbers.modes(self, at_reference=True), self._units(rubbers))
+        shared: dict[str, Any] = {
+            "energy_balance": max((end.energy_balance for end in ends), key=abs),
+            "complementarity": max(end.complementarity for end in ends),
+            "cells": 0,
+            "products": 0,
+            "interpolated": True,
+        }
+        for row, (number, place) in enumerate(zip(numbers, here, strict=True)):
+            case, told = cases[number], _told(found, row, place)
+            if math.isinf(ends[0].half_width):
+                told["half_width"] = math.inf
+            try:
+                doubts = _doubts(case, _extent(told), told["indentation"])
+            except InputError as error:
+                yield number, Failure(str(error), case.label)
+                continue
+            known: dict[str, Any] = {
+                "speed": case.speed,
+                "temperature": case.temperature,
+                "load": case.load,
+                "warnings": doubts,
+            }
+            record = Record.of(**(known | told | shared))
+            yield number, record if sensitivities is None else sensitivities.complete(record, row)
+
+
+def representative(indenter: Indenter) -> Indenter | None:
+    """Return one that stands for all of its kind on a half-space, whatever their size; None where sizes differ."""
+    match indenter:
+        case Ball():
+            return _BALL
+        case Cylinder():
+            return _CYLINDER
+        case Ellipsoid(radius_x=along, radius_y=across):
+            return Ellipsoid(1.0, float(across) / float(along))
+        case Cone():
+            return _CONE
+    return None
+
+
+def _stiffness(material: Material, modulus: float | None, poisson_ratio: float) -> float:
+    """Modulus of the relaxed contact at the reference temperature with an indenter of a modulus (rigid: None), Pa."""
+    compliance = indenter_compliance(modulus, poisson_ratio)
+    return 1.0 / ((1.0 - material.poisson_ratio**2) / material.modes_at(None).E0 + compliance)
+
+
+def _told(found: Interpolated, row: int, place: Place) -> dict[str, float]:
+    """Give a case's numbers and their errors their units."""
+    units = units_of(place.units, place.b)
+    told = dict(zip(NAMES, (units * found.values[row]).tolist(), strict=True))
+    errors = units * np.hypot(found.from_nodes[row], found.between[row])
+    for name, error in zip(ERRORS, errors.tolist(), strict=True):
+        if name is not None:
+            told[name] = max(told.get(name, 0.0), error)
+    return told | {"interpolation_error": float(units[FRICTION] * found.between[row, FRICTION])}
+
+
+def _extent(told: dict[str, float]) -> Extent:
+    side = told["half_width"]
+    return Extent(told["rear"], told["front"], 0.0 if math.isinf(side) else side)
+
+
+def _doubts(case: IndenterCase, contact: Extent, indentation: float) -> tuple[str, ...]:
+    """Tell what is doubtful about a contact, as `solve_steady` does.
+
+    Raises
+    ------
+    InputError
+        If it would be wider than the indenter.
+    """
+    case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
+    doubts = [case.indenter.doubt(contact, indentation)]
+    if case.layer is not None:
+        doubts.append(case.layer.doubt(indentation))
+    return tuple(doubt for doubt in doubts if doubt)

@@ -1,0 +1,223 @@
+"""Contacts of a rough surface, and what of them is the same contact seen in other units.
+
+Friction at the shift factors α and b is that at the reference temperature, at the speed αv, under the pressure p/b and
+with a surface's modulus E_i/b (Eq. 10): contact area and gap are the same, pressures b times as large.  No other
+surface or pressure is alike: roughness has no length that all others are multiples of.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.study.cases.case import Case, Place
+from viscofric.study.planning.curve import SHARE
+from viscofric.study.planning.numbers import FRICTION, Node
+from viscofric.study.record import Record, surface_record
+from viscofric.study.solving import Task, solve_surface, surface_solution
+from viscofric.study.surface_source import surface_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.contact.layers import Layer
+    from viscofric.contact.periodic.solution import PeriodicSolution
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.study.cases.case import Rubbers, Settings
+    from viscofric.study.planning.curve import Curve, Interval
+    from viscofric.study.surface_source import SurfaceSource
+
+# Number of a record, and whether it is interpolated by its logarithm: forces across the motion have either sign.
+_COLUMNS = (
+    ("friction_coefficient", True),
+    ("contact_area_fraction", True),
+    ("mean_gap", True),
+    ("max_pressure", True),
+    ("lateral_friction_coefficient", False),
+)
+_NAMES = tuple(name for name, _ in _COLUMNS)
+_LOGARITHMIC = np.array([logarithmic for _, logarithmic in _COLUMNS])
+_PRESSURE = _NAMES.index("max_pressure")
+# Of the error that a grid makes, what is not the same in neighbouring contacts.
+_RIPPLE = 0.05
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceCase(Case):
+    """One contact of a rough surface, SI; see `Case`.
+
+    Parameters
+    ----------
+    material : int
+    surface : MadeSurface or ScannedSurface
+    temperature, speed : float
+    pressure : float
+        Mean pressure, Pa.
+    direction : float
+        Of the motion, from x towards y, rad.
+    layer : Layer, optional
+    modulus : float, optional
+        Young's modulus of an elastic surface, Pa; rigid without.
+    poisson_ratio : float
+        Of an elastic surface.
+    sample : int, optional
+    """
+
+    material: int
+    surface: SurfaceSource
+    temperature: float
+    speed: float
+    pressure: float
+    direction: float = 0.0
+    layer: Layer | None = None
+    modulus: float | None = None
+    poisson_ratio: float = 0.3
+    sample: int | None = None
+
+    FREQUENCIES: ClassVar[str] = "some frequencies 2πv/λ of the surface's wavelengths lie"
+    HAS_MASTER_CURVE: ClassVar[bool] = False
+    LOGARITHMIC: ClassVar[NDArray[np.bool_]] = _LOGARITHMIC
+
+    @property
+    def alike(self) -> tuple[object, ...]:
+        """What cases have in common that differ by temperature and speed at most."""
+        return (self.material, self.sample, self.surface, self.pressure, self.direction, self.layer)
+
+    @property
+    def geometry(self) -> str:
+        """What touches: "rough"."""
+        return "rough"
+
+    @property
+    def cost(self) -> str:
+        """What it is in the estimates of what contacts take."""
+        return "surface"
+
+    @property
+    def points(self) -> int:
+        """Points of its surface."""
+        return math.prod(self.surface.shape)
+
+    @property
+    def body_label(self) -> str:
+        """Which of several surfaces it is, after a comma."""
+        seed = getattr(self.surface, "seed", None)
+        return "" if seed is None else f", seed {seed}"
+
+    def lengths(self, record: Record) -> tuple[float, float]:
+        """Return the shortest and the longest wavelength, over 2π."""
+        shortest, longest = self.surface.wavelengths
+        return shortest / (2.0 * math.pi), longest / (2.0 * math.pi)
+
+    def reach(self, record: Record) -> float:
+        """Return the highest pressure."""
+        return float(record.max_pressure)
+
+    def task(
+        self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
+    ) -> Task:
+        """Return what solving it takes; see `Case.task`."""
+        rubber = {"modes": modes, "poisson_ratio": poisson_ratio, "surface": self.surface}
+        kept = {"temperature": self.temperature, "direction": self.direction, "fields": fields}
+        return Task(solve_surface, rubber | self._contact | kept, label)
+
+    def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> PeriodicSolution:
+        """Solve it, and return all that was found instead of what is kept of it; see `solve_periodic`.
+
+        Parameters
+        ----------
+        rubbers : Rubbers
+        accuracy : float
+            Its grid decides, whatever is asked for.
+        most_points : int, optional
+            Along the longer axis: of a surface with more, a coarser likeness is taken instead.
+        """
+        surface = surface_of(self.surface)
+        every = 1 if most_points is None else -(-max(surface.shape) // most_points)
+        if every > 1:
+            (likeness,) = surface.coarser([(max(1, surface.shape[0] // every), max(1, surface.shape[1] // every))])
+            surface = PeriodicSurface(likeness.z, likeness.spacing)
+        ratio = rubbers.of(self).poisson_ratio
+        return surface_solution(rubbers.modes(self), ratio, surface, self.direction, **self._contact)
+
+    @property
+    def _contact(self) -> dict[str, Any]:
+        return {
+            "speed": self.speed,
+            "pressure": self.pressure,
+            "layer": self.layer,
+            "indenter_modulus": self.modulus,
+            "indenter_poisson_ratio": self.poisson_ratio,
+        }
+
+    def record(self, solution: PeriodicSolution) -> Record:
+        """Return what is kept of its solution."""
+        return surface_record(solution, self.temperature)
+
+    def place(self, rubbers: Rubbers) -> Place:
+        """Return where it lies; see `Case.place`."""
+        self.insist_on_motion()
+        alpha, b = rubbers.shifts(self)
+        family = SurfaceCase(
+            self.material,
+            self.surface,
+            rubbers.reference(self),
+            1.0,
+            self.pressure / b,
+            self.direction,
+            self.layer,
+            None if self.modulus is None else self.modulus / b,
+            self.poisson_ratio,
+            self.sample,
+        )
+        return Place(family, math.log(alpha * self.speed), b, math.log(alpha))
+
+    def node_label(self, ratio: float) -> str:
+        """Say which contact of a family is solved."""
+        return f"friction curve at αv = {ratio:.3g} m/s{self.body_label}"
+
+    def node(self, record: Record, rubbers: Rubbers, accuracy: float) -> Node:
+        """Return a solved contact of a family as a node of its curve.
+
+        The error of its grid is much the same in all contacts on the surface, but for a ripple, as points come into
+        contact one by one.  Where that is more than the accuracy lets be, the curve is refined all the same.
+        """
+        values, errors = np.array([getattr(record, name) for name in _NAMES]), np.zeros(len(_NAMES))
+        errors[FRICTION] = min(_RIPPLE * record.friction_error, SHARE * accuracy * abs(values[FRICTION]))
+        return Node(record, values, errors)
+
+    def between(
+        self, curve: Curve, one: Interval, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
+    ) -> Iterator[tuple[int, Record]]:
+        """Yield number and record of every case of a closed interval, as if it had been solved."""
+        _, found = curve.between(one)
+        ends = [curve.node(end).record for end in (one.low, one.high)]
+        doubtful = [end for end in ends if end.warnings]
+        for row, number in enumerate(one.cases.tolist()):
+            case, values = cases[number], found.values[row].copy()
+            values[_PRESSURE] *= places[number].b
+            added = float(np.hypot(found.from_nodes[row, FRICTION], found.between[row, FRICTION]))
+            yield (
+                number,
+                Record.of(
+                    speed=case.speed,
+                    temperature=case.temperature,
+                    pressure=case.pressure,
+                    **dict(zip(_NAMES, values.tolist(), strict=True)),
+                    # An error of the grid does not go away between contacts that have it.
+                    friction_error=max(end.friction_error for end in ends) + added,
+                    energy_balance=max((end.energy_balance for end in ends), key=abs),
+                    complementarity=max(end.complementarity for end in ends),
+                    cells=0,
+                    products=0,
+                    warnings=doubtful[0].warnings if doubtful else (),
+                    interpolated=True,
+                    interpolation_error=added,
+                ),
+            )

@@ -1,0 +1,124 @@
+"""How the friction of interpolated contacts answers to the rubber's compliance.
+
+Without units, g is a function of vτ over the length of the contact that changes smoothly along the curve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self, TypeAlias
+
+import numpy as np
+
+from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
+from viscofric.study.planning.curve import STEP
+from viscofric.study.planning.stencils import weights
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from viscofric.contact.free.scale import Scale
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.study.cases.case import Place
+    from viscofric.study.record import Record
+
+    Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivities:
+    """Those of the cases of one interval.
+
+    Attributes
+    ----------
+    modes : RetardationSpectrum
+        Of the rubber at the reference temperature.
+    places : sequence of Place
+        Of the cases.
+    log_tau : tuple of (times,) array
+        Of each case, at its temperature, τ in s.
+    slope : tuple of (times,) array
+        g at these, Pa.
+    glass, load : (cases,) array
+        See `ComplianceSensitivity`.
+    """
+
+    modes: RetardationSpectrum
+    places: Sequence[Place]
+    log_tau: tuple[Array, ...]
+    slope: tuple[Array, ...]
+    glass: Array
+    load: Array
+
+    @classmethod
+    def between(
+        cls, nodes: Sequence[tuple[int, Record]], places: Sequence[Place], modes: RetardationSpectrum, units: Scale
+    ) -> Self | None:
+        """Interpolate; None where a node has none.
+
+        Parameters
+        ----------
+        nodes : sequence of int and Record
+            Of the polynomial.
+        places : sequence of Place
+            Of the cases.
+        modes : RetardationSpectrum
+            Of the rubber at the reference temperature, where all nodes are.
+        units : Scale
+            Of the nodes.
+        """
+        known = [record.sensitivity for _, record in nodes]
+        found = [one for one in known if one is not None]
+        if len(found) < len(known):
+            return None
+        at = STEP * np.array([node for node, _ in nodes], dtype=float)
+        shares = weights(at, np.array([place.s for place in places]))
+        # At the reference temperature, where all nodes are.
+        log_tau = [log_times(modes, np.exp(-place.s)) for place in places]
+        # vτ over the length is the same in the case and in the node.
+        contact = np.concatenate([one + place.s for one, place in zip(log_tau, places, strict=True)])
+        table = np.array([one.at(contact - s) for one, s in zip(found, at, strict=True)])
+        ends = np.cumsum([len(one) for one in log_tau])[:-1]
+        unit, scales = units.slope * units.stiffness, [place.units for place in places]
+        per_case = np.array([own.slope * own.stiffness * place.b for own, place in zip(scales, places, strict=True)])
+        per_case /= unit
+        slopes = [
+            factor * (share @ part)
+            for factor, share, part in zip(per_case, shares, np.split(table, ends, axis=1), strict=True)
+        ]
+        lean = np.array([own.slope for own in scales]) / units.slope
+        return cls(
+            modes,
+            places,
+            tuple(one + place.log_alpha for one, place in zip(log_tau, places, strict=True)),
+            tuple(slopes),
+            per_case * (shares @ np.array([one.glass for one in found])),
+            lean * (shares @ np.array([one.load for one in found])),
+        )
+
+    def complete(self, record: Record, row: int) -> Record:
+        """Return the record of a case with its sensitivity."""
+        modes, place = self.modes, self.places[row]
+        sensitivity = ComplianceSensitivity(
+            friction=record.friction_coefficient,
+            compliance_part=0.0,
+            log_tau=self.log_tau[row],
+            slope=self.slope[row],
+            glass=float(self.glass[row]),
+            load=float(self.load[row]),
+            frequency=record.frequency,
+        )
+        # As the sensitivity itself tells it, so that the rubber's own modes change nothing.
+        own = _values_at(np.log(modes.tau) + place.log_alpha, sensitivity)
+        part = (float(own @ modes.C) + sensitivity.glass / modes.E_inf) / place.b
+        return replace(record, sensitivity=replace(sensitivity, compliance_part=part))
+
+
+def _values_at(log_tau: Array, sensitivity: ComplianceSensitivity) -> Array:
+    """Return g where it mostly is told already, so that nothing need be interpolated."""
+    rows = np.minimum(np.searchsorted(sensitivity.log_tau, log_tau - ROUNDING), len(sensitivity.log_tau) - 1)
+    if np.all(np.abs(sensitivity.log_tau[rows] - log_tau) <= ROUNDING):
+        return sensitivity.slope[rows]
+    return sensitivity.at(log_tau)
