@@ -74,7 +74,7 @@ export function whyItLeans(answer, units, noun, radius) {
   const of = answer.numbers;
   const speed = units.show(answer.speed, "speed");
   const loss = of.loss_factor.value;
-  const rubber = `tan δ ${units.plainNumber(loss, 2)} and a stiffness E′ of ${units.show(of.storage_modulus.value, "modulus")}`;
+  const rubber = `tan δ ${units.plainNumber(loss, 2)} and a storage modulus E′ of ${units.show(of.storage_modulus.value, "modulus")}`;
   if (answer.kind === "rough") {
     const ends = [of.slowest_frequency, of.fastest_frequency].map(({ value }) =>
       units.show(value, "angular_frequency", 2),

@@ -136,7 +136,7 @@ function settings(app) {
       path: "material.reference_temperature",
       label: "Reference temperature",
       kind: "temperature",
-      help: "Where the shift factor is 1.",
+      help: "The shift factor is 1 at this temperature.",
     }),
     fields.choiceField({
       path: "material.shift",

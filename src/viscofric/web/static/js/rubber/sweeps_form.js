@@ -193,7 +193,7 @@ export function sourceForm(app, onError) {
       path: "material.reference_temperature",
       label: "Reference temperature",
       kind: "temperature",
-      help: "Where the shift factor is 1.",
+      help: "The shift factor is 1 at this temperature.",
     }),
     fields.numberField({
       path: "material.poisson_ratio",
