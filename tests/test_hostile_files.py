@@ -305,7 +305,7 @@ def test_many_mistakes_are_counted_in_a_message_and_listed_for_a_terminal(count:
         left = re.fullmatch(r"  … and (\d+) more\.", lines[-1])
         assert len(lines) - 1 + int(left[1]) == count if left else len(lines) == count
         assert all(line.endswith(": no.") for line in lines[: -1 if left else None])
-        listed = one.listing.split("\n")
+        listed = one.listing().split("\n")
         assert len(listed) == 1 + min(count, 21)
         assert all(len(line) <= LONGEST_SENTENCE + 2 for line in listed)
 

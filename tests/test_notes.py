@@ -1,9 +1,15 @@
-"""Notes are sentences with a code."""
+"""Notes and errors are sentences with a code, a place, and a remedy in the words of each reader."""
 
 import copy
+import json
 import pickle
 
-from viscofric.notes import Note, codes
+import pytest
+
+from viscofric.errors import DataFileError, InputError, StudyError, SuperpositionError
+from viscofric.notes import Note, Remedy, codes, note_of, records
+
+GIVE = Remedy("; give unit=.", "; give --unit.", page="; fill in “Unit”.", field="material.unit")
 
 
 def test_a_note_is_its_sentence_and_keeps_its_code_in_copies_and_pickles():
@@ -15,3 +21,59 @@ def test_a_note_is_its_sentence_and_keeps_its_code_in_copies_and_pickles():
 
 def test_codes_pass_over_sentences_without_one():
     assert codes(["a plain sentence", Note("drift", "It drifts.")]) == {"drift"}
+
+
+def test_each_reader_gets_the_remedy_in_his_own_words():
+    note = Note("no-unit", "It has no unit", "a.csv", GIVE)
+    assert note == "a.csv: It has no unit; give unit=."
+    words = {reader: note.words(reader).rpartition("; ")[2] for reader in ("python", "shell", "run_file", "page")}
+    assert words == {
+        "python": "give unit=.",
+        "shell": "give --unit.",
+        "run_file": "give --unit.",
+        "page": "fill in “Unit”.",
+    }
+
+
+def test_remedies_are_joined_for_each_reader_and_keep_their_field():
+    both = "; measure it, or say it" + GIVE + " It is worth it."
+    assert both.python == "; measure it, or say it; give unit=. It is worth it."
+    assert both.words("page") == "; measure it, or say it; fill in “Unit”. It is worth it."
+    assert both.field == "material.unit"
+
+
+def test_a_note_comes_back_from_json_whole():
+    notes = [Note("no-unit", "It has no unit", "a.csv", GIVE), Note("drift", "It drifts."), "A sentence alone."]
+    again = list(map(note_of, json.loads(json.dumps(records(notes)))))
+    assert again == [str(note) for note in notes]
+    assert [(one.code, one.where, one.remedy) for one in again] == [
+        ("no-unit", "a.csv", GIVE),
+        ("drift", "", None),
+        ("", "", None),
+    ]
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        DataFileError("a.csv", "has no unit", 3, code="no-unit", remedy=GIVE),
+        SuperpositionError("has no unit", code="no-unit", remedy=GIVE),
+        InputError(Note("no-unit", "has no unit", "a.csv", GIVE)),
+    ],
+)
+def test_an_error_keeps_code_remedy_and_field_in_copies_and_pickles(error):
+    for again in (error, copy.copy(error), pickle.loads(pickle.dumps(error))):
+        assert type(again) is type(error)
+        assert (str(again), again.code, again.remedy, again.field) == (str(error), "no-unit", GIVE, "material.unit")
+        assert again.words("page").endswith("has no unit; fill in “Unit”.")
+        assert str(again.at("rubber 2")).startswith("rubber 2: ")
+    named = error.reworded(lambda text: text.replace("has no", "lacks a"))
+    assert (named.code, named.remedy) == ("no-unit", GIVE)
+    assert "lacks a unit; give unit=." in str(named)
+
+
+def test_the_field_of_an_error_is_that_of_its_first_problem_where_nothing_else_names_one():
+    wrong = [Note("missing", "Is missing.", "conditions.load"), Note("missing", "Is missing.", "material")]
+    assert StudyError("Two things are wrong.", wrong).field == "conditions.load"
+    assert InputError("Wrong.", field="material").field == "material"
+    assert InputError("Wrong.").field is None

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import copy
 from typing import TYPE_CHECKING
 
+from viscofric.notes import Note, note_of
+
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+    from typing import Self
+
+    from viscofric.notes import Reader, Remedy
 
 _LONGEST = 80
 #: Of the message of an error, or of a note; what is longer quotes a file or lists many mistakes.
@@ -79,15 +85,68 @@ def check_choice(value: object, name: str, *choices: str) -> None:
 
 
 class ViscofricError(Exception):
-    """Base of all errors that viscofric raises on purpose."""
+    """Base of all errors that viscofric raises on purpose.
 
-    def __init__(self, *arguments: object) -> None:
-        super().__init__(*(shortened(one) if isinstance(one, str) else one for one in arguments))
+    Parameters
+    ----------
+    message : str or Note
+        One sentence; a note brings its code and its remedy.
+    code : str, optional
+        For programs, where the message is no note; see `viscofric.notes.Note`.
+    remedy : Remedy, optional
+        Ends the sentence, in the words of each reader, where the message is no note.
+    field : str, optional
+        Path of the run file's key that the error is about; by default that of the remedy.
+
+    Attributes
+    ----------
+    note : Note
+        The sentence with its code, place and remedy.
+    """
+
+    def __init__(
+        self, message: str | Note = "", *, code: str = "", remedy: Remedy | None = None, field: str | None = None
+    ) -> None:
+        note = message if isinstance(message, Note) else Note(code, str(message), remedy=remedy)
+        self.note, self._field = note.reworded(shortened), field
+        super().__init__(self.words("python"))
 
     @property
-    def listing(self) -> str:
-        """The message; where it lists mistakes, with more of them than a message holds, one to a line."""
-        return str(self)
+    def code(self) -> str:
+        """What went wrong, for programs; empty where nothing needs to know it."""
+        return self.note.code
+
+    @property
+    def remedy(self) -> Remedy | None:
+        """What to do, in the words of each reader."""
+        return self.note.remedy
+
+    @property
+    def field(self) -> str | None:
+        """Path of the run file's key that it is about, or in which the remedy belongs, such as ``conditions.load``."""
+        return self._field or (None if self.remedy is None else self.remedy.field)
+
+    def words(self, reader: Reader) -> str:
+        """Return the message in the words of a reader."""
+        return shortened(self.note.words(reader))
+
+    def listing(self, reader: Reader = "python") -> str:
+        """Return the message; where it lists mistakes, with more of them than a message holds, one to a line."""
+        return self.words(reader)
+
+    def reworded(self, change: Callable[[str], str]) -> Self:
+        """Return the error with its text changed, such as with files named as the user knows them."""
+        return self._with(self.note.reworded(change))
+
+    def at(self, where: str) -> Self:
+        """Return the error with the place named before its sentence."""
+        return self._with(self.note.at(where))
+
+    def _with(self, note: Note) -> Self:
+        other = copy.copy(self)
+        other.note = note
+        other.args = (other.words("python"),)
+        return other
 
 
 class InputError(ViscofricError, ValueError):
@@ -101,21 +160,40 @@ class DataFileError(InputError):
     ----------
     path : str
         The file, as the user named it.
-    problem : str
+    problem : str or Note
         What is wrong and what would be right, without the file's name.
     row : int, optional
         Line of the file, counted from 1, where the trouble sits.
+    code, remedy : optional
+        As for `ViscofricError`.
     """
 
-    def __init__(self, path: object, problem: str, row: int | None = None) -> None:
-        self.path = str(path)
-        self.problem = shortened(problem)
-        self.row = row
-        where = self.path if row is None else f"{self.path}, line {row}"
-        super().__init__(f"{where}: {problem}")
+    def __init__(
+        self,
+        path: object,
+        problem: str | Note,
+        row: int | None = None,
+        *,
+        code: str = "",
+        remedy: Remedy | None = None,
+    ) -> None:
+        self.path, self.row = str(path), row
+        note = problem if isinstance(problem, Note) else Note(code, problem, remedy=remedy)
+        super().__init__(note.at(self.path if row is None else f"{self.path}, line {row}"))
+
+    @property
+    def problem(self) -> str:
+        """What is wrong, without the file's name."""
+        return str(Note(self.code, self.note.text, remedy=self.remedy))
+
+    def reworded(self, change: Callable[[str], str]) -> Self:
+        """Return the error with its path and its text changed."""
+        other = super().reworded(change)
+        other.path = change(self.path)
+        return other
 
     def __reduce__(self) -> tuple[object, ...]:
-        return type(self), (self.path, self.problem, self.row)
+        return type(self), (self.path, self.problem, self.row), self.__dict__
 
 
 class StudyError(InputError):
@@ -123,25 +201,51 @@ class StudyError(InputError):
 
     Parameters
     ----------
-    problem : str
+    problem : str or Note
         One sentence; of several mistakes, the file and their number.
     mistakes : sequence of str
-        One sentence each.  All are kept here; the message has as many lines as it has room for.
+        One sentence each; of notes, the place is the path of a key.  All are kept here; the message has as many lines
+        as it has room for.
+    code, remedy, field : optional
+        As for `ViscofricError`; the field is by default the place of the first mistake, or that of the sentence.
     """
 
-    def __init__(self, problem: str, mistakes: Sequence[str] = ()) -> None:
-        self.mistakes = tuple(_cut(mistake, LONGEST_SENTENCE) for mistake in mistakes)
-        self._problem = problem
-        super().__init__("\n  ".join([problem, *mistakes]))
+    def __init__(
+        self,
+        problem: str | Note = "",
+        mistakes: Sequence[str] = (),
+        *,
+        code: str = "",
+        remedy: Remedy | None = None,
+        field: str | None = None,
+    ) -> None:
+        self.mistakes = tuple(note_of(one).reworded(lambda text: _cut(text, LONGEST_SENTENCE)) for one in mistakes)
+        super().__init__(problem, code=code, remedy=remedy, field=field)
 
     @property
-    def listing(self) -> str:
-        """The message with its mistakes, one to a line, as many as can be read at once."""
-        if not self.mistakes:
-            return str(self)
+    def field(self) -> str | None:
+        """Path of the run file's key that it is about, such as ``conditions.load``."""
+        return super().field or (self.mistakes[0].where if self.mistakes else self.note.where) or None
+
+    def words(self, reader: Reader) -> str:
+        """Return the message in the words of a reader; of several mistakes, each on a line."""
+        found = [self.note.words(reader), *(one.words(reader) for one in self.mistakes)]
+        return shortened((" " if len(found) == 2 else "\n  ").join(found))
+
+    def listing(self, reader: Reader = "python") -> str:
+        """Return the message with its mistakes, one to a line, as many as can be read at once."""
         more = len(self.mistakes) - _MOST_SENTENCES
-        lines = [f"  {mistake}" for mistake in self.mistakes[:_MOST_SENTENCES]]
-        return "\n".join([self._problem, *lines, *([_and_more(more)] if more > 0 else [])])
+        if len(self.mistakes) < 2:
+            return self.words(reader)
+        lines = [f"  {one.words(reader)}" for one in self.mistakes[:_MOST_SENTENCES]]
+        return "\n".join([self.note.words(reader), *lines, *([_and_more(more)] if more > 0 else [])])
+
+    def reworded(self, change: Callable[[str], str]) -> Self:
+        """Return the error with its text, and those of its mistakes, changed."""
+        other = super().reworded(change)
+        other.mistakes = tuple(one.reworded(change) for one in self.mistakes)
+        other.args = (other.words("python"),)
+        return other
 
 
 class SuperpositionError(InputError):

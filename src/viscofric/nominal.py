@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from viscofric.notes import Note
+
     Array: TypeAlias = NDArray[np.float64]
     Labels: TypeAlias = NDArray[np.int64]
 
@@ -46,7 +48,7 @@ def numbered(values: Array, allowed: Array) -> Labels:
     return labels
 
 
-def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str]) -> Labels:
+def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str | Note]) -> Labels:
     """Give nominal values numbers as `numbered` does, and insist that they can be told from scatter.
 
     Parameters

@@ -1,20 +1,99 @@
-"""A note: a sentence about a result, with a code by which programs and tests recognise it."""
+"""A note: a sentence about a result or an error, with a code for programs and a remedy for each kind of reader."""
 
 from __future__ import annotations
 
 import warnings
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from dataclasses import asdict, dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
+
+#: Who reads a sentence: users of the library, of the commands, of run files (and reports), and of the local page.
+Reader: TypeAlias = Literal["python", "shell", "run_file", "page"]
+READERS: tuple[Reader, ...] = ("python", "shell", "run_file", "page")
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """What to do, as the end of a sentence, in the words of each reader.
+
+    Remedies are joined with each other and with text by ``+``.
+
+    Parameters
+    ----------
+    python : str
+        For users of the library, and for all others whose words are not given.
+    shell : str, optional
+        For users of the commands.
+    run_file : str, optional
+        For users of a run file; without it, as for users of the commands.
+    page : str, optional
+        For users of the local page.
+    field : str, optional
+        Path of the run file's key, also that of the page's field, in which the answer belongs.
+    """
+
+    python: str
+    shell: str | None = None
+    run_file: str | None = None
+    page: str | None = None
+    field: str | None = None
+
+    def words(self, reader: Reader) -> str:
+        """Return the remedy in the words of a reader."""
+        said: str | None = getattr(self, reader)
+        if said is None and reader == "run_file":
+            said = self.shell
+        return self.python if said is None else said
+
+    def __add__(self, other: Remedy | str) -> Remedy:
+        after = Remedy(other) if isinstance(other, str) else other
+        return by_reader(lambda reader: self.words(reader) + after.words(reader), self.field or after.field)
+
+    def __radd__(self, other: str) -> Remedy:
+        return Remedy(other) + self
+
+    def reworded(self, change: Callable[[str], str]) -> Remedy:
+        """Return the remedy with its words changed."""
+        given = {reader: said for reader in READERS if (said := getattr(self, reader)) is not None}
+        return replace(self, **{reader: change(said) for reader, said in given.items()})
+
+
+def by_reader(words: Callable[[Reader], str], field: str | None = None) -> Remedy:
+    """Return what a function says to each reader."""
+    return Remedy(words("python"), words("shell"), words("run_file"), words("page"), field)
+
+
+def setting(field: str, label: str, value: str = "") -> Remedy:
+    """Return what a setting is called: argument, option, key of a run file, or field of the page.
+
+    Parameters
+    ----------
+    field : str
+        Its table and key in a run file; the argument has the name of the key.
+    label : str
+        Of the page's field.
+    value : str
+        What to give, where one is proposed.
+    """
+    table, _, key = field.partition(".")
+    option = f"--{key.replace('_', '-')}"
+    return Remedy(
+        f"{key} = {value}" if value else f"{key}=",
+        f"{option} '{value}'" if value else option,
+        (f"{key} = {value}" if value else key) + f" under [{table}]",
+        f"“{label}”: {value}" if value else f"“{label}”",
+        field,
+    )
 
 
 class Note(str):
     """One sentence for people, with a code for programs.
 
-    A note is text, so it prints, joins and is stored as its sentence; nothing needs to read the sentence to know what
-    it is about.
+    A note is text, so it prints, joins and is stored as its sentence in the words of Python; nothing needs to read the
+    sentence to know what it is about.
 
     Parameters
     ----------
@@ -22,24 +101,77 @@ class Note(str):
         What the note is about, in lower case with hyphens, such as ``"few-replicates"``. Codes stay the same when a
         sentence is reworded.
     text : str
-        The sentence.
+        The sentence, without what is to be done where there is a remedy.
+    where : str, optional
+        The place that it is about, such as a file, a key of a run file or a condition; it stands before the text.
+    remedy : Remedy, optional
+        Follows the text.
 
     Attributes
     ----------
-    code : str
+    code, text, where, remedy
         As given.
     """
 
     code: str
+    text: str
+    where: str
+    remedy: Remedy | None
 
-    def __new__(cls, code: str, text: str) -> Note:
+    def __new__(cls, code: str, text: str, where: str = "", remedy: Remedy | None = None) -> Note:
         """Return the sentence with its code."""
-        note = super().__new__(cls, text)
-        note.code = code
+        said = (f"{where}: " if where else "") + text + ("" if remedy is None else remedy.python)
+        note = super().__new__(cls, said)
+        note.code, note.text, note.where, note.remedy = code, str(text), where, remedy
         return note
 
-    def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]  # pickled with its code
-        return self.code, str(self)
+    def __getnewargs__(self) -> tuple[str, str, str, Remedy | None]:  # type: ignore[override]  # pickled with all
+        return self.code, self.text, self.where, self.remedy
+
+    def words(self, reader: Reader) -> str:
+        """Return the sentence in the words of a reader."""
+        if self.remedy is None:
+            return str(self)
+        return str(Note(self.code, self.text, self.where)) + self.remedy.words(reader)
+
+    def at(self, where: str) -> Note:
+        """Return the note of a wider place, which is named first; an empty one changes nothing."""
+        return Note(self.code, self.text, ": ".join(filter(None, (where, self.where))), self.remedy)
+
+    def reworded(self, change: Callable[[str], str]) -> Note:
+        """Return the note with its words changed, such as with files named as the user knows them."""
+        remedy = None if self.remedy is None else self.remedy.reworded(change)
+        return Note(self.code, change(self.text), change(self.where), remedy)
+
+    def record(self) -> dict[str, Any]:
+        """Return the note as JSON holds it: code and text, and place and remedy where there are any."""
+        found: dict[str, Any] = {"code": self.code, "text": self.text}
+        if self.where:
+            found["where"] = self.where
+        if self.remedy is not None:
+            found["remedy"] = {name: said for name, said in asdict(self.remedy).items() if said is not None}
+        return found
+
+
+def note_of(record: Mapping[str, Any] | str) -> Note:
+    """Return the note that a record holds; a sentence alone has no code.
+
+    Parameters
+    ----------
+    record : mapping or str
+        From `Note.record`, or a sentence.
+    """
+    if isinstance(record, Note):
+        return record
+    if isinstance(record, str):
+        return Note("", record)
+    remedy = record.get("remedy")
+    return Note(record["code"], record["text"], record.get("where", ""), None if remedy is None else Remedy(**remedy))
+
+
+def records(notes: Iterable[str]) -> list[dict[str, Any]]:
+    """Return notes as JSON holds them."""
+    return [note_of(note).record() for note in notes]
 
 
 def codes(notes: Iterable[str]) -> set[str]:
@@ -50,7 +182,7 @@ def codes(notes: Iterable[str]) -> set[str]:
     notes : iterable of str
         Notes, and sentences without a code, which are passed over.
     """
-    return {note.code for note in notes if isinstance(note, Note)}
+    return {note.code for note in notes if isinstance(note, Note) and note.code}
 
 
 @contextmanager

@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.arguments import insist_on, sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, brief
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy, setting
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -213,15 +213,18 @@ class TractionRuns:
 
     def _in_steps(self, name: str, wanted: int | Sequence[int]) -> NDArray[np.bool_]:
         """Tell which readings belong to some steps, all of which there must be."""
-        if self.step is None:
-            raise InputError(f"{name} = {brief(wanted)}: these traction runs do not say what steps they are of.")
         numbers = np.atleast_1d(whole_numbers(wanted, name))
+        asked = Remedy(f"{name} = {brief(wanted)}")
+        if name == "except_steps":
+            asked = setting("measurement.except_steps", "Steps to leave out", ",".join(map(str, numbers)))
+        if self.step is None:
+            raise InputError(
+                "", code="no-steps", remedy=asked + ": these traction runs do not say what steps they are of."
+            )
         known = np.isin(numbers, self.step)
         if not np.all(known):
-            raise InputError(
-                f"{name} = {brief(wanted)}: there is no step {numbers[~known][0]}; steps go from {self.step.min()} to "
-                f"{self.step.max()}."
-            )
+            there = f": there is no step {numbers[~known][0]}; steps go from {self.step.min()} to {self.step.max()}."
+            raise InputError("", code="no-such-step", remedy=asked + there)
         return np.isin(self.step, numbers)
 
 

@@ -110,7 +110,7 @@ def test_shift_factors_are_found_across_loads() -> None:
                 curves, indenter=BALL, vertical_shift=VERTICAL if vertical else None, reference="50 degC"
             ).shift_factors
             np.testing.assert_allclose(factors.log10_values, LAW.log10(factors.temperatures), atol=2e-3)
-    with pytest.raises(InputError, match=r"or give the indenter .*, with which loads are reduced to one"):
+    with pytest.raises(InputError, check=lambda error: error.code == "several-loads"):
         shift_friction(curves)
 
 

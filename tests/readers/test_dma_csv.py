@@ -173,7 +173,7 @@ def test_without_a_word_in_the_file_the_deformation_is_asked_for(tmp_path):
     path = write(tmp_path, HEADER, *ROWS)
     assert read_dma(path, deformation="shear").deformation == "shear"
     assert read_dma(path, deformation="tension").deformation == "tension"
-    with pytest.raises(DataFileError, match="deformation='tension' or 'shear'"):
+    with pytest.raises(DataFileError, check=lambda error: error.code == "no-deformation"):
         readers.read_dma(path)
     assert not trace_dma(path).deformation_known  # shown with the question
     assert trace_dma(path, deformation="shear").deformation_known
@@ -240,9 +240,9 @@ def test_the_two_kinds_of_table_are_not_mistaken_for_each_other(tmp_path):
         "30,1,100,90,25,0.4",
         name="mtm.csv",
     )
-    with pytest.raises(DataFileError, match="use read_mtm"):
+    with pytest.raises(DataFileError, check=lambda error: error.code == "traction-runs"):
         read_dma(mtm)
-    with pytest.raises(DataFileError, match="use read_dma"):
+    with pytest.raises(DataFileError, check=lambda error: error.code == "dma-sweeps"):
         read_mtm(dma)
 
 
@@ -352,7 +352,7 @@ def test_tables_put_one_below_the_other_may_repeat_their_header(tmp_path):
 
 def test_a_modulus_without_unit_is_read_in_the_unit_that_is_given(tmp_path):
     bare = HEADER.replace(" (MPa)", "")
-    with pytest.raises(DataFileError, match="modulus_unit='MPa'"):
+    with pytest.raises(DataFileError, check=lambda error: error.code == "no-unit"):
         read_dma(write(tmp_path, bare, *ROWS))
     sweeps = read_dma(write(tmp_path, bare, *ROWS), modulus_unit="MPa")
     assert_is_the_table(sweeps)
@@ -372,7 +372,7 @@ def test_a_temperature_is_given_or_told_by_the_name_of_the_file(tmp_path):
     assert given.temperatures == pytest.approx([248.15])
     assert any("given by the user" in note for note in given.notes)
     for name in ("foam.csv", "foam-25C.csv", "foam_20C_to_30C.csv"):  # none, a minus or a dash, two
-        with pytest.raises(DataFileError, match=r"temperature='25 degC'.*read_master_curve"):
+        with pytest.raises(DataFileError, check=lambda error: error.code == "no-temperature"):
             read_dma(write(tmp_path, *lines, name=name))
     with pytest.raises(DataFileError, match=r"holds the temperatures; leave out temperature"):
         read_dma(write(tmp_path, HEADER, *ROWS), temperature="20 degC")
@@ -393,13 +393,13 @@ def test_temperatures_may_be_given_for_each_file(tmp_path):
 
 def test_a_master_curve_is_sent_to_its_own_reader(tmp_path):
     rows = [f"1e{power},5,0.5" for power in range(-6, 6)]
-    with pytest.raises(DataFileError, match=r"11 decades of frequency.*use read_master_curve"):
+    with pytest.raises(DataFileError, check=lambda error: error.code == "master-curve"):
         read_dma(write(tmp_path, "f (Hz),E' (MPa),E'' (MPa)", *rows, name="foam_20C.csv"))
 
 
 def test_foam_with_rad_per_s_and_temperatures_in_the_names_of_its_files(real_data):
     files = sorted((real_data / "instruments" / "rad_per_s_tsv").glob("*C.csv"))
-    with pytest.raises(DataFileError, match="modulus_unit='MPa'"):
+    with pytest.raises(DataFileError, check=lambda error: error.code == "no-unit"):
         read_dma(files)
     sweeps = read_dma(files, modulus_unit="MPa", deformation="shear")
     assert len(sweeps) == 19

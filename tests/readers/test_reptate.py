@@ -47,7 +47,7 @@ def test_without_units_they_are_those_of_reptate(tmp_path):
 @pytest.mark.parametrize(
     ("lines", "says"),
     [
-        (["T=40;Mw=88;", "1 5 0.5", "2 6 0.6"], "is a master curve of RepTate; use read_master_curve"),
+        (["T=40;Mw=88;", "1 5 0.5", "2 6 0.6"], "is a master curve of RepTate at 40 °C; use read_master_curve"),
         (["T=40;Mw=88;"], "no row of numbers"),
         (["T=40;Mw=88;", "Freq\tG'\tG''", "rad/s\tPa\tPa", "1 5"], "line 4: the row has fewer than 3 columns"),
         (["T=40;Mw=88;", "Freq\tG'\tG''", "rad/s\tPa\tPa", "1 5 x"], "line 4: 'x' is not a finite number"),

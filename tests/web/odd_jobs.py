@@ -77,7 +77,7 @@ def leak(amount: float, context: Context) -> dict[str, Any]:
 
 
 def refuse(amount: float, context: Context) -> dict[str, Any]:
-    raise InputError(f"{context.files / 'sweeps.csv'}, line 3: conditions.load: is odd.")
+    raise InputError(f"{context.files / 'sweeps.csv'}, line 3: conditions.load: is odd.", field="conditions.load")
 
 
 def solve(amount: float, context: Context) -> dict[str, Any]:

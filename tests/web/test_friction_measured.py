@@ -10,7 +10,6 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import DataFileError, InputError, StudyError
-from viscofric.web.jobs.friction_words import for_the_page
 from web.friction_workspace import STUDY, column, curves, done, workspace
 
 if TYPE_CHECKING:
@@ -115,7 +114,7 @@ def test_files_that_are_no_measurement_are_refused(
 ) -> None:
     with pytest.raises(error) as refused:
         done("measured", context, STUDY, files=files)
-    assert words in str(refused.value)
+    assert words in refused.value.words("page")
     assert str(context.files) not in str(refused.value)
 
 
@@ -137,11 +136,10 @@ def test_wrong_tables_are_told_with_their_field(context: Context, table: dict[st
 def refusal(call: Any) -> str:
     with pytest.raises(InputError) as refused:
         call()
-    return for_the_page(str(refused.value))
+    return refused.value.words("page")
 
 
 def test_the_librarys_advice_becomes_the_pages(tmp_path: Path) -> None:
-    """Each sentence is the library's own, so that one that is worded anew is noticed."""
     speeds, count = np.full(40, 0.1), 40
     columns: dict[str, Any] = {
         "disc_speed": speeds,
@@ -165,9 +163,9 @@ def test_the_librarys_advice_becomes_the_pages(tmp_path: Path) -> None:
     ]
     assert all("--" not in one and "shell" not in one and "Python" not in one for one in told), told
     assert "“Zero of the force cell”" in told[0]
-    assert "“Gap between temperatures” = " in told[1]
+    assert "“Gap between temperatures”: " in told[1]
     assert "“Steps to leave out”: 2" in told[2]
-    assert "“Steps to leave out” = 1" in told[3]
+    assert "“Steps to leave out”: 1" in told[3]
     assert "give a ball" in told[4]
 
 

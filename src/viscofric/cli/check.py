@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import tell_notes, told
 
 if TYPE_CHECKING:
     from viscofric.study.checking import CheckedStudy
@@ -45,7 +45,7 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         _check_results(results, as_json)
         return
     assert study is not None
-    with told():
+    with told("run_file"):
         from viscofric.study.checking import check_study
         from viscofric.study.run_file import decoded, parse_study, read_study_text
 
@@ -61,8 +61,7 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         return
     for word, line in _lines(found, record, study):
         click.echo(f"{word:10} {line}")
-    for note in found.notes:
-        click.echo(f"Note: {note}", err=True)
+    tell_notes(found.notes, "run_file")
 
 
 def _check_results(folder: Path, as_json: bool) -> None:

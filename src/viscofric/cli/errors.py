@@ -14,16 +14,24 @@ if TYPE_CHECKING:
 
     import xarray
 
+    from viscofric.notes import Reader
+
 
 @contextmanager
-def told() -> Iterator[None]:
-    """Turn what viscofric raises on purpose into a message and exit status 1."""
+def told(reader: Reader = "shell") -> Iterator[None]:
+    """Turn what viscofric raises on purpose into a message and exit status 1.
+
+    Parameters
+    ----------
+    reader : str
+        In whose words remedies are: ``"run_file"`` where what is wrong is mended there.
+    """
     from viscofric.errors import ViscofricError
 
     try:
         yield
     except ViscofricError as error:
-        raise click.ClickException(plainly(error.listing)) from error
+        raise click.ClickException(plainly(error.listing(reader))) from error
 
 
 def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
@@ -45,9 +53,10 @@ def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
             click.echo(f"Warning: {check.name}: {readable(check.words)}", err=True)
 
 
-def tell_notes(notes: Iterable[str]) -> None:
-    """Print notes on the data, where they do not mix with the result."""
+def tell_notes(notes: Iterable[str], reader: Reader = "shell") -> None:
+    """Print notes on the data, where they do not mix with the result, in the words of a reader; see `told`."""
+    from viscofric.notes import note_of
     from viscofric.report.messages import readable
 
     for note in notes:
-        click.echo(f"Note: {plainly(readable(note))}", err=True)
+        click.echo(f"Note: {plainly(readable(note_of(note).words(reader)))}", err=True)

@@ -125,7 +125,7 @@ def _shifted(
     except SuperpositionError as error:
         if known is None:
             raise
-        click.echo(f"Note: No shift factors from friction: {error} The modulus's are taken.", err=True)
+        click.echo(f"Note: No shift factors from friction: {error.words('shell')} The modulus's are taken.", err=True)
         return shift_friction(curves, shift=known, reference=reference, **options)
 
 
@@ -138,7 +138,7 @@ def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgre
     try:
         return compare_shift_factors(master, known)
     except InputError as error:
-        click.echo(f"Note: {error}", err=True)
+        tell_notes([error.note])
         return None
 
 

@@ -109,7 +109,7 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
                 _insist_on(Path(results.folder / "results.nc"), report, *figures)
         except ViscofricError as error:
             # A full disk, for one, ends a study as an interrupt does.
-            said = f"{error}{_kept(output)}" if "cannot be written" in str(error) else error.listing
+            said = f"{error}{_kept(output)}" if "cannot be written" in str(error) else error.listing("run_file")
             hearer.tell("error", message=said)
             raise click.ClickException(said) from error
         except KeyboardInterrupt as stop:

@@ -12,6 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.pairing import Pairs, along_reduced_speed, point_by_point
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.notes import Remedy
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -196,7 +197,9 @@ def _insist_on_friction(measured: FrictionCurves) -> None:
     if not np.all(measured.viscoelastic > 0.0):
         raise InputError(
             "viscoelastic of measured friction curves must be above zero everywhere to tell a relative "
-            f"difference, but one is {measured.viscoelastic.min():.3g}; leave such points out with select()."
+            f"difference, but one is {measured.viscoelastic.min():.3g}; leave such points out",
+            code="friction-not-positive",
+            remedy=Remedy(" with select()", "", page="") + ".",
         )
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from viscofric.contact.layers import Layer
 from viscofric.friction.assumption_check import AssumptionCheck, verdict
 from viscofric.friction.finite_thickness import THINNEST, ContactOnLayers
+from viscofric.notes import Note, Remedy
 from viscofric.units import plain, positive
 
 if TYPE_CHECKING:
@@ -96,10 +97,12 @@ def check_half_space(
         }[holds]
     else:
         why = ":" if abs(effect.friction) > passes else ", although"
-        said = (
+        called = Remedy("layer=Layer(…)", "--layer", "[layer]", "“Layer”", "layer")
+        said = Note(
+            "too-thin",
             f"{widest}. {rubber} do not pass for a half-space{' all the same' if holds else ''}{why} {felt}. Solve the "
-            "contact on a layer (layer=Layer(…), in the shell --layer, in a run file [layer]) or use thicker rubber: "
-            f"{radii}, and about {_mm(enough)} for friction within {percent}."
+            "contact on a layer (",
+            remedy=called + f") or use thicker rubber: {radii}, and about {_mm(enough)} for friction within {percent}.",
         )
         holds = False
     return AssumptionCheck("half-space", widest.largest / given, limit, holds, said)

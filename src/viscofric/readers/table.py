@@ -12,6 +12,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
+from viscofric.notes import Remedy
 from viscofric.readers.dma.names import quantity
 from viscofric.readers.printed import decimal_comma, unit_conversion
 
@@ -155,7 +156,7 @@ class Table:
         factor, offset = self.conversion(self.columns[column], unit)
         return factor * self.numbers(column) + offset
 
-    def conversion(self, column: Column, unit: str, hint: str = "") -> tuple[float, float]:
+    def conversion(self, column: Column, unit: str, hint: Remedy | None = None) -> tuple[float, float]:
         """Return ``(factor, offset)`` that turn a column as printed into an SI unit.
 
         Parameters
@@ -164,7 +165,7 @@ class Table:
             One of `columns`.
         unit : str
             The SI unit wanted.
-        hint : str
+        hint : Remedy, optional
             What the user may do where the heading has no unit, besides adding it: the end of a sentence.
 
         Raises
@@ -175,7 +176,8 @@ class Table:
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s"}.get(unit, unit)
         if not column.unit:
             right = f"{column.name} ({example})"
-            raise DataFileError(self.path, f"column {column.heading!r} has no unit; write it as {right!r}{hint}.")
+            problem = f"column {column.heading!r} has no unit; write it as {right!r}"
+            raise DataFileError(self.path, problem, code="no-unit", remedy=(hint or Remedy("")) + ".")
         text = column.unit
         if unit == "K":
             text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]|℃", "", text.replace("℃", "C")).lower(), text)

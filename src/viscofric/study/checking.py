@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.notes import Note
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.cases.case import moved
 from viscofric.study.measurement import read_measurement
@@ -120,30 +121,34 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     StudyError
         With all that is wrong with its data: one sentence for each material, and one for the measurement.
     """
-    rubbers, wrong, measured = [], [], None
+    rubbers, measured = [], None
+    wrong: list[Note] = []
+    field = ""  # of the first that is wrong
     for number, material in enumerate(study.materials):
         try:
             rubber = make_rubber(material)
             _check_temperatures(rubber, np.array(study.conditions.temperature))
         except InputError as error:
-            place = f"material[{number}]: " if len(study.materials) > 1 else ""
-            wrong.append(f"{place}{error}")
+            wrong.append(error.note.at(f"material[{number}]" if len(study.materials) > 1 else ""))
+            field = field or error.field or "material"
         else:
             rubbers.append(rubber)
     if study.measurement is not None:
         try:
             measured = read_measurement(study.measurement)
         except InputError as error:
-            wrong.append(str(error))
+            wrong.append(error.note)
+            field = field or error.field or "measurement"
     try:
         sweep = study.sweep()
         if study.surface is not None:
             first: Any = sweep.cases[0]
             surface_of(first.surface)
     except InputError as error:
-        wrong.append(f"surface: {error}")
+        wrong.append(error.note.at("surface"))
+        field = field or "surface"
     if wrong:
-        raise StudyError(f"{path}: its data cannot be used:", wrong)
+        raise StudyError(f"{path}: its data cannot be used:", wrong, field=field)
     return CheckedStudy(study, sweep, tuple(rubbers), measured)
 
 
@@ -213,12 +218,20 @@ def shift_of(rubber: Rubber) -> ShiftLaw:
     material = rubber.material
     if not isinstance(material.spectrum, RetardationSpectrum):
         raise StudyError(
-            f"material: {material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball "
-            "needs retardation modes, which fitting a spectrum to the table gives (viscofric material fit)."
+            Note(
+                "no-spectrum",
+                f"{material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball needs "
+                "retardation modes, which fitting a spectrum to the table gives (viscofric material fit).",
+                "material",
+            )
         )
     if material.shift is None:
         raise StudyError(
-            f"material: {material.name or 'the rubber'} has no shift factors, so that its temperature cannot be "
-            "chosen; give a rubber that has, or sweeps at several temperatures."
+            Note(
+                "no-shift",
+                f"{material.name or 'the rubber'} has no shift factors, so that its temperature cannot be chosen; give "
+                "a rubber that has, or sweeps at several temperatures.",
+                "material",
+            )
         )
     return material.shift

@@ -155,7 +155,7 @@ def _from_sweeps(wanted: MaterialTable, liquids: bool) -> Rubber:
     except DataFileError:
         raise  # names its own file
     except InputError as error:
-        raise type(error)(f"{name}: {error}") from error
+        raise error.at(name) from error
     spectrum, flowing = _spectrum(wanted, fit.master_curve, _verdict(fit), liquids)
     material = Material(
         spectrum,
@@ -173,7 +173,7 @@ def _from_master_curve(wanted: MaterialTable, liquids: bool) -> Rubber:
     """Take a curve that others superposed; α(T) is what they found, if it is given."""
     path, reference = wanted.master_curve, wanted.reference_temperature
     if path is None or reference is None:
-        raise StudyError("material.reference_temperature: is missing.")
+        raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
     curve = read_master_curve(
         path,
         reference,
@@ -229,7 +229,7 @@ def _verdict(fit: Superposition) -> tuple[str, ...]:
 def _superposed(wanted: MaterialTable, sweeps: IsothermalSweeps) -> Superposition:
     reference = wanted.reference_temperature
     if reference is None:
-        raise StudyError("material.reference_temperature: is missing.")
+        raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
     given = None if wanted.shift_factors is None else read_shift_factors(wanted.shift_factors)
     return superpose(
         sweeps,

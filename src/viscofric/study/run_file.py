@@ -20,7 +20,7 @@ from viscofric.study.contact_tables import (
 from viscofric.study.material_table import MaterialTable
 from viscofric.study.measurement_table import MeasurementTable
 from viscofric.study.relations import relations
-from viscofric.study.run_file_errors import place, sentences, told
+from viscofric.study.run_file_errors import place, problems, told, wrong_tables
 from viscofric.study.settings_tables import ClusterTable, OutputsTable, SolverTable, SweepTable, UncertaintyTable
 from viscofric.study.surface_table import SurfaceTable
 from viscofric.study.sweep import Sweep, sweep_of
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from viscofric.notes import Note
     from viscofric.study.contact_tables import AnyIndenterTable
     from viscofric.study.table import Problem
 
@@ -214,10 +215,9 @@ def parse_study(text: str, path: Path) -> Study:
     try:
         study = Study.model_validate(values)
     except ValidationError as error:
-        found = list(dict.fromkeys([*sentences(error, values, TABLES), *_of_sound_tables(error, values)]))
-        if len(found) == 1:
-            raise StudyError(f"{path}: {found[0]}") from None
-        raise StudyError(f"{path}: {len(found)} things are wrong:", found) from None
+        found = list(dict.fromkeys([*problems(error, values, TABLES), *_of_sound_tables(error, values)]))
+        many = f" {len(found)} things are wrong:" if len(found) > 1 else ""
+        raise StudyError(f"{path}:{many}", found) from None
     return _resolve_paths(study, path)
 
 
@@ -232,7 +232,7 @@ def material_of(values: dict[str, Any]) -> MaterialTable:
     try:
         return MaterialTable.model_validate(values)
     except ValidationError as error:
-        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": MaterialTable}))) from None
+        raise wrong_tables(error, values, {**TABLES, "": MaterialTable}) from None
 
 
 def _toml(text: str, path: Path) -> dict[str, Any]:
@@ -286,7 +286,7 @@ def _adapter(name: str) -> TypeAdapter[Any]:
     return TypeAdapter(whole)
 
 
-def _of_sound_tables(error: ValidationError, values: dict[str, Any]) -> list[str]:
+def _of_sound_tables(error: ValidationError, values: dict[str, Any]) -> list[Note]:
     """Say what does not fit together between the tables that are right in themselves."""
     wrong = {problem["loc"][0] for problem in error.errors() if problem["loc"]}
     if any(problem["type"] == "relation" and len(problem["loc"]) < 1 for problem in error.errors()):

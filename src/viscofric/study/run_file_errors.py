@@ -5,7 +5,8 @@ from __future__ import annotations
 import difflib
 from typing import TYPE_CHECKING, Any
 
-from viscofric.errors import brief
+from viscofric.errors import StudyError, brief
+from viscofric.notes import Note
 from viscofric.study.quantities import VALUE, as_written
 
 if TYPE_CHECKING:
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
 _LONGEST_LIST = 12
 
 
-def sentences(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> list[str]:
-    """Say all that pydantic found.
+def problems(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> list[Note]:
+    """Return all that pydantic found, each a note whose place is its path in the file.
 
     Parameters
     ----------
@@ -35,7 +36,13 @@ def sentences(error: ValidationError, values: object, tables: Mapping[str, type[
     unknown = [problem["loc"] for problem in found if problem["type"] == "extra_forbidden"]
     meant = {(*loc[:-1], near) for loc in unknown for near in _near(str(loc[-1]), keys(_table(loc[:-1], tables)))}
     told_once = [problem for problem in told_once if problem["type"] != "missing" or problem["loc"] not in meant]
-    return list(dict.fromkeys(_sentence(problem, values, tables) for problem in told_once))
+    return list(dict.fromkeys(_problem(problem, values, tables) for problem in told_once))
+
+
+def wrong_tables(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> StudyError:
+    """Return the error that names all that is wrong with a part of a run file; see `problems`."""
+    found = problems(error, values, tables)
+    return StudyError(found[0]) if len(found) == 1 else StudyError(f"{len(found)} things are wrong:", found)
 
 
 def place(parts: Iterable[str | int], values: object) -> str:
@@ -58,10 +65,9 @@ def place(parts: Iterable[str | int], values: object) -> str:
     return path
 
 
-def told(where: str, words: str) -> str:
+def told(where: str, words: str) -> Note:
     """Return a sentence about a place in the file."""
-    whole = f"{where}: {words}" if where else words
-    return whole if whole.endswith((".", "?")) else f"{whole}."
+    return Note("run-file", words if words.endswith((".", "?")) else f"{words}.", where)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -80,7 +86,7 @@ def _is_bare(part: str) -> bool:
     return 0 < len(part) <= 60 and part.isascii() and part.replace("_", "").replace("-", "").isalnum()
 
 
-def _sentence(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]) -> str:
+def _problem(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]) -> Note:
     where = place(problem["loc"], values)
     kind = problem["type"]
     if kind == "extra_forbidden":

@@ -141,6 +141,7 @@ def _members(rubber: Rubber, bands: FrictionBands, uncertainty: UncertaintyTable
     if samples is None:
         raise StudyError(
             f"uncertainty.members = {count}: {rubber.material.name or 'the rubber'} cannot be drawn anew, as only the "
-            "sweeps that a rubber is made of tell how well it is known; leave members out, or give its sweeps."
+            "sweeps that a rubber is made of tell how well it is known; leave members out, or give its sweeps.",
+            field="uncertainty.members",
         )
     return samples.materials[:count]

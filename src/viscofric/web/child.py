@@ -12,7 +12,6 @@ import contextlib
 import json
 import os
 import queue
-import re
 import signal
 import sys
 import threading
@@ -26,8 +25,8 @@ from viscofric.serving import at_most, limit_memory
 from viscofric.web.cache_folder import look_after
 from viscofric.web.jobs import WARM
 from viscofric.web.jobs.context import Context, plain
-from viscofric.web.jobs.page_words import page_words
 from viscofric.web.study_files import check_confined
+from viscofric.web.study_text import beside_field
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -39,8 +38,6 @@ _LARGEST_FILE = 200_000_000  # bytes, of one that a job writes
 _NO_MEMORY = "There was not enough memory for this; ask for less accuracy or fewer points."
 _DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 _NICE = 5  # the server and the browser go first
-_TABLES = "title|data_origin|material|indenter|surface|layer|conditions|sweep|measurement|solver|uncertainty|outputs"
-_FIELD = re.compile(rf"(?:^|[:\s])((?:{_TABLES}|options)(?:\.[\w-]+|\[\d+\])*): ")
 
 
 def main(parent: int, warm: Iterable[str] = WARM) -> None:
@@ -202,11 +199,13 @@ def _was_importing(trace: TracebackType | None) -> bool:
 def _told(error: BaseException, files: Path) -> dict[str, Any]:
     """Return what the page says of an error: a sentence, and the field of the study that it is about."""
     if isinstance(error, ViscofricError):
-        words, asked = page_words(_without_folder(str(error), files))
-        found = _FIELD.search(words)
-        field = getattr(error, "field", None) or (found[1] if found else asked)
-        problems = [{"field": one.field, "message": one.message} for one in getattr(error, "problems", ())]
-        return {"message": words, "field": field, "problems": problems or [{"field": field, "message": words}]}
+        shown = error.reworded(lambda text: _without_folder(text, files))
+        words, problems = shown.words("page"), [beside_field(one) for one in getattr(shown, "mistakes", ())]
+        return {
+            "message": words,
+            "field": shown.field,
+            "problems": problems or [{"field": shown.field, "message": words}],
+        }
     if isinstance(error, MemoryError):
         return {"message": _NO_MEMORY, "field": None}
     if type(error).__name__ == "ValidationError" and hasattr(error, "errors"):

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import StudyError, brief
+from viscofric.notes import Note
 from viscofric.study.run_file import FIELDS, TABLES, parse_study
 from viscofric.study.run_file_errors import keys
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
     from viscofric.study.run_file import Study
@@ -24,43 +25,28 @@ _DEEPEST = 10
 #: Keys of a run file, in its order.
 KEYS = tuple(field.alias or name for name, field in FIELDS.items())
 _OF_INDENTERS = ("shape", "radius", "radius_x", "radius_y", "angle", "modulus", "poisson_ratio")
-_PLACE = re.compile(rf"((?:{'|'.join(KEYS)})(?:\.[\w-]+|\.'[^']*'|\[\d+\])*): (.+)", re.DOTALL)
-
-
-class Problem(NamedTuple):
-    """What is wrong at one place of the document.
-
-    Parameters
-    ----------
-    field : str
-        Path in the document, such as ``conditions.load``; "" if it is about several.
-    message : str
-        A sentence that stands beside that field.
-    """
-
-    field: str
-    message: str
 
 
 class DocumentError(StudyError):
-    """What is wrong with a document, sentence by sentence.
+    """What is wrong with a document.
 
     Parameters
     ----------
-    problems : tuple of Problem
+    problems : sequence of Note
+        Each with its path in the document, such as ``conditions.load``, as its place; none if it is about several.
     """
 
-    def __init__(self, problems: tuple[Problem, ...]) -> None:
-        self.problems = problems
-        super().__init__(" ".join(f"{one.field}: {one.message}" if one.field else one.message for one in problems))
-
-    @property
-    def field(self) -> str:
-        """Path of the first place that is wrong."""
-        return self.problems[0].field
+    def __init__(self, problems: Sequence[Note]) -> None:
+        super().__init__("The study cannot be used:", problems)
 
     def __reduce__(self) -> tuple[object, ...]:
-        return type(self), (self.problems,)
+        return type(self), (self.mistakes,), self.__dict__
+
+
+def beside_field(problem: Note) -> dict[str, str]:
+    """Return what the page writes beside the field that a problem is about."""
+    words = Note(problem.code, problem.text, remedy=problem.remedy).words("page")
+    return {"field": problem.where, "message": words[:1].upper() + words[1:]}
 
 
 def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
@@ -90,27 +76,16 @@ def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
     try:
         study = parse_study(text, path)
     except StudyError as error:
-        raise DocumentError(_problems(str(error), f"{path}: ")) from None
+        whole = error.note.reworded(lambda text: text.replace(f"{path}: ", ""))
+        raise DocumentError(error.mistakes or [whole]) from None
     for file in study.inputs:
         if file.parent != folder or file.name in ("", ".."):
             words = f"{brief(str(file))} lies elsewhere; drop the file on the page, and give its name alone."
-            raise DocumentError((Problem("", words),))
+            raise DocumentError([Note("file-not-here", words)])
         if file.name.casefold() == RUN_FILE:
             words = f"A data file is called {file.name}, as the run file itself will be; drop it under another name."
-            raise DocumentError((Problem("", words),))
+            raise DocumentError([Note("name-of-run-file", words)])
     return text, study
-
-
-def _problems(said: str, start: str) -> tuple[Problem, ...]:
-    """Return the sentences of an error of a run file, each with its place."""
-    first, *others = said.removeprefix(start).split("\n  ")
-    return tuple(map(_problem, others or [first]))
-
-
-def _problem(sentence: str) -> Problem:
-    if found := _PLACE.fullmatch(sentence):
-        return Problem(found[1], found[2][0].upper() + found[2][1:])
-    return Problem("", sentence)
 
 
 def study_text(document: Mapping[str, Any]) -> str:
@@ -144,7 +119,7 @@ def study_text(document: Mapping[str, Any]) -> str:
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise DocumentError((Problem("", "The study holds half of a character, which no file can."),)) from None
+        raise DocumentError([Note("no-unicode", "The study holds half of a character, which no file can.")]) from None
     return text
 
 
@@ -171,7 +146,8 @@ def _key(key: str) -> str:
 
 def _value(value: object, path: str, depth: int = 0) -> str:
     if depth > _DEEPEST:
-        raise DocumentError((Problem(path.partition("[")[0], "Lists or tables lie within each other too deeply."),))
+        deep = Note("too-deep", "Lists or tables lie within each other too deeply.", path.partition("[")[0])
+        raise DocumentError([deep])
     if isinstance(value, dict):
         inside = [f"{_key(str(key))} = {_value(one, f'{path}.{key}', depth + 1)}" for key, one in value.items()]
         return f"{{ {', '.join(inside)} }}" if inside else "{}"
@@ -187,5 +163,5 @@ def _scalar(value: object, path: str) -> str:
     import tomli_w
 
     if value is None:
-        raise DocumentError((Problem(path, "Is null; leave the key out, or give it a value."),))
+        raise DocumentError([Note("null", "Is null; leave the key out, or give it a value.", path)])
     return tomli_w.dumps({"value": value}).removeprefix("value = ").removesuffix("\n")

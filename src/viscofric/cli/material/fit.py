@@ -132,7 +132,9 @@ def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw
         with warned() as notes:
             path = write_program_card(material, folder / "cards", form, law)
     except ViscofricError as error:
-        click.echo(f"Error: no card for {form}: {error} (viscofric material convert has the options.)", err=True)
+        click.echo(
+            f"Error: no card for {form}: {error.words('shell')} (viscofric material convert has the options.)", err=True
+        )
         return False
     click.echo(f"card     {path}")
     tell_notes(notes)

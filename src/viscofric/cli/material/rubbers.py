@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import click
+from viscofric.cli.errors import tell_notes
 
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material
@@ -22,6 +22,5 @@ def find_rubber(name: str) -> Material:
     if not (path.is_file() or path.suffix):
         return catalogue_material(name)
     card = open_card(path)
-    for note in card.notes:
-        click.echo(f"Note: {note}", err=True)
+    tell_notes(card.notes)
     return card.material

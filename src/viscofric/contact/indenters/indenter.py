@@ -112,7 +112,8 @@ def insist_on_round_edges(indenter: Indenter) -> None:
         raise InputError(
             f"indenter: a {indenter.noun} has a sharp edge, whose friction in motion is decided by how round it really "
             "is, at any speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the "
-            "solid is elastic."
+            "solid is elastic.",
+            field="indenter",
         )
 
 

@@ -12,6 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.error_freedom import error_freedom
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
+from viscofric.notes import Remedy
 from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
@@ -135,8 +136,9 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         worst = rows[int(np.argmin(friction))]
         raise InputError(
             f"viscoelastic friction is {curves.viscoelastic[worst]:.3g} at {curves.speed[worst]:.3g} m/s and "
-            f"{celsius(float(curves.temperature[worst])):.1f} °C: must be above zero; leave the point out with "
-            "curves.select(), or check the signs of the measurement."
+            f"{celsius(float(curves.temperature[worst])):.1f} °C: must be above zero; leave the point out",
+            code="friction-not-positive",
+            remedy=Remedy(" with curves.select()", "", page="") + ", or check the signs of the measurement.",
         )
     forces = curves.load[rows] if load is None else np.full(len(rows), positive(load, unit, "load"))
     middle = float(np.exp(np.mean(np.log(forces))))
@@ -145,7 +147,9 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
     if not alike and np.ptp(relative) > np.log1p(SAME_LOAD):
         raise InputError(
             f"load of the friction curves runs from {forces.min():.3g} to {forces.max():.3g} {unit}, but contacts of "
-            f"a {indenter.noun} at different loads are not alike; choose one with curves.at_load()."
+            f"a {indenter.noun} at different loads are not alike; choose one",
+            code="several-loads",
+            remedy=Remedy(" with curves.at_load()", "", page="") + ".",
         )
     rule = LoadRule.of(indenter) if alike else LoadRule(0.0, 0.0)
     temperatures, number = np.unique(curves.temperature[rows], return_inverse=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.measurement.gapless import Gapless
+from viscofric.friction.measurement.gapless import SPEED_TOLERANCE, Gapless
 from viscofric.nominal import SAME_LOAD, clusters
 from viscofric.units import celsius
 
@@ -120,7 +120,7 @@ def conditions(
             lambda low, high: f"temperature from {celsius(low):z.1f} to {celsius(high):z.1f} °C",
             temperature_tolerance,
             relative=False,
-            option="temperature_tolerance",
+            option=("measurement.temperature_tolerance", "Gap between temperatures"),
             unit=" K",
         ),
     )
@@ -138,7 +138,7 @@ def conditions(
             "abs(runs.disc_speed)",
             lambda low, high: f"disc_speed from {1e3 * low:.4g} to {1e3 * high:.4g} mm/s",
             speed_tolerance,
-            option="speed_tolerance",
+            option=SPEED_TOLERANCE,
         ),
     )
     mean_speed = np.bincount(pace, speed) / np.bincount(pace)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.nominal import LONGEST_CHAIN
+from viscofric.notes import Note, Remedy, setting
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
+#: Field and label of the gap between nominal speeds, see `viscofric.notes.setting`.
+SPEED_TOLERANCE = ("measurement.speed_tolerance", "Gap between speeds")
 _NAMED = 8  # steps that a sentence names at most
 
 
@@ -38,8 +41,8 @@ class Gapless:
     gap : float
         That parts nominal values, absolute or relative.
     relative : bool
-    option : str
-        Name of the tolerance; empty where it is fixed.
+    option : tuple of str
+        Field and label of the tolerance, see `viscofric.notes.setting`; empty where it is fixed.
     unit : str
         Of the tolerance.
     """
@@ -50,21 +53,24 @@ class Gapless:
     shown: Callable[[float, float], str]
     gap: float
     relative: bool = True
-    option: str = ""
+    option: tuple[str, str] | tuple[()] = ()
     unit: str = ""
 
-    def __call__(self, low: float, high: float) -> str:
+    def __call__(self, low: float, high: float) -> Note:
         """Say what has no gap from `low` to `high`, and what to do."""
         told = f"{self.shown(low, high)} has no gap that would tell nominal values from scatter"
         if not self.option:
-            return f"{told} (a gap is {100 * self.gap:g} %); {self._selection(low, high)}."
+            told += f" (a gap is {100 * self.gap:g} %); "
+            return Note("no-gap", told, remedy=self._selection(low, high) + ".")
         wide = (math.log(high / low) if self.relative else high - low) / LONGEST_CHAIN
         # Rounded up to two digits.
         wide = float(f"{1.05 * wide:.1e}")
-        one = f"if they are of one nominal value, give {self.option} = {wide:g}{self.unit}"
-        return f"{told}: {one}; if of several, one below {self.gap:g}{self.unit}; or {self._selection(low, high)}."
+        one = setting(*self.option, f"{wide:g}{self.unit}")
+        several = f"; if of several, one below {self.gap:g}{self.unit}; or "
+        remedy = ": if they are of one nominal value, give " + one + several + self._selection(low, high) + "."
+        return Note("no-gap", told, remedy=remedy)
 
-    def _selection(self, low: float, high: float) -> str:
+    def _selection(self, low: float, high: float) -> Remedy:
         """Say what to select: all but the steps that are not steady, or what is near the median."""
         inside = (self.values >= low) & (self.values <= high)
         allowed = self.gap * (high if self.relative else 1.0)
@@ -74,11 +80,19 @@ class Gapless:
             moving = [step for step, span in zip(steps, spans, strict=True) if span > allowed]
             if moving and len(moving) <= _NAMED and len(moving) < np.unique(self.runs.step).size:
                 words = f"step {moving[0]} is" if len(moving) == 1 else f"steps {', '.join(map(str, moving))} are"
-                shell = f"--except-steps {','.join(map(str, moving))}"
-                way = f"runs.select(except_steps={moving}) ({shell} in the shell)"
-                return f"{words} not steady; leave out what is not, by {way}"
+                listed = ",".join(map(str, moving))
+                return f"{words} not steady; leave out what is not, by " + Remedy(
+                    f"runs.select(except_steps={moving})",
+                    f"--except-steps {listed}",
+                    f"except_steps = {moving} under [measurement]",
+                    f"“Steps to leave out”: {listed.replace(',', ', ')}",
+                    "measurement.except_steps",
+                )
         middle = float(np.median(self.values[inside]))
-        return (
-            "leave out what was not steady, such as by "
-            f"runs.select(abs({self.expression} - {middle:.4g}) < {allowed:.2g})"
+        return "leave out what was not steady" + Remedy(
+            f", such as by runs.select(abs({self.expression} - {middle:.4g}) < {allowed:.2g})",
+            " (--except-steps)",
+            " (except_steps under [measurement])",
+            " by “Steps to leave out”",
+            "measurement.except_steps",
         )

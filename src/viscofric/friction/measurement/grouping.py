@@ -11,7 +11,9 @@ from viscofric.errors import InputError
 from viscofric.friction.measurement import two_groups
 from viscofric.friction.measurement.conditions import Condition, conditions, where
 from viscofric.friction.measurement.course import Course, of_both, of_the_disc
+from viscofric.friction.measurement.gapless import SPEED_TOLERANCE
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
+from viscofric.notes import Note, Remedy, setting
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -91,7 +93,7 @@ def _readings(groups: list[Condition]) -> int:
     return sum(group.rows.size for group in groups)
 
 
-def _at_other_speeds(one: Condition, others: list[Condition]) -> str:
+def _at_other_speeds(one: Condition, others: list[Condition]) -> Remedy:
     """Say at which speed near that of a condition the signs were measured that it lacks; nothing without any."""
     near = [
         other.speed
@@ -102,33 +104,32 @@ def _at_other_speeds(one: Condition, others: list[Condition]) -> str:
         and abs(other.speed - one.speed) <= _NEAR * one.speed
     ]
     if not near:
-        return ""
+        return Remedy("")
     speed = min(near, key=lambda speed: abs(speed - one.speed))
-    return (
-        f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger speed_tolerance, in the "
-        "shell --speed-tolerance, joins them)"
-    )
+    said = f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger "
+    return said + setting(*SPEED_TOLERANCE) + " joins them)"
 
 
-def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> str:
+def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> Note:
     """Say what the signs do not tell, and what to measure or give."""
     first = poor[0]
     missing = [words for signs, words in _WORDS.items() if signs not in first.signs]
     rolls = not np.any(first.slip_sign)
     known = zeros.covers(first)
-    advice = f"measure also {' or '.join(missing)}"
+    advice = Remedy(f"; measure also {' or '.join(missing)}")
     if rolls:
-        advice = "measure also with the velocities of disc and ball reversed"
+        advice = Remedy("; measure also with the velocities of disc and ball reversed")
     else:
         advice += _at_other_speeds(first, poor)
     unknowns = ["the force cell's zero"] * (not known) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
     told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if not known:
-        zero = "(zero= in Python, --zero in the shell)"
-        advice += f", or give its zero, read with ball and disc apart {zero}"
+        zero = setting("measurement.zero", "Zero of the force cell")
+        advice += ", or give its zero, read with ball and disc apart (" + zero + ")"
     elif not rolls and assumed.nothing:
-        advice += ", or say what Coulomb friction to assume (coulomb= in Python, --coulomb in the shell)"
+        coulomb = setting("measurement.coulomb", "Assumed Coulomb friction")
+        advice += ", or give the Coulomb friction to assume (" + coulomb + ")"
     because = "slip is zero (pure rolling) and " if rolls else ""
     leaving = "; these readings are left out" if left_out else ""
     unclear = f"the signs of the velocities do not tell {told} friction apart"
-    return f"{where(poor, total)} {because}{unclear}{leaving}; {advice}."
+    return Note("signs-missing", f"{where(poor, total)} {because}{unclear}{leaving}", remedy=advice + ".")

@@ -16,6 +16,7 @@ from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_ro
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.nominal import SAME_LOAD
+from viscofric.notes import Remedy
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive, to_si
 
@@ -207,8 +208,16 @@ def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: An
     if curves.load.max() > (1.0 + SAME_LOAD) * curves.load.min():
         raise InputError(
             f"load of the friction curves runs from {curves.load.min():.3g} to {curves.load.max():.3g} "
-            f"{curves.load_unit}, but a master curve holds at one load; choose one with curves.at_load(), or give "
-            "the indenter (in the shell --ball), with which loads are reduced to one."
+            f"{curves.load_unit}, but a master curve holds at one load; ",
+            code="several-loads",
+            remedy=Remedy(
+                "choose one with curves.at_load(), or give the indenter,",
+                "give the ball (--ball),",
+                "give the [indenter],",
+                "give a ball,",
+                "indenter",
+            )
+            + " with which loads are reduced to one.",
         )
 
 

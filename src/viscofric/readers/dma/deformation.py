@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from viscofric.notes import Note, setting
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -14,9 +16,10 @@ if TYPE_CHECKING:
     Said = tuple[Deformation | None, str]
 
 #: What remains to do where nothing decides: the end of a sentence.
-NOT_SAID = (
-    "does not say whether it was measured in tension or in shear, a factor of 3 in the modulus; give "
-    "deformation='tension' or 'shear' (--deformation in the shell, deformation under [material] in a run file)."
+NOT_SAID = Note(
+    "no-deformation",
+    "does not say whether it was measured in tension or in shear, a factor of 3 in the modulus; give ",
+    remedy=setting("material.deformation", "Measured in", "'tension' or 'shear'") + ".",
 )
 
 _SHEAR_WORDS = r"shear|schub|scher|cisaillement|cizall|cortante|taglio|cisalh|сдвиг"

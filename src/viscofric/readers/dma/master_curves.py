@@ -11,6 +11,7 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.readers.dma.deformation import NOT_SAID
 from viscofric.readers.dma.formats import format_of
+from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import delimited, dma_columns, reptate, workbook
 from viscofric.readers.printed import unit_conversion
 from viscofric.readers.source import Source
@@ -101,8 +102,8 @@ def _table(source: Source) -> Table:
     if found.NAME == delimited.NAME:
         return delimited.delimited_table(source)
     if found.NAME != workbook.NAME:
-        problem = f"is a file of an instrument ({found.NAME}), not a table of a master curve; use read_dma."
-        raise DataFileError(source.path, problem)
+        problem = f"is a file of an instrument ({found.NAME}), not a table of a master curve"
+        raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
     tables = workbook.tables(source)
     if len(tables) > 1:
         problem = f"the sheets {', '.join(map(repr, tables))} each hold a table with moduli; keep one of them."
@@ -131,7 +132,8 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
 def _of_reptate(source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
     found = reptate.columns(source)
     if not found.is_master_curve:
-        raise DataFileError(source.path, "is a sweep at one temperature (RepTate .osc), no master curve; use read_dma.")
+        problem = "is a sweep at one temperature (RepTate .osc), no master curve"
+        raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
     told = float(found.temperature[0])
     if np.isfinite(told) and abs(told - reference) > 0.01:  # K; the file gives few digits
         problem = f"holds for {celsius(told):.4g} °C, as its first line says, not for {celsius(reference):.4g} °C."

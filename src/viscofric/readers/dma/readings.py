@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from viscofric.notes import Remedy
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -12,6 +14,21 @@ if TYPE_CHECKING:
     from viscofric.data import Deformation
 
     Array = NDArray[np.float64]
+
+
+#: What to do with a master curve where sweeps are read, and with sweeps where a master curve is.
+AS_MASTER_CURVE = Remedy(
+    "; use read_master_curve with its reference temperature.",
+    run_file="; name it as master_curve, with its reference_temperature.",
+    page="; under “Data” choose “A master curve” as the source, and drop it there.",
+    field="material.dma",
+)
+AS_SWEEPS = Remedy(
+    "; use read_dma.",
+    run_file="; name it as dma.",
+    page="; under “Data” choose “Sweeps of a DMA or rheometer” as the source, and drop it there.",
+    field="material.master_curve",
+)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.table import Column, Table, table_of_text
 
@@ -76,14 +76,22 @@ def _columns(table: Table) -> dict[str, int]:
         if any("loss" in c.name.lower() or "''" in c.name for c in table.columns):
             raise DataFileError(
                 table.path,
-                "this is a table of DMA sweeps, not of traction runs; use read_dma, or name it as dma under "
-                "[material] of a run file.",
+                "this is a table of DMA sweeps, not of traction runs",
+                code="dma-sweeps",
+                remedy=Remedy(
+                    "; use read_dma, or name it as dma under [material] of a run file.",
+                    "; viscofric material reads it, and as dma under [material] a run file.",
+                    "; name it as dma under [material].",
+                    "; drop it at the step “Data”.",
+                    "measurement.mtm",
+                ),
             )
         raise DataFileError(
             table.path,
             f"no column for {' or '.join(missing)}; a table of traction runs has e.g. 'temperature (degC)', "
             f"'disc speed (mm/s)', 'ball speed (mm/s)', 'load (N)', 'traction force (N)', "
             f"this one has {table.headings()}.",
+            code="missing-columns",
         )
     return {name: place for name, place in places.items() if place is not None}
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import Note, Remedy
 from viscofric.readers.mtm.pcs_doubts import notes
 from viscofric.readers.mtm.pcs_rows import SIGNALS, rows_of
 from viscofric.readers.mtm.pcs_steps import number_of, parse
@@ -145,11 +146,12 @@ def _temperature(rows: Rows, row: Whole, thermometer: Thermometer) -> tuple[Arra
         gap = np.abs(own - other)
         far = gap[~np.isnan(gap)]
         if far.size and far.mean() > _THERMOMETERS_AGREE:
-            told.append(
+            words = (
                 f"Temperatures are those of the {thermometer} RTD, {celsius(float(np.nanmean(own))):z.1f} °C on "
-                f"average, but the {_OTHER[thermometer]} RTD reads {celsius(float(np.nanmean(other))):z.1f} °C; "
-                f"thermometer={_OTHER[thermometer]!r} takes that one."
+                f"average, but the {_OTHER[thermometer]} RTD reads {celsius(float(np.nanmean(other))):z.1f} °C"
             )
+            choice = Remedy(f"; thermometer={_OTHER[thermometer]!r} takes that one.", ".", page=".")
+            told.append(Note("thermometers-differ", words, remedy=choice))
         else:
             told.append(f"Temperatures are those of the {thermometer} RTD.")
     lacking = np.flatnonzero(np.isnan(own))

@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.arguments import insist_on, whole_number
 from viscofric.errors import DataFileError, InputError, check_choice, shortened
 from viscofric.files import file_path, read_text
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, plain
 from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
 from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
@@ -211,28 +211,35 @@ def _left_out(material: Material, form: str, domain: str, text: str) -> list[Not
     written = (stored_content(text) or {"card": {}})["card"].get("shift")
     if shift is not None and not written:
         about = f"The card for {form} holds at {celsius(float(shift.reference)):z.1f} °C only: "
-        notes.append(Note("card-without-shift", about + _why_no_shift(shift, form, domain)))
+        notes.append(_no_shift(about, shift, form, domain))
     if material.vertical_shift is not None:
         notes.append(Note("card-without-vertical-shift", f"The card for {form} lacks the vertical shift b(T)."))
     return notes
 
 
-def _why_no_shift(shift: Any, form: str, domain: str) -> str:
-    if form == "comsol-branches":
-        return 'a table of branches holds no shift; format "comsol" does.'
-    if form == "abaqus" and domain == "frequency":
-        return "in the frequency domain Abaqus takes no shift."
-    if not isinstance(shift, ShiftFactors):
-        return f"the program knows a WLF or an Arrhenius law, but no {shift.title} law; give the material one of them."
+def _no_shift(about: str, shift: Any, form: str, domain: str) -> Note:
+    """Say why a card has no shift, and what would write one."""
     only = "the program takes a shift law, but no table of shift factors"
-    try:
-        law = _best_law(shift)
-    except InputError:
-        return f"{only}, and neither a WLF nor an Arrhenius law describes them."
-    return (
-        f"{only}. {law}, fitted to them, misses them by up to {max(_missed(shift, law), 0.001):.1g} decades; "
-        'law="best" (in the shell --card-law best) writes it.'
-    )
+    remedy = None
+    if form == "comsol-branches":
+        why = 'a table of branches holds no shift; format "comsol" does.'
+    elif form == "abaqus" and domain == "frequency":
+        why = "in the frequency domain Abaqus takes no shift."
+    elif not isinstance(shift, ShiftFactors):
+        why = f"the program knows a WLF or an Arrhenius law, but no {shift.title} law; give the material one of them."
+    else:
+        try:
+            law = _best_law(shift)
+        except InputError:
+            why = f"{only}, and neither a WLF nor an Arrhenius law describes them."
+        else:
+            why = f"{only}. {law}, fitted to them, misses them by up to {max(_missed(shift, law), 0.001):.1g} decades"
+            remedy = Remedy(
+                '; law="best" writes it.',
+                "; --card-law best writes it.",
+                page="; choose a law under “Shift law” to write it.",
+            )
+    return Note("card-without-shift", about + why, remedy=remedy)
 
 
 def open_card(

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.arguments import sentences, whole_number
 from viscofric.errors import InputError
+from viscofric.notes import Remedy
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
@@ -108,8 +109,14 @@ class ShiftFactors(ShiftLaw):
             wanted = float(kelvin[outside][0])
             raise InputError(
                 f"temperature = {celsius(wanted):z.1f} °C lies outside the measured "
-                f"{celsius(low):z.1f} to {celsius(high):z.1f} °C; fit a law (such as WLF or Arrhenius) to go beyond"
-                f"{kelvin_hint(wanted)}."
+                f"{celsius(low):z.1f} to {celsius(high):z.1f} °C",
+                code="outside-measured",
+                remedy=Remedy(
+                    "; fit a law (such as WLF or Arrhenius) to go beyond",
+                    page="; leave it out, or use a law under “Shift” to go beyond",
+                    field="conditions.temperature",
+                )
+                + f"{kelvin_hint(wanted)}.",
             )
 
     def _log10(self, kelvin: Array) -> Array:

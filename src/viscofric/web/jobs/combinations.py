@@ -30,7 +30,7 @@ def page_sweep(study: Study) -> Sweep:
     sweep = study.model_copy(update={"uncertainty": bare}).sweep()
     if len(sweep.cases) > MOST_CASES:
         raise JobError(
-            f"conditions: {len(sweep.cases):,} cases are more than the {MOST_CASES:,} that the page solves; take fewer "
+            f"{len(sweep.cases):,} cases are more than the {MOST_CASES:,} that the page solves; take fewer "
             "speeds, temperatures or loads here, or export the run file and solve it with viscofric run.",
             "conditions",
         )

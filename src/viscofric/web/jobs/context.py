@@ -14,6 +14,8 @@ from viscofric.errors import ViscofricError
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from viscofric.notes import Note
+
 _BETWEEN_TOLD = 0.05  # s, of progress: a browser shows no more
 _EXACT = 22  # powers of ten up to this one are exact as floats
 
@@ -23,14 +25,13 @@ class JobError(ViscofricError):
 
     Parameters
     ----------
-    message : str
+    message : str or Note
     field : str, optional
         Path in the study, such as ``conditions.load``.
     """
 
-    def __init__(self, message: str, field: str | None = None) -> None:
-        super().__init__(message)
-        self.field = field
+    def __init__(self, message: str | Note, field: str | None = None) -> None:
+        super().__init__(message, field=field)
 
 
 def plain(value: Any, digits: int | None = 6) -> Any:

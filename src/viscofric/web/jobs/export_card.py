@@ -8,7 +8,6 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.notes import warned
 from viscofric.web.jobs.export_files import offered
-from viscofric.web.jobs.page_words import page_words
 from viscofric.web.jobs.rubbers import made_rubber
 
 if TYPE_CHECKING:
@@ -74,5 +73,5 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             domain=options.domain,
             law=options.law if form not in _OWN and isinstance(rubber.material.shift, ShiftFactors) else None,
         )
-    said = [page_words(note)[0] for note in notes]
+    said = [note.words("page") for note in notes]
     return {"text": path.read_text(encoding="utf-8"), "download": offered(path, f"card for {form}"), "notes": said}

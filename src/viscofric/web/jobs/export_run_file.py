@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.errors import ViscofricError
+from viscofric.notes import Note
 from viscofric.web.jobs.export_files import archive, missing_files, offered
-from viscofric.web.study_text import RUN_FILE, DocumentError, Problem, study_of, study_text
+from viscofric.web.study_text import RUN_FILE, DocumentError, beside_field, study_of, study_text
 
 if TYPE_CHECKING:
     from viscofric.study.run_file import Study
@@ -56,7 +57,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     if checked is None or problems:
         if options.pack:
             raise DocumentError(problems)
-        told = [one._asdict() for one in problems]
+        told = list(map(beside_field, problems))
         return {"text": text, "problems": told, "cases": None, "files": None, "download": None}
     download = None
     if options.pack:
@@ -71,20 +72,20 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     }
 
 
-def _checked(study: dict[str, Any], context: Context) -> tuple[str, tuple[Problem, ...], Study | None]:
+def _checked(study: dict[str, Any], context: Context) -> tuple[str, tuple[Note, ...], Study | None]:
     """Return the text, what is wrong with it, and the study if it is one."""
     try:
         text, checked = study_of(study, context.files)
         missing = [
-            Problem(_place_of(study, name), f"The file {name} is not here; drop it on the page first.")
+            Note("file-not-here", f"The file {name} is not here; drop it on the page first.", _place_of(study, name))
             for name in missing_files(checked)
         ]
     except DocumentError as error:
-        return _text_of(study), error.problems, None
+        return _text_of(study), error.mistakes, None
     try:
         checked.sweep()
     except ViscofricError as error:
-        return text, (Problem("conditions", str(error)),), None
+        return text, (error.note.at("conditions"),), None
     return text, tuple(missing), checked
 
 

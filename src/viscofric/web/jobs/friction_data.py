@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.notes import note_of
 from viscofric.report.results import nearest, nominal_temperatures
 
 if TYPE_CHECKING:
@@ -100,6 +101,5 @@ def pairs(lines: Iterable[tuple[str, str]]) -> list[dict[str, str]]:
 def texts(sentences: Sequence[str]) -> list[str]:
     """Return sentences ready for readers, each once."""
     from viscofric.report.messages import readable
-    from viscofric.web.jobs.friction_words import for_the_page
 
-    return [for_the_page(readable(one)) for one in dict.fromkeys(sentences)]
+    return [readable(one.words("page")) for one in dict.fromkeys(map(note_of, sentences))]

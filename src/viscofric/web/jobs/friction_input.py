@@ -7,18 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
+from viscofric.notes import Note, note_of
 from viscofric.web.jobs.friction_tables import measurement_table
-from viscofric.web.jobs.friction_words import for_the_page
-from viscofric.web.jobs.rubbers import kept, without_folder
+from viscofric.web.jobs.rubbers import kept, named_without_folder, without_folder
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.measurement_table import MeasurementTable
     from viscofric.traction import TractionRuns
     from viscofric.web.jobs.rubbers import Folders
+
+
+_NOTHING = Note("", "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +40,9 @@ class Measured:
         Whether a file says that it was made up.
     curves : FrictionCurves or None
         None where runs cannot be separated.
-    refusal : str
-        Why they cannot.
-    notes : tuple of str
+    refusal : Note
+        Why they cannot; empty where they can.
+    notes : tuple of Note
         What was doubtful.
     """
 
@@ -48,8 +51,8 @@ class Measured:
     steps: list[tuple[int, str]]
     synthetic: bool
     curves: FrictionCurves | None
-    refusal: str
-    notes: tuple[str, ...]
+    refusal: Note
+    notes: tuple[Note, ...]
 
 
 def measured(study: Mapping[str, Any], folders: Folders) -> Measured:
@@ -90,8 +93,7 @@ def _measured(table: MeasurementTable, folders: Folders) -> Measured:
     try:
         return _of_curves(table.curves, folders) if table.curves is not None else _of_runs(table, folders)
     except DataFileError as error:
-        problem = for_the_page(without_folder(error.problem, folders))
-        raise DataFileError(without_folder(error.path, folders), problem, error.row) from None
+        raise named_without_folder(error, folders) from None
 
 
 def _of_curves(path: Path, folders: Folders) -> Measured:
@@ -99,7 +101,7 @@ def _of_curves(path: Path, folders: Folders) -> Measured:
 
     curves = _named(read_friction_curves(path), folders)
     lines = [("file", path.name), ("recognised as", "a table of friction curves, separated already")]
-    return Measured(False, lines, [], _is_made_up(path), curves, "", curves.notes)
+    return Measured(False, lines, [], _is_made_up(path), curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
 
 def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
@@ -114,9 +116,9 @@ def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
     try:
         curves = _named(_separated(runs, table), folders)
     except InputError as error:
-        notes = tuple(without_folder(note, folders) for note in runs.notes)
-        return Measured(True, lines, steps, made_up, None, for_the_page(without_folder(str(error), folders)), notes)
-    return Measured(True, lines, steps, made_up, curves, "", curves.notes)
+        refusal = named_without_folder(error, folders).note
+        return Measured(True, lines, steps, made_up, None, refusal, _named_notes(runs.notes, folders))
+    return Measured(True, lines, steps, made_up, curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
 
 def _separated(runs: TractionRuns, table: MeasurementTable) -> FrictionCurves:
@@ -137,8 +139,12 @@ def _kinds(paths: Sequence[Path]) -> str:
 
 def _named(curves: FrictionCurves, folders: Folders) -> FrictionCurves:
     """Return curves that name uploaded files as the user knows them."""
-    notes = tuple(for_the_page(without_folder(note, folders)) for note in curves.notes)
+    notes = _named_notes(curves.notes, folders)
     return replace(curves, source=without_folder(curves.source, folders), notes=notes)
+
+
+def _named_notes(notes: Iterable[str], folders: Folders) -> tuple[Note, ...]:
+    return tuple(note_of(note).reworded(lambda text: without_folder(text, folders)) for note in notes)
 
 
 def _is_made_up(path: Path) -> bool:

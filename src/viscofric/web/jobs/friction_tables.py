@@ -8,10 +8,11 @@ from pydantic import ValidationError
 
 from viscofric.errors import StudyError
 from viscofric.friction.curve_files import holds_friction_curves
+from viscofric.notes import Note
 from viscofric.study.contact_tables import IndenterTable  # noqa: TC001 - pydantic looks at it
 from viscofric.study.measurement_table import MeasurementTable  # noqa: TC001 - pydantic looks at it
 from viscofric.study.run_file import TABLES
-from viscofric.study.run_file_errors import sentences
+from viscofric.study.run_file_errors import wrong_tables
 from viscofric.study.table import Table
 from viscofric.web.jobs.rubbers import insist_on_uploads
 
@@ -62,10 +63,8 @@ def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[s
     if len(names) > 1:
         other = next((name for name in names if name not in tables), None)
         said = f"{other} is none: drop either" if other else "there are several: drop"
-        raise StudyError(
-            f"measurement.curves: {tables[0]} is a table of friction curves, and {said} one such table, or the runs "
-            "of a tribometer."
-        )
+        words = f"{tables[0]} is a table of friction curves, and {said} one such table, or the runs of a tribometer."
+        raise StudyError(Note("mixed-files", words, "measurement.curves"))
     return {"curves": tables[0]}
 
 
@@ -89,12 +88,12 @@ def measurement_table(study: Mapping[str, Any], folders: Folders) -> Measurement
         With every wrong key, unit and range, or if a file is none of the uploaded ones.
     """
     if not study.get("measurement"):
-        raise StudyError(f"measurement: there is none; {_ABOUT}.")
+        raise StudyError(Note("no-measurement", f"there is none; {_ABOUT}.", "measurement"))
     values = {"measurement": study["measurement"]}
     try:
         table = _MeasurementTables.model_validate(values).measurement
     except ValidationError as error:
-        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _MeasurementTables}))) from None
+        raise wrong_tables(error, values, {**TABLES, "": _MeasurementTables}) from None
     insist_on_uploads("measurement.mtm", table.mtm, folders.files)
     insist_on_uploads("measurement.curves", table.curves, folders.files)
     return table.beside(folders.files)
@@ -114,14 +113,16 @@ def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
     try:
         table = _IndenterTables.model_validate(values).indenter
     except ValidationError as error:
-        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _IndenterTables}))) from None
+        raise wrong_tables(error, values, {**TABLES, "": _IndenterTables}) from None
     for name, sizes in table.axes.items():
         if len(sizes) > 1:
-            raise StudyError(f"indenter.{name}: has {len(sizes)} values; friction was measured with one.")
+            said = f"has {len(sizes)} values; friction was measured with one."
+            raise StudyError(Note("several-sizes", said, f"indenter.{name}"))
     return table.made(*(sizes[0] for sizes in table.axes.values()))
 
 
 def _insist_on_upload(path: Path, folder: Path) -> None:
     """Refuse a name, which may hold what would be a pattern in a run file, that is none of the uploaded files'."""
     if path.parent != folder or not path.is_file():
-        raise StudyError(f"measurement.mtm: '{path.name}' is not one of the page's files; drop it on the page first.")
+        said = f"'{path.name}' is not one of the page's files; drop it on the page first."
+        raise StudyError(Note("file-not-here", said, "measurement.mtm"))

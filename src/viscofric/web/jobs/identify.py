@@ -72,6 +72,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         If a table is wrong, or the friction does not suffice.
     """
     from viscofric.friction.identification.identify import LEVELS, identify_material
+    from viscofric.notes import Note
     from viscofric.web.jobs.context import JobError
     from viscofric.web.jobs.friction_input import friction_curves
     from viscofric.web.jobs.friction_tables import indenter_of
@@ -80,7 +81,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     curves = friction_curves(study, context)
     indenter = indenter_of(study)
     if indenter is None:
-        raise JobError("indenter: is missing; say what slid over the rubber, such as a ball.", "indenter")
+        raise JobError(
+            Note("missing", "is missing; say what slid over the rubber, such as a ball.", "indenter"), "indenter"
+        )
     wants_rubber = options.beside or options.shift == "rubber" or (options.anchor and options.anchor.of == "rubber")
     rubber = made_rubber(study, context).material if wants_rubber else None
     chosen: dict[str, Any] = {"accuracy": options.accuracy, "samples": options.samples}

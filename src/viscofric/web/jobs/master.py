@@ -68,7 +68,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     from viscofric.web.jobs.friction_data import texts
     from viscofric.web.jobs.friction_input import friction_curves
     from viscofric.web.jobs.friction_tables import indenter_of
-    from viscofric.web.jobs.friction_words import for_the_page
     from viscofric.web.jobs.rubbers import made_rubber
 
     curves = friction_curves(study, context)
@@ -89,7 +88,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     except SuperpositionError as error:
         if known is None:
             raise
-        result["refusal"] = for_the_page(str(error))
+        result["refusal"] = error.words("page")
     else:
         result["found"], told = _found(found, known, options, context)
         notes += told

@@ -63,7 +63,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "steps": [{"number": number, "text": text} for number, text in found.steps],
         "runs": found.runs,
         "synthetic": found.synthetic,
-        "refusal": found.refusal or None,
+        "refusal": found.refusal.words("page") or None,
         "notes": texts(found.notes),
         "curves": None,
     }

@@ -13,10 +13,11 @@ from pydantic import Field, ValidationError
 
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_bytes, write_atomically
+from viscofric.notes import Note
 from viscofric.study.material_table import MaterialTable, files_of
 from viscofric.study.rubber import Rubber, make_rubber
 from viscofric.study.run_file import TABLES
-from viscofric.study.run_file_errors import sentences
+from viscofric.study.run_file_errors import wrong_tables
 from viscofric.study.settings_tables import UncertaintyTable
 from viscofric.study.table import Table
 
@@ -81,7 +82,7 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
     try:
         tables = _RubberTables.model_validate(values)
     except ValidationError as error:
-        raise StudyError(" ".join(sentences(error, values, {**TABLES, "": _RubberTables}))) from None
+        raise wrong_tables(error, values, {**TABLES, "": _RubberTables}) from None
     for key in ("dma", "master_curve", "file", "shift_factors"):
         insist_on_uploads(f"material.{key}", getattr(tables.material, key), folders.files)
     return tables.material.beside(folders.files), tables.uncertainty
@@ -193,9 +194,7 @@ def without_folder(text: str, folders: Folders) -> str:
 
 def named_without_folder(error: InputError, folders: Folders) -> InputError:
     """Return an error of the same kind that names uploaded files as the user knows them."""
-    if isinstance(error, DataFileError):
-        return DataFileError(without_folder(error.path, folders), without_folder(error.problem, folders), error.row)
-    return type(error)(without_folder(str(error), folders))
+    return error.reworded(lambda text: without_folder(text, folders))
 
 
 def _made(table: MaterialTable, folders: Folders) -> Rubber:
@@ -229,7 +228,8 @@ def insist_on_uploads(place: str, given: Path | tuple[Path, ...] | None, folder:
         outside = path.is_absolute() or len(path.parts) != 1
         missing = [str(path)] if outside else [one.name for one in files_of(folder, path) if not one.is_file()]
         if missing:
-            raise StudyError(f"{place}: '{missing[0]}' is not one of the page's files; drop it on the page first.")
+            said = f"'{missing[0]}' is not one of the page's files; drop it on the page first."
+            raise StudyError(Note("file-not-here", said, place))
 
 
 def _key(name: str, settings: Sequence[object], inputs: Sequence[Path]) -> str:

@@ -12,7 +12,6 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.web.jobs.context import Context, JobError, plain
-from viscofric.web.jobs.page_words import page_words
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, without_folder
 
 if TYPE_CHECKING:
@@ -86,9 +85,8 @@ def _one_or_each(temperatures: tuple[float, ...]) -> float | list[float | None]:
 
 
 def _asking(error: InputError) -> JobError:
-    """Return the error with the field whose value would mend it, where the reader's sentence says so."""
-    words, field = page_words(str(error))
-    return JobError(words, field or "material.dma")
+    """Return the error with the field whose value would mend it."""
+    return JobError(error.note, error.field or "material.dma")
 
 
 def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> dict[str, Any]:
@@ -193,8 +191,8 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         rubber = made_rubber(study, context)
     except DataFileError as error:
         key = "file" if table.file is not None else "master_curve"
-        told = _asking(error) if key == "master_curve" else JobError(str(error))
-        raise JobError(str(told), told.field if told.field != "material.dma" else f"material.{key}") from None
+        asked = error.field if key == "master_curve" else None
+        raise JobError(error.note, asked or f"material.{key}") from None
     source = "catalogue" if table.catalogue else "file" if table.file else "master_curve"
     about = []
     if table.catalogue:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import setting
 from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.deformation import said_by_columns
 from viscofric.readers.dma.instruments.ta_steps import ROLES, roles
@@ -160,8 +161,9 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
         factor, offset = _conversion(source, step, signal, "K", "°C")
         return factor * signal.values + offset
     if source.temperature is None:
-        problem = f"step {step.name!r} has no column 'Temperature'; say it, such as temperature='25 degC'."
-        raise DataFileError(source.path, problem)
+        problem = f"step {step.name!r} has no column 'Temperature'; give "
+        remedy = setting("material.temperature", "Temperature of the sweep", "'25 degC'") + "."
+        raise DataFileError(source.path, problem, code="no-temperature", remedy=remedy)
     notes.append(f"No column holds a temperature; {celsius(source.temperature):z.1f} °C was given by the user.")
     return np.full(len(step.places), source.temperature)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.notes import setting
 from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.deformation import deformation_of, said_by_columns
 from viscofric.readers.dma.names import (
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-_HINT = ", or say it by modulus_unit='MPa'"
+_HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
 _MODULI = ("storage modulus", "loss modulus", "complex modulus")
 
 

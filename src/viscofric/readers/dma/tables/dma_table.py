@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.names import STEP, quantity, temperature_in_name
 from viscofric.readers.dma.plausibility import doubts
-from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.dma.tables.dma_columns import (
     angular_frequency,
     deformation,
@@ -118,13 +118,20 @@ def _no_temperature(table: Table, decades: float) -> DataFileError:
     if decades > WIDEST_SWEEP:
         return DataFileError(
             table.path,
-            f"no column for temperature, and {decades:.0f} decades of frequency: this looks like a master curve; "
-            "use read_master_curve with its reference temperature.",
+            f"no column for temperature, and {decades:.0f} decades of frequency: this looks like a master curve",
+            code="master-curve",
+            remedy=AS_MASTER_CURVE,
         )
     return DataFileError(
         table.path,
-        f"no column for temperature, this table has {table.headings()}; for a sweep at one temperature say it, "
-        "temperature='25 degC', and a master curve is read by read_master_curve.",
+        f"no column for temperature, this table has {table.headings()}; for a sweep at one temperature give ",
+        code="no-temperature",
+        remedy=setting("material.temperature", "Temperature of the sweep", "'25 degC'")
+        + Remedy(
+            ", and a master curve is read by read_master_curve.",
+            run_file=", and a master curve is named as master_curve.",
+            page=".",
+        ),
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Remedy
 from viscofric.readers.dma.deformation import tools_in
 from viscofric.readers.dma.names import quantity
 from viscofric.readers.table import Column, Table, heading, make_table
@@ -43,8 +44,15 @@ def insist_on_moduli(path: str, cells: Sequence[str]) -> None:
     if not quantities(cells) & _MODULI and any("traction" in cell.lower() for cell in cells):
         raise DataFileError(
             path,
-            "this is a table of traction runs, not of DMA sweeps; use read_mtm, or name it as mtm under "
-            "[measurement] of a run file.",
+            "this is a table of traction runs, not of DMA sweeps",
+            code="traction-runs",
+            remedy=Remedy(
+                "; use read_mtm, or name it as mtm under [measurement] of a run file.",
+                "; viscofric measure reads it, and as mtm under [measurement] a run file.",
+                "; name it as mtm under [measurement].",
+                "; drop it under “Measurement”.",
+                "material.dma",
+            ),
         )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.deformation import deformation_of
 from viscofric.readers.dma.names import quantity
-from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.printed import to_rad_per_second, unit_conversion
 from viscofric.readers.table import heading
 from viscofric.units import CELSIUS_ZERO
@@ -87,8 +87,8 @@ def read(source: Source) -> Readings:
     found = columns(source)
     if found.is_master_curve:
         reference = found.parameters.get("T", "25")
-        problem = f"is a master curve of RepTate; use read_master_curve with its reference, '{reference} degC'."
-        raise DataFileError(source.path, problem)
+        problem = f"is a master curve of RepTate at {reference} °C"
+        raise DataFileError(source.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
     if source.temperature is not None:
         raise DataFileError(source.path, "tells its temperature itself; leave out temperature for this file.")
     if not np.all(np.isfinite(found.temperature)):
