@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import os
 from typing import TYPE_CHECKING
 
 from viscofric.notes import Note, note_of
@@ -194,6 +195,13 @@ class DataFileError(InputError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.path, self.problem, self.row), self.__dict__
+
+
+def not_written(path: object, error: Exception) -> DataFileError:
+    """Return the error of a file that cannot be written: the disk is full, the folder read-only, or removed."""
+    number = getattr(error, "errno", None)  # h5py buries the reason in a long text of its own
+    why = os.strerror(number) if number else error
+    return DataFileError(path, f"cannot be written ({why}).", code="not-written")
 
 
 class StudyError(InputError):

@@ -13,7 +13,7 @@ import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from viscofric.errors import DataFileError, InputError, brief
+from viscofric.errors import DataFileError, InputError, brief, not_written
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -145,17 +145,17 @@ def parse_json(text: str | bytes, **options: Any) -> Any:
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Return what TOML holds; raise `ValueError`, in a sentence, where it is none or nested too deeply."""
+    """Return what TOML holds; raise `InputError` where it is nested too deeply, `ValueError` where it is none."""
     import tomllib
 
-    deep = "lists or tables lie within each other too deeply"
+    deep = InputError("lists or tables lie within each other too deeply", code="too-deep")
     dots = (key[0].count(".") for key in _KEY.finditer(text))
     if sum(count for count in dots if count > _FEW_DOTS) > _MOST_DOTS:
-        raise ValueError(deep)
+        raise deep
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise ValueError(deep) from None
+        raise deep from None
 
 
 def saved_array(data: bytes, path: str | PathLike[str]) -> NDArray[np.generic]:
@@ -278,4 +278,4 @@ def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> No
             temporary.unlink(missing_ok=True)
             raise
     except OSError as error:
-        raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error
+        raise not_written(path, error) from error

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import viscofric as vf
 from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
-from viscofric.report.messages import grouped_failures
+from viscofric.report.words import grouped_failures
 from viscofric.study.contacts import Solved
 from viscofric.study.places import place_in
 from viscofric.study.results import input_hashes
@@ -98,10 +98,10 @@ def test_inputs_beside_the_run_file_are_named_from_there(tmp_path: Path) -> None
 def test_a_place_tells_all_that_varies(tmp_path: Path) -> None:
     sweep = made_sweep(materials=("NBR", "EPDM"), speeds=(0.02, 20.0))
     assert place_in(sweep, 0) == "30 °C, 20 mm/s, NBR, 10 N, radius 5 mm"
-    assert place_in(sweep, len(sweep.cases) - 1) == "90 °C, 20000 mm/s, EPDM, 25 N, radius 10 mm"
+    assert place_in(sweep, len(sweep.cases) - 1) == "90 °C, 20 m/s, EPDM, 25 N, radius 10 mm"
     solved = Solved(sweep.cases, tuple(made_outcomes(sweep, failed=[5])), sweep)
     assert [str(one) for one in solved.failures] == [f"{place_in(sweep, 5)}: accuracy not reached."]
-    assert grouped_failures([str(one) for one in solved.failures], 5) == [
+    assert grouped_failures([one.note for one in solved.failures], 5) == [
         "90 °C, 20 m/s, NBR, 10 N, radius 5 mm: accuracy not reached."
     ]
 

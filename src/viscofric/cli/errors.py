@@ -45,18 +45,18 @@ def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
         Checks that are left out, by their names; of several rubbers, that of each follows the name.
     """
     from viscofric.report.checks import all_checks
-    from viscofric.report.messages import readable
+    from viscofric.report.numbers import typeset
 
     left_out = tuple(but)
     for check in all_checks(tree):
         if check.verdict in ("look at this", "failed") and not check.name.startswith(left_out):
-            click.echo(f"Warning: {check.name}: {readable(check.words)}", err=True)
+            click.echo(f"Warning: {check.name}: {typeset(check.words)}", err=True)
 
 
 def tell_notes(notes: Iterable[str], reader: Reader = "shell") -> None:
     """Print notes on the data, where they do not mix with the result, in the words of a reader; see `told`."""
     from viscofric.notes import note_of
-    from viscofric.report.messages import readable
+    from viscofric.report.numbers import typeset
 
     for note in notes:
-        click.echo(f"Note: {plainly(readable(note_of(note).words(reader)))}", err=True)
+        click.echo(f"Note: {plainly(typeset(note_of(note).words(reader)))}", err=True)

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
-#: Of the sentence that refuses a table as one of traction runs.
-_WITHOUT = "no column for"
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
 
 
@@ -44,7 +42,7 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
         try:
             return separated(paths, settings)
         except DataFileError as error:
-            if _WITHOUT not in str(error):
+            if error.code != "missing-columns":
                 raise
             raise InputError(f"{error} A table of friction curves has a column 'viscoelastic friction'.") from error
     other = [path for path in paths if path not in tables]
@@ -82,8 +80,11 @@ def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves
 def _plain(curves: FrictionCurves) -> FrictionCurves:
     """Return friction curves that do not name the file in which standard input was kept."""
     from viscofric.cli.files import plainly
+    from viscofric.notes import note_of
 
-    return replace(curves, source=plainly(curves.source), notes=tuple(map(plainly, curves.notes)))
+    return replace(
+        curves, source=plainly(curves.source), notes=tuple(note_of(note).reworded(plainly) for note in curves.notes)
+    )
 
 
 def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:

@@ -145,7 +145,7 @@ def _prior(asked: dict[str, Any]) -> dict[str, Any]:
 
 def _tell(found: IdentifiedMaterial) -> None:
     from viscofric.report.identification_summary import family_lines, modulus_lines
-    from viscofric.report.messages import readable
+    from viscofric.report.numbers import typeset
 
     for table in (modulus_lines(found), family_lines(found)):
         for line in table:
@@ -153,7 +153,7 @@ def _tell(found: IdentifiedMaterial) -> None:
         if table:
             click.echo()
     for sentence in found.sentences:
-        click.echo(readable(sentence))
+        click.echo(typeset(sentence))
 
 
 def _write(

@@ -109,7 +109,7 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
                 _insist_on(Path(results.folder / "results.nc"), report, *figures)
         except ViscofricError as error:
             # A full disk, for one, ends a study as an interrupt does.
-            said = f"{error}{_kept(output)}" if "cannot be written" in str(error) else error.listing("run_file")
+            said = error.listing("run_file") + (_kept(output) if error.code == "not-written" else "")
             hearer.tell("error", message=said)
             raise click.ClickException(said) from error
         except KeyboardInterrupt as stop:
@@ -159,7 +159,8 @@ def _kept(output: Path) -> str:
 
 def tell(results: StudyResults, quiet: bool = False) -> None:
     """Print notes (unless it is to be quiet), warnings and failures: few of each, the report has them all."""
-    from viscofric.report.messages import grouped_failures, readable
+    from viscofric.report.numbers import typeset
+    from viscofric.report.words import grouped_failures
 
     notes = () if quiet else results.notes
     if len(notes) > _MOST_LINES:
@@ -168,9 +169,9 @@ def tell(results: StudyResults, quiet: bool = False) -> None:
         many = f"{len(notes)} notes" if len(notes) > 1 else "1 note"
         click.echo(f"{many} on the data, also in the report:", err=True)
         for note in notes:
-            click.echo(f"Note: {readable(note)}", err=True)
+            click.echo(f"Note: {typeset(note.words('run_file'))}", err=True)
     for warning in results.warnings:
-        click.echo(f"Warning: {readable(warning)}", err=True)
+        click.echo(f"Warning: {typeset(warning.words('run_file'))}", err=True)
     tell_doubts(results.tree, but=_TOLD_OTHERWISE)
     for line in grouped_failures(results.failures, _MOST_LINES):
         click.echo(f"Failed: {line}", err=True)

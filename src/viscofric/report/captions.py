@@ -11,9 +11,9 @@ from viscofric.report.contacts import shown_contacts
 from viscofric.report.doubts import interpolated, is_extrapolated
 from viscofric.report.house_style import degrees
 from viscofric.report.map_figures import MARKED_TEMPERATURES
-from viscofric.report.messages import readable
+from viscofric.report.numbers import typeset
 from viscofric.report.panels import panel_count
-from viscofric.report.results import group, is_rough, is_synthetic, reference_temperature, rubbers, sentences
+from viscofric.report.results import group, is_rough, is_synthetic, notes, reference_temperature, rubbers
 from viscofric.report.sweeps import (
     MOST_LINES,
     MOST_PANELS,
@@ -45,8 +45,8 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
     measured = "synthetic measurement" if made else "measured"
     bars = f" Points: {measured}, with bars of one standard deviation over the repetitions." if points else ""
     # Only what was tested: a sentence of the study tells how the curves coincide, or that they do not overlap.
-    told = (note for note in sentences(tree.attrs, "notes") if "overlap in reduced speed" in note)
-    together = f" {readable(next(told, ''))}".rstrip() if points else ""
+    told = (note for note in notes(tree.attrs, "notes") if note.code in ("curves-coincide", "curves-apart"))
+    together = f" {typeset(next(told, ''))}".rstrip() if points else ""
     return {
         "friction_against_speed": "Viscoelastic friction against speed. "
         f"Lines: predicted{_thin(tree, 'prediction')}{_shaded(tree, 'prediction')}.{bars}",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError
+from viscofric.errors import not_written
 from viscofric.files import write_atomically
 
 if TYPE_CHECKING:
@@ -47,4 +47,4 @@ def _netcdf(path: Path, solution: ContactSolution) -> bytes:
             solution.to_dataset().to_netcdf(made, engine="h5netcdf")
             return made.read_bytes()
     except OSError as error:
-        raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error
+        raise not_written(path, error) from error

@@ -46,10 +46,10 @@ def is_extrapolated(cases: xr.Dataset) -> Mask:
     return outside
 
 
-def remarks(tree: xr.DataTree, cases: xr.Dataset) -> list[str]:
-    """Return what is doubtful about each case, in a word or two; empty texts for sound ones."""
+def remarks(tree: xr.DataTree, cases: xr.Dataset) -> list[tuple[str, ...]]:
+    """Return what is doubtful about each case, in a word or two; nothing about sound ones."""
     marks = [(WIDE, is_wide(tree, cases)), (EXTRAPOLATED, is_extrapolated(cases))]
-    return ["; ".join(word for word, mask in marks if mask[row]) for row in range(len(marks[0][1]))]
+    return [tuple(word for word, mask in marks if mask[row]) for row in range(len(marks[0][1]))]
 
 
 def interpolated(cases: xr.Dataset) -> Mask:

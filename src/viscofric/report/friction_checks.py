@@ -12,7 +12,7 @@ from viscofric.report.check import Check
 from viscofric.report.doubts import interpolated, is_extrapolated, knows_range, reach
 from viscofric.report.friction_summary import CONSISTENT_WITHIN, consistency_words
 from viscofric.report.numbers import percent, several, significant
-from viscofric.report.results import group, is_from_friction, is_rough, number, numbers, sentences, values
+from viscofric.report.results import group, is_from_friction, is_rough, notes, number, numbers, values
 from viscofric.report.sweeps import solved_cases
 from viscofric.study.results import beyond_accuracy
 
@@ -191,7 +191,7 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
     found = group(tree, "prediction")
     if found is None:
         return
-    failures = sentences(tree.attrs, "failures")
+    failures = notes(tree.attrs, "failures")
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
         yield Check("All cases solved", "failed", f"{many} could not be solved: see above.")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,10 +27,10 @@ if TYPE_CHECKING:
 
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
-_DOUBTFUL = (
-    f"{WIDE}: reaching beyond {SMALL_STRAIN:g} ball radii from the axis; "
-    f"{EXTRAPOLATED}: at frequencies that were not measured"
-)
+_DOUBTFUL = {
+    WIDE: f"reaching beyond {SMALL_STRAIN:g} ball radii from the axis",
+    EXTRAPOLATED: "at frequencies that were not measured",
+}
 _MEANINGS = (
     "95 %: the band that the uncertainty of the rubber leaves; "
     "front and rear: from the ball's axis to the leading and to the trailing edge of the contact; half-width: across "
@@ -46,12 +47,12 @@ _ROUGH_MEANINGS = (
 )
 
 
-def _with_remarks(table: Table, doubts: list[str]) -> Table:
+def _with_remarks(table: Table, doubts: Sequence[tuple[str, ...]]) -> Table:
     """Add a column that says what is doubtful about a row, if anything is about any."""
     if not any(doubts):
         return table
-    rows = [[*row, doubt] for row, doubt in zip(table.rows, doubts, strict=True)]
-    note = f"{table.note} {_DOUBTFUL}.".strip()
+    rows = [[*row, "; ".join(doubt)] for row, doubt in zip(table.rows, doubts, strict=True)]
+    note = f"{table.note} {_meaning(*_DOUBTFUL)}.".strip()
     return replace(table, headings=[*table.headings, "remark"], rows=rows, note=note)
 
 
@@ -96,7 +97,7 @@ def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tup
         + (f" Shown: {several(some)}; all of them are in the tables below." if some else ""),
         ["speed (mm/s)", *(_together(column) for column in shown)],
         rows,
-        note=f"* {_or(doubts)}." if any(cell.endswith("*") for row in rows for cell in row) else "",
+        note=f"* {_meaning(*chain(*doubts))}." if any(cell.endswith("*") for row in rows for cell in row) else "",
     )
 
 
@@ -120,7 +121,7 @@ def _highest_friction(
         f"Highest predicted viscoelastic friction coefficient.{some}",
         [*(name.replace("_", " ") for name in others), "highest friction", "at", "and", "lowest friction"],
         shown,
-        note=f"* {_or(doubts)}." if any("*" in cell for row in shown for cell in row) else "",
+        note=f"* {_meaning(*chain(*doubts))}." if any("*" in cell for row in shown for cell in row) else "",
     )
 
 
@@ -129,10 +130,9 @@ def _together(label: str) -> str:
     return ", ".join(part.replace(" ", "\N{NO-BREAK SPACE}") for part in label.split(", "))
 
 
-def _or(doubts: list[str]) -> str:
-    """Say which doubts the marked cells carry."""
-    told = [part for part in _DOUBTFUL.split("; ") if any(part.split(":")[0] in doubt for doubt in doubts)]
-    return "; ".join(told)
+def _meaning(*doubts: str) -> str:
+    """Say what the marks of doubtful cells stand for, those that there are."""
+    return "; ".join(f"{doubt}: {meaning}" for doubt, meaning in _DOUBTFUL.items() if doubt in doubts)
 
 
 def agreement_table(tree: xr.DataTree) -> Table | None:
@@ -231,10 +231,8 @@ def _states(cases: xr.Dataset) -> tuple[Array, Array]:
     return values(cases, "failed") == 1.0, values(cases, "interpolated") == 1.0
 
 
-def _state(failed: bool, between: bool, doubt: str) -> str:
-    return "; ".join(
-        word for word in ("not solved" if failed else "", "interpolated" if between else "", doubt) if word
-    )
+def _state(failed: bool, between: bool, doubts: tuple[str, ...]) -> tuple[str, ...]:
+    return (*(["not solved"] if failed else []), *(["interpolated"] if between else []), *doubts)
 
 
 def measurement_table(tree: xr.DataTree) -> Table | None:

@@ -15,11 +15,11 @@ from viscofric.report.checks import all_checks, counted
 from viscofric.report.dark import adaptive
 from viscofric.report.drawing import RUBBER_FIGURES, figure_images, save_images
 from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
-from viscofric.report.messages import grouped_failures, readable
+from viscofric.report.numbers import typeset
 from viscofric.report.question import inputs, what_was_asked
-from viscofric.report.results import group, is_synthetic, rubbers, sentences, table
+from viscofric.report.results import group, is_synthetic, notes, rubbers, sentences, table
 from viscofric.report.tables import detail_tables
-from viscofric.report.words import key_numbers
+from viscofric.report.words import grouped_failures, key_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -109,7 +109,7 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
         "agreement_words": [] if agreement is None else sentences(agreement.attrs, "sentences"),
         "statements": []
         if spectrum is None
-        else [readable(statement) for statement in sentences(spectrum.attrs, "statements")],
+        else [typeset(statement) for statement in sentences(spectrum.attrs, "statements")],
         "checks": checks,
         "verdicts": counted(checks),
         "answer_figures": _figures(tree, images, _ANSWER),
@@ -117,9 +117,9 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
             (heading, found) for heading, names in _groups(tree) if (found := _figures(tree, images, names))
         ],
         "tables": detail_tables(tree),
-        "failures": grouped_failures(sentences(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
-        "warnings": [readable(warning) for warning in sentences(tree.attrs, "warnings")],
-        "notes": [readable(note) for note in sentences(tree.attrs, "notes")],
+        "failures": grouped_failures(notes(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
+        "warnings": [typeset(one.words("run_file")) for one in notes(tree.attrs, "warnings")],
+        "notes": [typeset(one.words("run_file")) for one in notes(tree.attrs, "notes")],
         "command": attrs.get("command") or f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
         "study_text": attrs.get("study_text", ""),
         "software": table(tree.attrs, "software"),

@@ -84,7 +84,7 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
     axes.set_yscale("log")
     axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
     axes.set_xlabel("temperature (°C)")
-    axes.set_ylabel(r"shift factor $\alpha_T$" + at_temperature(table.reference).replace(" at ", ", 1 at "))
+    axes.set_ylabel(r"shift factor $\alpha_T$" + at_temperature(table.reference, ", 1"))
     plain_numbers(axes, "x")
     decade_ticks(axes.yaxis)
     legend_above(axes, handles, columns=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 ABSENT = "–"
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
@@ -10,6 +11,13 @@ _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, 
 _ROUND_OFF = 1e-12
 _SPACE = "\N{NO-BREAK SPACE}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+# A hyphen before a number, where no word or path goes on.
+_MINUS = re.compile(r"(?<![\w.\-/])-(?=\d)")
+
+
+def typeset(sentence: str) -> str:
+    """Return a sentence with true minus signs."""
+    return _MINUS.sub("−", sentence)
 
 
 def finite(value: float | None) -> float | None:

@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.notes import note_of
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import xarray as xr
     from numpy.typing import NDArray
+
+    from viscofric.notes import Note
 
     Array = NDArray[np.float64]
 
@@ -77,6 +81,12 @@ def sentences(attributes: Mapping[Any, Any], name: str) -> list[str]:
     if isinstance(found, str):
         return [found] if found else []
     return [str(sentence) for sentence in found]
+
+
+def notes(attributes: Mapping[Any, Any], name: str) -> tuple[Note, ...]:
+    """Return an attribute that is a list of notes, written as JSON: their records, or sentences alone."""
+    found = _from_json(attributes.get(name, []))
+    return tuple(map(note_of, [found] if isinstance(found, str) and found else found))
 
 
 def table(attributes: Mapping[Any, Any], name: str) -> dict[str, str]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.notes import Note
 from viscofric.report.doubts import is_extrapolated, is_wide
 from viscofric.report.house_style import degrees
 from viscofric.report.numbers import (
@@ -16,6 +17,7 @@ from viscofric.report.numbers import (
     percent,
     short,
     signed_percent,
+    typeset,
     with_error,
 )
 from viscofric.report.results import (
@@ -29,6 +31,8 @@ from viscofric.report.results import (
 from viscofric.report.sweeps import solved_cases
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
     from numpy.typing import NDArray
 
@@ -36,6 +40,7 @@ if TYPE_CHECKING:
 
 
 _MOST_RUBBERS = 4
+_SHOWN_PLACES = 6
 
 
 class KeyNumber(NamedTuple):
@@ -124,3 +129,32 @@ def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         remark = str(spectrum.attrs.get(f"{name}_remark", ""))
         found.append(KeyNumber(title, megapascals(value) if known else ABSENT, remark))
     return found
+
+
+def grouped_failures(failures: Sequence[Note], most: int) -> list[str]:
+    """Return failures as at most so many lines: those of one reason together, with their cases.
+
+    Parameters
+    ----------
+    failures : sequence of Note
+        Their places are the cases; those of one code, or without any of one text, have one reason.
+    most : int
+        Lines at most; the last one says how many failures are not shown, if there are more kinds.
+    """
+    kinds: dict[str, list[Note]] = {}
+    for failure in failures:
+        kinds.setdefault(failure.code or failure.text, []).append(failure)
+    shown = list(kinds.values())
+    if len(shown) > most:
+        shown = shown[: most - 1]
+    left = len(failures) - sum(map(len, shown))
+    return [*map(_line, shown), *([f"{left} more cases, for other reasons: see the report."] if left else [])]
+
+
+def _line(cases: list[Note]) -> str:
+    places = [one.where for one in cases if one.where]
+    if len(cases) == 1 or not places:
+        return (f"{len(cases)} times: " if len(cases) > 1 else "") + typeset(cases[0])
+    more = f"; and {len(places) - _SHOWN_PLACES} more" if len(places) > _SHOWN_PLACES else ""
+    reason = Note(cases[0].code, cases[0].text, remedy=cases[0].remedy).words("run_file")
+    return typeset(f"{len(cases)} cases ({'; '.join(places[:_SHOWN_PLACES])}{more}): {reason}")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.notes import note_of
 from viscofric.study.results_file import rubbers_of
 from viscofric.units import CELSIUS_ZERO
 
@@ -54,8 +55,8 @@ _TOLD = {
 def table_text(cases: xarray.Dataset) -> str:
     """Return the cases of results as a table: lines with ``#``, a line of headings, a row for each case."""
     text = io.StringIO()
-    for line in about(cases.attrs):
-        text.write(f"# {line}\n")
+    for name, said in about(cases.attrs):
+        text.write(f"# {name}: {said}\n" if said else f"# {name}\n")
     writer = csv.writer(text, lineterminator="\n")
     names, units, columns = columns_of(cases)
     writer.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
@@ -115,17 +116,16 @@ def _attributes(remarks: list[str]) -> dict[str, str]:
     return found | {"input_hashes": json.dumps(tables["input"]), "software": json.dumps(tables["software"])}
 
 
-def about(attributes: Mapping[Any, Any]) -> list[str]:
-    """Return what says where numbers come from, a line each."""
-    title = " ".join(str(attributes.get("title", "")).split())
-    lines = [f"{TITLE}: {title}" if title else TITLE]
-    lines += [f"{words}: {attributes[name]}" for name, words in _TOLD.items() if name in attributes]
+def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
+    """Return what says where numbers come from, each with its name and on one line."""
+    found = [(TITLE, attributes.get("title", ""))]
+    found += [(words, attributes[name]) for name, words in _TOLD.items() if name in attributes]
     hashes = json.loads(str(attributes.get("input_hashes", "{}")))
-    lines += [f"input: {path} (SHA-256 {digest})" for path, digest in hashes.items()]
+    found += [("input", f"{path} (SHA-256 {digest})") for path, digest in hashes.items()]
     software = json.loads(str(attributes.get("software", "{}")))
-    lines += [f"software: {name} {number}" for name, number in software.items()]
-    lines += [f"failed: {reason}" for reason in json.loads(str(attributes.get("failures", "[]")))]
-    return [" ".join(line.split()) for line in lines]
+    found += [("software", f"{name} {number}") for name, number in software.items()]
+    found += [("failed", note_of(one)) for one in json.loads(str(attributes.get("failures", "[]")))]
+    return [(name, " ".join(str(said).split())) for name, said in found]
 
 
 def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list[Any]]]:

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.errors import StudyError
 from viscofric.files import file_path
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of, records
 from viscofric.study import labels
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.contacts import Contacts, Solved, doubts
@@ -194,7 +194,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
     asked, at_points, along = contacts.results()
-    failures = list(dict.fromkeys(str(one) for part in (asked, at_points, along) for one in part.failures))
+    failures = list(dict.fromkeys(one.note for part in (asked, at_points, along) for one in part.failures))
     if not asked.records:
         raise StudyError(f"no case could be solved; the first one failed: {failures[0]}")
     groups, about = material_groups(
@@ -262,11 +262,11 @@ def _missed_accuracy(cases: xarray.Dataset, study: Study) -> list[str]:
     ]
 
 
-def _named(one: StudyRubber, sentences: Iterable[str], rubbers: Sequence[StudyRubber]) -> list[str]:
+def _named(one: StudyRubber, sentences: Iterable[str], rubbers: Sequence[StudyRubber]) -> list[Note]:
     """Say of which rubber sentences are, where there are several."""
-    name = f"{one.material.name}: " if len(rubbers) > 1 else ""
-    return [f"{name}{sentence}" for sentence in sentences]
+    name = one.material.name if len(rubbers) > 1 else ""
+    return [note_of(sentence).at(name) for sentence in sentences]
 
 
 def _listed(sentences: Iterable[str]) -> str:
-    return json.dumps(list(sentences), ensure_ascii=False)
+    return json.dumps(records(sentences), ensure_ascii=False)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
-from viscofric.errors import DataFileError, InputError, check_choice, not_imported
+from viscofric.errors import DataFileError, InputError, check_choice, not_imported, not_written
 from viscofric.files import file_path, write_atomically
 from viscofric.study.columns import table_text
 from viscofric.study.results_file import RESULTS_FILE, cases_of
@@ -86,5 +85,4 @@ def _moved_into_place(write: Callable[[Path], None], target: Path) -> None:
                 shutil.move(target, Path(temporary) / "before")
             path.replace(target)
     except (OSError, RuntimeError) as error:
-        number = getattr(error, "errno", None)
-        raise DataFileError(target, f"cannot be written ({os.strerror(number) if number else error}).") from error
+        raise not_written(target, error) from error

@@ -46,20 +46,24 @@ def shown(name: str, value: float | str, line: bool = False) -> str:
 
 def place(case: Case) -> str:
     """Say at which temperature and speed a case lies."""
-    return f"{plain(celsius(case.temperature))} °C, {plain(1e3 * case.speed)} mm/s"
+    return f"{plain(celsius(case.temperature))} °C, {told_speed(case.speed)}"
 
 
 def place_in(sweep: Sweep, number: int) -> str:
     """Say where a case of a sweep lies: its temperature and speed, and its place on every other axis."""
+    return ", ".join([place(sweep.cases[number]), *others_in(sweep, number)])
+
+
+def others_in(sweep: Sweep, number: int) -> list[str]:
+    """Say where a case of a sweep lies on every axis but those of temperature and speed."""
     case = sweep.cases[number]
     points = np.unravel_index(number, sweep.shape)
-    others = [
+    return [
         words
         for axis, point in zip(sweep.axes, points, strict=True)
         if len(axis) > 1
         for words in _others(axis, int(point), case.geometry == "line")
     ]
-    return ", ".join([place(case), *others])
 
 
 def _others(axis: Axis, point: int, line: bool) -> list[str]:

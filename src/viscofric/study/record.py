@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeAlias
 import numpy as np
 
 from viscofric.friction.sensitivity import ComplianceSensitivity
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
+    from viscofric.errors import ViscofricError
 
     Array: TypeAlias = NDArray[np.float64]
 
@@ -46,13 +48,26 @@ class Failure:
         One sentence.
     label : str
         Which case it was, for people.
+    code : str
+        Of the error behind it, for programs; empty where it has none.
     """
 
     reason: str
     label: str
+    code: str = ""
 
     def __str__(self) -> str:
-        return f"{self.label}: {self.reason}"
+        return str(self.note)
+
+    @classmethod
+    def of(cls, error: ViscofricError, label: str) -> Self:
+        """Return what is left of a case when an error ends it."""
+        return cls(str(error), label, error.code)
+
+    @property
+    def note(self) -> Note:
+        """The reason as a note whose place is the case."""
+        return Note(self.code, self.reason, self.label)
 
 
 #: Numbers that every contact has, in the order in which results list them.

@@ -16,6 +16,7 @@ import numpy as np
 from viscofric.arguments import number
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note, note_of
 from viscofric.study.cases_in_common import CaseTable
 from viscofric.study.compare import compare_tables
 from viscofric.study.export import export_results
@@ -130,19 +131,19 @@ class StudyResults:
         return int(beyond_accuracy(cases, float(cases.attrs.get("accuracy", math.inf))).sum())
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What was doubtful about the data, changed or left out, one sentence each."""
-        return tuple(json.loads(self.tree.attrs["notes"]))
+    def notes(self) -> tuple[Note, ...]:
+        """What was doubtful about the data, changed or left out, one note each."""
+        return tuple(map(note_of, json.loads(self.tree.attrs["notes"])))
 
     @property
-    def failures(self) -> tuple[str, ...]:
-        """Cases that could not be solved, one sentence each."""
-        return tuple(json.loads(self.tree.attrs["failures"]))
+    def failures(self) -> tuple[Note, ...]:
+        """Cases that could not be solved, one note each."""
+        return tuple(map(note_of, json.loads(self.tree.attrs["failures"])))
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What to be careful about, one sentence each: assumptions that do not hold well, accuracy that is missed."""
-        return tuple(json.loads(self.tree.attrs["warnings"]))
+    def warnings(self) -> tuple[Note, ...]:
+        """What to be careful about, one note each: assumptions that do not hold well, accuracy that is missed."""
+        return tuple(map(note_of, json.loads(self.tree.attrs["warnings"])))
 
 
 def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> NDArray[np.bool_]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, not_written
 from viscofric.files import file_path, insist_on_true_size
 
 if TYPE_CHECKING:
@@ -115,9 +115,7 @@ def save_results(tree: xarray.DataTree, folder: Path) -> Path:
                 os.fsync(file.fileno())
             path.replace(target)
     except (OSError, RuntimeError) as error:  # RuntimeError: HDF5, where it closes a file on a full disk
-        # h5py buries the reason in a long text of its own, and gives only the number apart.
-        number = getattr(error, "errno", None)
-        raise DataFileError(target, f"cannot be written ({os.strerror(number) if number else error}).") from error
+        raise not_written(target, error) from error
     return target
 
 

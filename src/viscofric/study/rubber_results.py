@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from viscofric.notes import records
 from viscofric.rheology.cards import CardFormat, CardLaw, write_card
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.bands import draw_rubber
@@ -85,7 +86,7 @@ def run_material(
         "title": title,
         "data_origin": "synthetic" if synthetic else "measured",
         "command": command,
-        "notes": json.dumps([*rubber.notes, *(draws.notes if draws is not None else ())], ensure_ascii=False),
+        "notes": json.dumps(records([*rubber.notes, *(draws.notes if draws is not None else ())]), ensure_ascii=False),
         "warnings": "[]",
         "failures": "[]",
         **rubber.attributes,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
-from viscofric.errors import StudyError
+from viscofric.errors import InputError, StudyError
 from viscofric.files import file_path, parse_toml
 from viscofric.study.axis_values import RANGE, SEED_RANGE, SeedRange, SpeedRange
 from viscofric.study.contact_tables import (
@@ -240,6 +240,8 @@ def _toml(text: str, path: Path) -> dict[str, Any]:
         raise StudyError(f"{path}: has more than {LONGEST_RUN_FILE:,} characters; is this a run file?")
     try:
         values = parse_toml(text)
+    except InputError as error:
+        raise StudyError(f"{path}: {error} for a run file.") from None
     except ValueError as error:  # of TOML, and of whole numbers with thousands of digits
         raise StudyError(_of_syntax(path, str(error))) from None
     if _depth(values) > _DEEPEST:
@@ -260,8 +262,6 @@ def _of_syntax(path: Path, words: str) -> str:
         return f"{where}: a key is given twice in the same table."
     if "integer string conversion" in words:
         return f"{where}: a whole number has thousands of digits."
-    if "too deeply" in words:
-        return f"{where}: {words} for a run file."
     return f"{where}: is not valid TOML: {words}."
 
 

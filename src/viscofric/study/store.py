@@ -77,7 +77,7 @@ class CaseStore:
         try:
             values = parse_json(stored)
             if "failed" in values:
-                return Failure(values["failed"], values["label"])
+                return Failure(values["failed"], values["label"], values.get("code", ""))
             record, fields = Record.from_values(values["case"]), values["fields"]
             if not with_fields:
                 return record
@@ -112,7 +112,7 @@ class CaseStore:
         """
         values: dict[str, object]
         if isinstance(outcome, Failure):
-            values = {"failed": outcome.reason, "label": outcome.label}
+            values = {"failed": outcome.reason, "label": outcome.label, "code": outcome.code}
         else:
             values = {"case": outcome.values(), "fields": None}
             if outcome.fields is not None:

@@ -9,6 +9,7 @@ from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError
+from viscofric.notes import note_of
 from viscofric.study.columns import about, columns_of, tables
 
 if TYPE_CHECKING:
@@ -88,9 +89,9 @@ class _Made:
 
     def summary(self, attributes: Mapping[Any, Any]) -> None:
         """Say what the results are, what is doubtful, and how to make them again."""
-        rows = [tuple(line.partition(": ")[::2]) for line in about(attributes)]
+        rows = about(attributes)
         for name in _SENTENCES:
-            rows += [(name[:-1], sentence) for sentence in json.loads(str(attributes.get(name, "[]")))]
+            rows += [(name[:-1], str(note_of(one))) for one in json.loads(str(attributes.get(name, "[]")))]
         lines = str(attributes.get("study_text", "")).splitlines()
         rows += [("run file" if number == 0 else "", line) for number, line in enumerate(lines)]
         page = self.sheet("summary")

@@ -190,15 +190,15 @@ def _command(files: tuple[Path, ...], asked: dict[str, Any]) -> str:
 
 def _tell(results: StudyResults) -> None:
     """Print the key numbers, and what was doubtful."""
-    from viscofric.report.messages import readable
+    from viscofric.report.numbers import typeset
     from viscofric.report.results import group, number, sentences
     from viscofric.report.words import key_numbers
 
     for note in results.notes:
-        click.echo(f"Note: {readable(note)}", err=True)
+        click.echo(f"Note: {typeset(note)}", err=True)
     whole = group(results.tree, "superposition")
     if whole is not None and number(whole.attrs, "holds") == 1.0:
-        click.echo(readable(sentences(whole.attrs, "sentences")[0]))
+        click.echo(typeset(sentences(whole.attrs, "sentences")[0]))
     tell_doubts(results.tree)
     for item in key_numbers(results.tree):
         click.echo(f"{item.name}: {item.value}" + (f" ({item.remark})" if item.remark else ""))

@@ -97,7 +97,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
             if given.window is not None:
                 raise InputError(_TOUCHES)
             if restarts == _MOST_RESTARTS:
-                raise ConvergenceError(_NO_WINDOW)
+                raise ConvergenceError(_NO_WINDOW, code="no-window")
             stages, restarts = [_start(_solve_in_window(_around(stage), stage), given)], restarts + 1
             goal = _Goal(accuracy, finest)
             continue
@@ -113,7 +113,9 @@ def _told(stages: list[Stage]) -> float:
     """Log what the last grid gave, and return the relative error of the friction."""
     estimate, (length, width) = friction_estimate(stages), stages[-1].window.shape
     if math.isnan(estimate.value) or math.isnan(estimate.error):
-        raise ConvergenceError(f"the friction coefficient on a grid of {length} x {width} cells is not a number.")
+        raise ConvergenceError(
+            f"the friction coefficient on a grid of {length} x {width} cells is not a number.", code="not-finite"
+        )
     message = "grid of %d x %d cells: friction coefficient %.6g, known to %.1g of itself, %d products"
     products = stages[-1].result.products
     logger.info(message, length, width, estimate.value, estimate.relative_error, products)
@@ -142,7 +144,8 @@ class _Goal:
         known = self.errors[-1] if self.errors else math.inf
         return ConvergenceError(
             f"the friction coefficient is known to {known:.1e} of itself on {where}; ask for less accuracy than "
-            f"{self.accuracy:g} or a finer grid."
+            f"{self.accuracy:g} or a finer grid.",
+            code="accuracy-not-reached",
         )
 
     def _hoped_for(self, halvings: int) -> float:
@@ -182,7 +185,7 @@ def find_window(problem: Problem, size: float) -> Stage:
     ConvergenceError
         If no window is found, or no grid converges on the way to it.
     """
-    failure = ConvergenceError(_NO_WINDOW)
+    failure = ConvergenceError(_NO_WINDOW, code="no-window")
     for wider in _FIRST_WINDOWS:
         try:
             return _fitted_window(problem, wider * size)
@@ -206,7 +209,7 @@ def _fitted_window(problem: Problem, size: float) -> Stage:
             if window.spacing > 0.8 * old.spacing:
                 return stage
         stage = _solve_in_window(window, stage)
-    raise ConvergenceError(_NO_WINDOW)
+    raise ConvergenceError(_NO_WINDOW, code="no-window")
 
 
 def _coarsest(problem: Problem) -> int:
@@ -249,5 +252,6 @@ def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
         return Stage(problem, window, operator, result)
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
-        f"{result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for."
+        f"{result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for.",
+        code="not-converged",
     )

@@ -70,7 +70,8 @@ class ScaledLayer:
         if thickness < THINNEST:
             raise ConvergenceError(
                 f"the layer is thinner than the grid resolves ({thickness:.2g} of a cell): it acts like a foundation; "
-                "for a layer so much thinner than its contact is wide there are closed forms, in contact.reference."
+                "for a layer so much thinner than its contact is wide there are closed forms, in contact.reference.",
+                code="layer-too-thin",
             )
         return thickness
 

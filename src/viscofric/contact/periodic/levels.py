@@ -126,7 +126,8 @@ def solve_on_levels(
             raise ConvergenceError(
                 f"the contact did not converge on a grid of {level.shape[0]} x {level.shape[1]} points: a gap of "
                 f"{result.complementarity:.2g} rms heights was left where {tolerance:.2g} was asked for; allow more "
-                "products (most_products=)."
+                "products (most_products=).",
+                code="not-converged",
             )
         return result, Work(
             products=level.products,

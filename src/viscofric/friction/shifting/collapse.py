@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.notes import Note
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -36,18 +38,20 @@ class Collapse:
     points: int
 
     @property
-    def sentence(self) -> str:
+    def sentence(self) -> Note:
         """The same in words."""
         if self.rms is None or self.error is None:
-            return (
+            return Note(
+                "curves-apart",
                 "Curves of neighbouring temperatures do not overlap in reduced speed, so the master curve "
-                "does not test the shift factors."
+                "does not test the shift factors.",
             )
         alone = f"would make it {100 * self.error:.2g} %" if np.isfinite(self.error) else "are unknown"
         errors = f"; their errors alone {alone}" if self.error > 0.0 else ""
-        return (
+        return Note(
+            "curves-coincide",
             f"Curves of neighbouring temperatures coincide to {100 * self.rms:.2g} % (root mean square over "
-            f"{self.points} points) where they overlap in reduced speed{errors}."
+            f"{self.points} points) where they overlap in reduced speed{errors}.",
         )
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from viscofric.arguments import insist_on, whole_number
-from viscofric.errors import DataFileError, InputError, check_choice, shortened
+from viscofric.errors import DataFileError, InputError, check_choice, not_written, shortened
 from viscofric.files import file_path, read_text
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, plain
@@ -171,7 +171,7 @@ def write_card(
     try:
         file.write_text(text, encoding="utf-8")
     except (OSError, ValueError) as error:
-        raise DataFileError(path, f"cannot be written ({getattr(error, 'strerror', None) or error}).") from None
+        raise not_written(path, error) from None
     for note in notes:
         warnings.warn(note, stacklevel=2)
     return file

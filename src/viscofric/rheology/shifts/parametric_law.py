@@ -113,7 +113,12 @@ class ParametricLaw(ShiftLaw):
 
     def __str__(self) -> str:
         """Return name, constants with standard errors, and reference, as for a report."""
-        return f"{self.title}: {', '.join(self._shown_constants())} about {celsius(self.reference):z.1f} °C"
+        return f"{self.title}: {self.described}"
+
+    @property
+    def described(self) -> str:
+        """The constants with their standard errors, and the reference."""
+        return f"{', '.join(self._shown_constants())} about {celsius(self.reference):z.1f} °C"
 
     def _shown_constants(self) -> list[str]:
         errors = self.standard_errors or (0.0,) * len(self.parameters)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, not_written
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -248,7 +248,7 @@ def write_shift_table(table: ShiftTable, path: str | PathLike[str]) -> None:
     try:
         Path(path).write_text(text.getvalue(), encoding="utf-8")
     except (OSError, ValueError) as error:
-        raise DataFileError(path, f"cannot be written ({getattr(error, 'strerror', None) or error}).") from None
+        raise not_written(path, error) from None
 
 
 def _in_celsius(kelvin: float) -> str:

@@ -132,9 +132,10 @@ class WLFArrhenius(ParametricLaw):
         """Of the Arrhenius law below the glass transition, J/mol."""
         return GAS_CONSTANT * LN10 * self.glass_transition**2 * self.C1 / self.C2
 
-    def __str__(self) -> str:
-        """Return name, constants about Tg with standard errors, and reference."""
-        return f"{self.title}: {', '.join(self._shown_constants())}; α = 1 at {celsius(self.reference):z.1f} °C"
+    @property
+    def described(self) -> str:
+        """The constants about Tg with their standard errors, and the reference."""
+        return f"{', '.join(self._shown_constants())}; α = 1 at {celsius(self.reference):z.1f} °C"
 
     @property
     def above(self) -> WLF:

@@ -306,7 +306,7 @@ class Rubbers:
             ratio = self.of(case).poisson_ratio
             return case.task(self.modes(case), ratio, settings, fields=fields, label=case.label)
         except InputError as error:
-            return Failure(str(error), case.label)
+            return Failure.of(error, case.label)
 
     def node_task(self, family: Case, ratio: float, settings: Settings) -> Task:
         """Return what is solved for a family at a speed so many times that at s = 0."""

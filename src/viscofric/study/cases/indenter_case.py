@@ -208,7 +208,7 @@ class IndenterCase(Case):
             try:
                 doubts = _doubts(case, _extent(told), told["indentation"])
             except InputError as error:
-                yield number, Failure(str(error), case.label)
+                yield number, Failure.of(error, case.label)
                 continue
             known: dict[str, Any] = {
                 "speed": case.speed,

@@ -148,7 +148,7 @@ class Plan:
                 try:
                     place = case.place(self.rubbers)
                 except InputError as error:
-                    self.settle(number, Failure(str(error), case.label))
+                    self.settle(number, Failure.of(error, case.label))
                 else:
                     families.setdefault(place.family, []).append((number, place))
         return families

@@ -12,7 +12,7 @@ import sys
 from datetime import UTC, datetime
 from typing import IO, TYPE_CHECKING
 
-from viscofric.errors import DataFileError, StudyError
+from viscofric.errors import DataFileError, StudyError, not_written
 from viscofric.study.results_file import RESULTS_FILE
 from viscofric.study.store import CaseStore
 
@@ -140,7 +140,7 @@ def _writing(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise DataFileError(path, f"cannot be written ({error.strerror or error}).") from error
+        raise not_written(path, error) from error
 
 
 def _is_alone(file: IO[bytes]) -> bool:

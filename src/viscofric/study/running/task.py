@@ -50,7 +50,7 @@ def attempt(solve: Solve, task: Task) -> Outcome:
     try:
         return solve(task)
     except (ConvergenceError, InputError) as error:
-        return Failure(str(error), task.label)
+        return Failure.of(error, task.label)
     except Exception as error:  # noqa: BLE001 - one case of many, over a weekend: the others go on
         return Lost.by(error, task)
 

@@ -135,7 +135,7 @@ def _told(tree: xarray.DataTree) -> dict[str, Any]:
     from viscofric.report.friction_checks import friction_checks
     from viscofric.report.friction_data import predicted
     from viscofric.report.friction_tables import agreement_table
-    from viscofric.report.results import group, reference_temperature, sentences
+    from viscofric.report.results import group, notes, reference_temperature, sentences
     from viscofric.report.sweeps import cases_of
     from viscofric.report.words import key_numbers
     from viscofric.web.jobs.friction_data import by_temperature, drawn_line, texts, told_table
@@ -158,7 +158,7 @@ def _told(tree: xarray.DataTree) -> dict[str, Any]:
         "table": told_table(agreement_table(tree)),
         "checks": [{"name": one.name, "verdict": one.verdict, "words": one.words} for one in friction_checks(tree)],
         "band": lines.has_band,
-        **{name: texts(sentences(tree.attrs, name)) for name in ("warnings", "failures")},
+        **{name: texts(notes(tree.attrs, name)) for name in ("warnings", "failures")},
     }
 
 

@@ -14,14 +14,15 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.consistency import Diagram, SuperpositionCheck
     from viscofric.rheology.superposition.result import Superposition
 
-_HEADLINES = {
-    "holds": "Superposition holds",
-    "other factors": "Superposition holds, but not with these shift factors",
-    "not identified": "Superposition is tested only in part",
-    "doubtful": "Superposition is doubtful",
-    "roughly": "Superposition holds only roughly",
-    "fails": "Superposition does not hold",
-    "untested": "Whether superposition holds cannot be told",
+# What superposition does, in the words of the page.
+_VERDICTS = {
+    "holds": "holds",
+    "other factors": "holds, but not with these shift factors",
+    "not identified": "is tested only in part",
+    "doubtful": "is doubtful",
+    "roughly": "holds only roughly",
+    "fails": "does not hold",
+    "untested": "is not tested",
 }
 
 
@@ -41,7 +42,8 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
     check = fit.check
     return {
         "verdict": check.verdict,
-        "headline": _HEADLINES[check.verdict],
+        "short": _VERDICTS[check.verdict],
+        "headline": f"Superposition {_VERDICTS[check.verdict]}",
         "sentences": list(check.sentences),
         "figure_of_merit": plain(check.figure_of_merit),
         "neighbours": [

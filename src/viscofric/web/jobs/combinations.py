@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from viscofric.study.places import place, place_in
+from viscofric.study.places import others_in
 from viscofric.web.jobs.context import JobError
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def combinations(sweep: Sweep) -> tuple[dict[object, int], list[str]]:
     for number, case in enumerate(sweep.cases):
         if case.alike not in numbers:
             numbers[case.alike] = len(numbers)
-            words.append(place_in(sweep, number).removeprefix(place(case)).removeprefix(", "))
+            words.append(", ".join(others_in(sweep, number)))
     return numbers, words
 
 

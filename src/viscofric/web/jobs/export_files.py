@@ -7,7 +7,7 @@ import shutil
 import zipfile
 from typing import TYPE_CHECKING, Any
 
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, not_written
 from viscofric.files import write_atomically
 from viscofric.web.study_text import RUN_FILE
 
@@ -58,7 +58,7 @@ def lay_out(text: str, study: Study, folder: Path) -> Path:
             shutil.copyfile(path, folder / path.name)
         (folder / RUN_FILE).write_text(text, encoding="utf-8")
     except OSError as error:
-        raise DataFileError(folder.name, f"cannot be written ({error.strerror or error}).") from None
+        raise not_written(folder.name, error) from None
     return folder / RUN_FILE
 
 

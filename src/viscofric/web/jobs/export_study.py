@@ -66,8 +66,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         As `run_study`.
     """
     from viscofric.report import write_figures_and_report
-    from viscofric.report.messages import grouped_failures, readable
+    from viscofric.report.words import grouped_failures
     from viscofric.study import run_study
+    from viscofric.web.jobs.friction_data import texts
 
     text, checked = study_of(study, context.files)
     folder = context.cache / "study"
@@ -82,14 +83,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     context.progress(0, 1, _STAGES["report"])
     figures, report = write_figures_and_report(results.tree, results.folder)
     downloads = _downloads(results, figures, report, context.downloads)
-    failures = list(results.failures)
     return {
         "downloads": downloads,
         "cases": int(results.dataset["friction_coefficient"].size),
         "failed": int(results.dataset["failed"].sum()),
-        "failures": grouped_failures(failures, _MOST_TOLD),
-        "warnings": [readable(one) for one in results.warnings],
-        "notes": [readable(one) for one in results.notes],
+        "failures": grouped_failures(results.failures, _MOST_TOLD),
+        "warnings": texts(results.warnings),
+        "notes": texts(results.notes),
         "synthetic": results.tree.attrs.get("data_origin") == "synthetic",
     }
 

@@ -100,6 +100,6 @@ def pairs(lines: Iterable[tuple[str, str]]) -> list[dict[str, str]]:
 
 def texts(sentences: Sequence[str]) -> list[str]:
     """Return sentences ready for readers, each once."""
-    from viscofric.report.messages import readable
+    from viscofric.report.numbers import typeset
 
-    return [readable(one.words("page")) for one in dict.fromkeys(map(note_of, sentences))]
+    return [typeset(one.words("page")) for one in dict.fromkeys(map(note_of, sentences))]

@@ -111,7 +111,7 @@ def _law_row(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, An
         "chosen": laws is not None and row is laws.chosen,
         "used": rubber.shift_used == row.kind
         or (laws is not None and rubber.shift_used == "best" and row is laws.chosen),
-        "words": "" if row.law is None else str(row.law),
+        "words": "" if row.law is None else row.law.described,
         "constants": row.constants,
         "chi2": plain(row.chi2),
         "freedom": row.freedom,

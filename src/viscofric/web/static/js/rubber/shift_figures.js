@@ -94,7 +94,7 @@ export function lawTable({ laws }, app) {
   const { state, fields } = app;
   const { button } = fields;
   const rows = laws.map((row) => {
-    const words = row.refusal || row.words.replace(/^[^:]*: /, "");
+    const words = row.refusal || row.words;
     const mark = row.used
       ? "used"
       : row.chosen

@@ -27,7 +27,7 @@ function superposition(state) {
   const answer = state.result("rubber");
   if (!answer) return "";
   if (!answer.shift) return "no shift with temperature";
-  return answer.check ? answer.check.headline.replace(/^Superposition /, "") : "from the material file";
+  return answer.check ? answer.check.short : "from the material file";
 }
 
 function modes(state) {
