@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note, note_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -142,11 +143,11 @@ def text(value: object, name: str) -> str:
     return value
 
 
-def sentences(values: Iterable[str], name: str) -> tuple[str, ...]:
-    """Return several texts as a tuple; one text alone is not taken for its letters."""
+def sentences(values: Iterable[str], name: str) -> tuple[Note, ...]:
+    """Return several texts as notes; one text alone is not taken for its letters."""
     if not isinstance(values, (tuple, list)) or not all(isinstance(one, str) for one in values):
         raise InputError(f"{name} = {brief(values)}: must be a tuple of texts.")
-    return tuple(values)
+    return tuple(map(note_of, values))
 
 
 def insist_on(value: object, name: str, *kinds: type, right: str = "") -> None:

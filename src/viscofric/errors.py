@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from viscofric.notes import Note, note_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
     from typing import Self
 
     from viscofric.notes import Reader, Remedy
@@ -58,6 +58,11 @@ def _cut(line: str, longest: int) -> str:
 
 def _and_more(count: int) -> str:
     return f"  … and {count} more."
+
+
+def short_notes(notes: Iterable[str]) -> tuple[Note, ...]:
+    """Return notes, each of bearable length."""
+    return tuple(note_of(note).reworded(shortened) for note in notes)
 
 
 def not_imported(package: str, error: Exception, install: str = "") -> str:

@@ -138,6 +138,10 @@ class Note(str):
         """Return the note of a wider place, which is named first; an empty one changes nothing."""
         return Note(self.code, self.text, ": ".join(filter(None, (where, self.where))), self.remedy)
 
+    def coded(self, code: str) -> Note:
+        """Return the note with a code of who uses it, such as that of an error which ends nothing."""
+        return Note(code, self.text, self.where, self.remedy)
+
     def reworded(self, change: Callable[[str], str]) -> Note:
         """Return the note with its words changed, such as with files named as the user knows them."""
         remedy = None if self.remedy is None else self.remedy.reworded(change)

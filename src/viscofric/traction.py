@@ -208,7 +208,7 @@ class TractionRuns:
             for column in fields(self)
             if isinstance(value := getattr(self, column.name), np.ndarray)
         }
-        note = f"{chosen.size} of {len(self)} readings are selected."
+        note = Note("readings-selected", f"{chosen.size} of {len(self)} readings are selected.")
         return replace(self, **columns, notes=(*self.notes, note))
 
     def _in_steps(self, name: str, wanted: int | Sequence[int]) -> NDArray[np.bool_]:

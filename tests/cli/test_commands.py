@@ -18,6 +18,7 @@ from click.testing import CliRunner, Result
 
 from viscofric.cli import main
 from viscofric.cli.run import tell
+from viscofric.notes import Note
 from viscofric.study import open_results
 from viscofric.study.results_file import save_results
 
@@ -173,13 +174,13 @@ def test_few_notes_are_printed_and_many_are_counted(
 
 def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: pytest.CaptureFixture[str]) -> None:
     results = open_results(finished)
-    failures = [f"89.9995 °C, {speed} mm/s: accuracy not reached." for speed in (19.9996, 40, 80)]
-    warning = "In 3 of 9 cases, most of all at 89.9995 °C, 19.9996 mm/s: wide."
+    failures = [Note("accuracy", f"{speed} reached.", f"-90 °C, {speed} mm/s").record() for speed in (20, 40, 80)]
+    warning = "In 3 of 9 cases, most of all at -90 °C, 20 mm/s: wide."
     results.tree.attrs |= {"notes": "[]", "failures": json.dumps(failures), "warnings": json.dumps([warning])}
     tell(results)
     assert capsys.readouterr().err.splitlines() == [
-        "Warning: In 3 of 9 cases, most of all at 90 °C, 20 mm/s: wide.",
-        "Failed: 3 cases (90 °C, 20 mm/s; 90 °C, 40 mm/s; 90 °C, 80 mm/s): accuracy not reached.",
+        "Warning: In 3 of 9 cases, most of all at −90 °C, 20 mm/s: wide.",
+        "Failed: 3 cases (−90 °C, 20 mm/s; −90 °C, 40 mm/s; −90 °C, 80 mm/s): 20 reached.",
     ]
 
 

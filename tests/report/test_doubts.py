@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from viscofric.notes import Note, records
 from viscofric.report.captions import captions
 from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
 from viscofric.report.question import what_was_asked
@@ -65,8 +66,9 @@ def test_isotherms_left_out_are_said_in_what_was_asked(tree: xr.DataTree) -> Non
 
 def test_caption_claims_one_curve_only_as_far_as_it_was_tested(make_tree: Callable[..., xr.DataTree]) -> None:
     assert "one curve" not in captions(make_tree())["friction_master_curve"]
-    note = "Curves of neighbouring temperatures do not overlap in reduced speed, so nothing is tested."
-    assert captions(make_tree(notes=json.dumps(["Else.", note])))["friction_master_curve"].endswith(note)
+    note = Note("curves-apart", "The curves do not overlap.")
+    told = captions(make_tree(notes=json.dumps(records(["Else.", note]))))["friction_master_curve"]
+    assert told.endswith(note)
 
 
 @pytest.mark.parametrize(("origin", "said"), [("synthetic", True), ("measured", False)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from functools import partial
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
 from viscofric.report.words import grouped_failures
 from viscofric.study.contacts import Solved
-from viscofric.study.places import place_in
+from viscofric.study.places import place, place_in
 from viscofric.study.results import input_hashes
 from viscofric.study.results_file import save_results
 
@@ -93,6 +94,11 @@ def test_inputs_beside_the_run_file_are_named_from_there(tmp_path: Path) -> None
     elsewhere = tmp_path.parent / "away"
     assert list(json.loads(input_hashes([file], tmp_path))) == ["data/dma.csv"]
     assert list(json.loads(input_hashes([file], elsewhere))) == [file.as_posix()]
+
+
+def test_a_place_tells_no_more_digits_than_matter() -> None:
+    """Temperature and speed of measured points are means of readings: 89.9995 °C, 19.9996 mm/s."""
+    assert place(SimpleNamespace(temperature=363.1495, speed=0.0199996)) == "90 °C, 20 mm/s"
 
 
 def test_a_place_tells_all_that_varies(tmp_path: Path) -> None:

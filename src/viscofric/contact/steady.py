@@ -30,6 +30,7 @@ from viscofric.contact.motion import unit_direction
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
@@ -391,11 +392,11 @@ def _steady_material(
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 
 
-def _doubts(solution: ContactSolution, indenter: Indenter, layer: Layer | None, contact: Extent) -> tuple[str, ...]:
-    doubts = [indenter.doubt(contact, solution.indentation)]
+def _doubts(solution: ContactSolution, indenter: Indenter, layer: Layer | None, contact: Extent) -> tuple[Note, ...]:
+    doubts = {"large-strain": indenter.doubt(contact, solution.indentation)}
     if layer is not None:
-        doubts.append(layer.doubt(solution.indentation))
-    return tuple(doubt for doubt in doubts if doubt)
+        doubts["deep-in-layer"] = layer.doubt(solution.indentation)
+    return tuple(Note(code, doubt) for code, doubt in doubts.items() if doubt)
 
 
 def _beyond_table(

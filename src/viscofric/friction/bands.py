@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
@@ -164,15 +165,22 @@ def _doubts(friction: Array, lower: Array, upper: Array) -> tuple[str, ...]:
     change = np.maximum(upper - friction, friction - lower) / np.maximum(np.abs(friction), np.finfo(float).tiny)
     if np.any(change > LARGE_CHANGE):
         said.append(
-            f"At {np.count_nonzero(change > LARGE_CHANGE)} of {friction.size} points the material's errors change "
-            f"friction by more than {100 * LARGE_CHANGE:.0f} % (by {100 * change.max():.0f} % at most): the band, "
-            "found to first order, is rough there."
+            Note(
+                "large-change",
+                f"At {np.count_nonzero(change > LARGE_CHANGE)} of {friction.size} points the material's errors change "
+                f"friction by more than {100 * LARGE_CHANGE:.0f} % (by {100 * change.max():.0f} % at most): the band, "
+                "found to first order, is rough there.",
+            )
         )
     rounding = 1e-9 * np.abs(friction)
     strayed = (friction < lower - rounding) | (friction > upper + rounding)
     if np.any(strayed):
         said.append(
-            f"At {np.count_nonzero(strayed)} of {friction.size} points the predicted friction lies outside the 95 % "
-            "band of the samples: they scatter about another material than the one that was solved."
+            Note(
+                "outside-band",
+                f"At {np.count_nonzero(strayed)} of {friction.size} points the predicted friction lies outside the "
+                "95 % "
+                "band of the samples: they scatter about another material than the one that was solved.",
+            )
         )
     return tuple(said)

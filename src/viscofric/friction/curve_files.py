@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError, shortened
+from viscofric.errors import DataFileError, InputError, short_notes
 from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note
@@ -186,7 +186,7 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
             replicates=replicates.astype(np.int64),
             source=(remarks["source"] or [str(path)])[0],
             assumption=(remarks["assumption"] or [""])[0],
-            notes=(*(shortened(note) for note in notes if note not in doubts), *doubts),
+            notes=(*short_notes(note for note in notes if note not in doubts), *doubts),
             load_unit=unit,
             **columns,
         )
@@ -282,8 +282,11 @@ def _complete(columns: dict[str, Array], kind: str, replicates: Array, notes: li
     if error is None and scatter is None and kind == "viscoelastic":
         error = scatter = np.full(replicates.size, np.inf)
         notes.append(
-            "The file of friction curves gives neither standard errors nor scatter: neither is known, and both are "
-            "infinite."
+            Note(
+                "errors-unknown",
+                "The file of friction curves gives neither standard errors nor scatter: neither is known, and both are "
+                "infinite.",
+            )
         )
     if error is None and scatter is not None:
         error = scatter / np.sqrt(replicates)

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 
+#: Name of the key number that compares prediction and measurement.
+AGREEMENT = "Prediction less measurement"
 _MOST_RUBBERS = 4
 _SHOWN_PLACES = 6
 
@@ -82,7 +84,7 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
             remark += (
                 f"; {percent(share, 3)} of the points within twice the standard error ({counted} the material's own)"
             )
-        found.append(KeyNumber("Prediction less measurement", percent(rms), remark))
+        found.append(KeyNumber(AGREEMENT, percent(rms), remark))
     shifts = group(tree, "friction_shift_factors")
     if shifts is not None and not is_from_friction(tree):
         slope, error = (number(shifts.attrs, name) for name in ("slope", "slope_error"))

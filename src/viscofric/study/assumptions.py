@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.assumptions import check_assumptions
+from viscofric.notes import Note, note_of
 from viscofric.study import labels
 from viscofric.study.bands import curves_of
 from viscofric.study.surface_words import surface_checks
@@ -33,9 +34,13 @@ def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
     return {"/assumptions": labels.assumption_data(found)} if found else {}
 
 
-def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[str]:
+def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:
     """Tell of rubber that is no half-space, and of Coulomb friction that moves the surface as pressure does."""
-    return [check.sentence for check in found if check.name in _WARNED_OF and check.holds is False]
+    return [
+        note_of(check.sentence).coded(check.name)
+        for check in found
+        if check.name in _WARNED_OF and check.holds is False
+    ]
 
 
 def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> list[AssumptionCheck]:

@@ -9,6 +9,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
+from viscofric.notes import Note
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.sampling import sample_materials
 
@@ -90,14 +91,13 @@ class FrictionBands:
         try:
             self.samples = draw_rubber(rubber, count, seed)
         except InputError as error:
-            self._note(f"Friction has no 95 % bands: {error}")
+            self._note(error.note.at("Friction has no 95 % bands").coded("no-bands"))
         self._drawn = None if self.samples is None else DrawnMaterials(self.samples, rubber.material)
         if self.samples is not None:
             self.notes = tuple(self.samples.notes)
         elif count and rubber.fit is None:
-            self._note(
-                "Friction has no 95 % bands: only the sweeps that a rubber is made of tell how well it is known."
-            )
+            text = "Friction has no 95 % bands: only the sweeps that a rubber is made of tell how well it is known."
+            self._note(Note("no-bands", text))
 
     def curves(self, records: Sequence[Record]) -> FrictionCurves:
         """Return the friction of solved cases, in their order; without bands if any of them has no sensitivity."""
@@ -107,8 +107,11 @@ class FrictionBands:
             return found
         if len(sensitivities) < len(records):
             self._note(
-                f"At {len(records) - len(sensitivities)} of {len(records)} cases it could not be found how friction "
-                "answers to the rubber, so that these friction curves have no bands."
+                Note(
+                    "no-bands",
+                    f"At {len(records) - len(sensitivities)} of {len(records)} cases it could not be found how "
+                    "friction answers to the rubber, so that these friction curves have no bands.",
+                )
             )
             return found
         banded = with_material_band(found, sensitivities, self._drawn)
@@ -116,6 +119,5 @@ class FrictionBands:
             self._note(note)
         return banded
 
-    def _note(self, sentence: str) -> None:
-        if sentence not in self.notes:
-            self.notes = (*self.notes, sentence)
+    def _note(self, note: str) -> None:
+        self.notes = tuple(dict.fromkeys((*self.notes, note)))

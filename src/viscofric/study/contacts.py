@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.notes import Note
 from viscofric.study.cases.case import moved
 from viscofric.study.places import place, place_in
 from viscofric.study.planning.plan import plan_cases
@@ -171,7 +172,7 @@ class Contacts:
         return sorted({numbers[0], numbers[len(numbers) // 2], numbers[-1]})
 
 
-def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[str]:
+def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note]:
     """Tell which assumptions do not hold well, each with the number of contacts that it concerns."""
     found = [
         (part, number, outcome)
@@ -179,19 +180,23 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[str]
         for number, outcome in enumerate(part.outcomes)
         if isinstance(outcome, Record)
     ]
-    sentences = []
+    notes = []
     wide = [one for one in found if one[2].warnings]
     if wide:
         part, number, record = max(wide, key=lambda one: one[0].cases[one[1]].reach(one[2]))
         said = " ".join(record.warnings)
-        sentences.append(f"In {len(wide)} of all {len(found)} contacts, most of all at {part.place(number)}: {said}")
+        text = f"In {len(wide)} of all {len(found)} contacts, most of all at {part.place(number)}: {said}"
+        notes.append(Note("doubtful-contacts", text))
     within = all_within(rubbers, [part.cases[number] for part, number, _ in found], [record for *_, record in found])
     beyond = [one for one, known in zip(found, within, strict=True) if not known]
     if beyond:
         part, number, _ = beyond[0]
         what = part.cases[number].FREQUENCIES
-        sentences.append(
-            f"In {len(beyond)} of all {len(found)} contacts, such as {part.place(number)}, {what} beyond the reduced "
-            "frequencies at which the rubber is known: their friction rests on the extrapolated spectrum."
+        notes.append(
+            Note(
+                "beyond-measured",
+                f"In {len(beyond)} of all {len(found)} contacts, such as {part.place(number)}, {what} beyond the "
+                "reduced frequencies at which the rubber is known: their friction rests on the extrapolated spectrum.",
+            )
         )
-    return sentences
+    return notes

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.notes import note_of
 from viscofric.study.record import NUMBERS, Record
 
 if TYPE_CHECKING:
@@ -279,6 +280,6 @@ def assumption_data(checks: Sequence[AssumptionCheck]) -> xarray.Dataset:
             "value": [np.nan if check.value is None else check.value for check in checks],
             "limit": [check.limit for check in checks],
             "holds": [-1 if check.holds is None else int(check.holds) for check in checks],
-            "sentence": [check.sentence for check in checks],
+            "sentence": [note_of(check.sentence).words("run_file") for check in checks],
         },
     )

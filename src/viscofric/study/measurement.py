@@ -12,6 +12,7 @@ from viscofric.friction.curve_files import read_friction_curves
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
+from viscofric.notes import Note, note_of
 from viscofric.readers import read_mtm
 from viscofric.study import labels
 
@@ -62,16 +63,17 @@ class Measurement:
 
     Attributes
     ----------
-    notes : list of str
+    notes : list of Note
         What is to be said of it: one sentence each.
     """
 
     def __init__(self, curves: FrictionCurves, material: Material, ball: Ball, load: float) -> None:
         self.curves, self.material = curves, material
-        self.notes = [*([curves.assumption] if curves.assumption else []), *curves.notes]
+        assumed = [Note("coulomb-assumed", curves.assumption)] if curves.assumption else []
+        self.notes = [*assumed, *map(note_of, curves.notes)]
         self._rule: dict[str, Any] = {"indenter": ball, "load": load, "vertical_shift": material.vertical_shift}
         self._master = shift_friction(curves, shift=material.shift, **self._rule)
-        self.notes.append(self._master.overlap_sentence)
+        self.notes.append(note_of(self._master.overlap_sentence))
         self._found = self._shifted_by_itself()
 
     @property
@@ -88,7 +90,7 @@ class Measurement:
         try:
             return shift_friction(self.curves, reference=reference, **self._rule)
         except (SuperpositionError, InputError) as error:
-            self.notes.append(f"Friction alone tells no shift factors: {error}")
+            self.notes.append(error.note.at("Friction alone tells no shift factors").coded("no-shift-factors"))
             return None
 
     def groups(
@@ -137,7 +139,8 @@ class Measurement:
             line = shift_friction(at_reference, shift=shift, **self._rule)
             sentences.append(str(compare(shift_friction(measured, shift=shift, **self._rule), line)))
         except InputError as error:
-            self.notes.append(f"The master curves of prediction and measurement were not compared: {error}")
+            where = "The master curves of prediction and measurement were not compared"
+            self.notes.append(error.note.at(where).coded("not-compared"))
         return {"/agreement": labels.agreement_data(found, sentences, int(np.count_nonzero(~comparable)))}
 
     def _shift_factors(self) -> Groups:
@@ -146,7 +149,8 @@ class Measurement:
         try:
             agreement = compare_shift_factors(self._found, self.material.shift)
         except InputError as error:
-            self.notes.append(f"Shift factors from friction were not compared with the modulus's: {error}")
+            where = "Shift factors from friction were not compared with the modulus's"
+            self.notes.append(error.note.at(where).coded("not-compared"))
             return {}
-        self.notes += self._found.notes
+        self.notes += map(note_of, self._found.notes)
         return {"/friction_shift_factors": labels.friction_shift_data(self._found, self.material.shift, agreement)}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import StudyError
+from viscofric.notes import Note, note_of
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
 from viscofric.study.bands import BandColumns, FrictionBands, draw_rubber
@@ -85,27 +86,39 @@ class StudyRubber:
         shortest, longest = case.lengths(record)
         return low <= rate / longest and rate / shortest <= high
 
-    def doubts(self, temperatures: Sequence[float]) -> list[str]:
+    def doubts(self, temperatures: Sequence[float]) -> list[Note]:
         """Tell what of the prediction rests on more than was measured, or does not lie on one curve."""
         asked = np.array(temperatures)
         beyond = asked[np.asarray(self.shift.extrapolates(asked))]
         spectrum = self.material.spectrum
         fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
         # What is wrong with a ready rubber is told by nothing else.
-        said = list(fit.notes) if self.rubber.fit is None and fit is not None else []
+        said = list(map(note_of, fit.notes)) if self.rubber.fit is None and fit is not None else []
         if fit is None:
             said.append(
-                "At which frequencies the rubber was measured is not known, so that nothing tells where it is "
-                "extrapolated."
+                Note(
+                    "frequencies-unknown",
+                    "At which frequencies the rubber was measured is not known, so that nothing tells where it is "
+                    "extrapolated.",
+                )
             )
         if beyond.size:
             at = ", ".join(f"{celsius(float(kelvin)):z.4g}" for kelvin in np.unique(beyond))
             behind = "of the friction that it was identified from" if self.rubber.from_friction else "of the sweeps"
-            said.append(f"At {at} °C the shift factor is extrapolated beyond the temperatures {behind}, by its law.")
+            said.append(
+                Note(
+                    "extrapolated",
+                    f"At {at} °C the shift factor is extrapolated beyond the temperatures {behind}, by its law.",
+                )
+            )
         if self.material.vertical_shift is not None:
             said.append(
-                "The modulus has a vertical shift b(T), so that curves of other temperatures fall on the friction "
-                "master curve only at the load F/b; measured points are brought to it by the similarity of contacts."
+                Note(
+                    "curves-of-one-load",
+                    "The modulus has a vertical shift b(T), so that curves of other temperatures fall on the friction "
+                    "master curve only at the load F/b; measured points are brought to it by the similarity of "
+                    "contacts.",
+                )
             )
         return said
 

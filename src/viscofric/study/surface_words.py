@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from viscofric.friction.assumption_check import AssumptionCheck
+from viscofric.notes import Note
 from viscofric.study.surface_source import MadeSurface, surface_of
 
 if TYPE_CHECKING:
@@ -20,10 +21,11 @@ if TYPE_CHECKING:
 _THICKEST_WAVE = 1.0
 
 
-_NO_BANDS = (
+_NO_BANDS = Note(
+    "no-bands",
     "Friction on a rough surface has no linearised 95 % bands, which are found for indenters only; [uncertainty] "
     "members solves every case with rubbers drawn from the sweeps, and several seeds show how friction scatters from "
-    "surface to surface."
+    "surface to surface.",
 )
 
 
@@ -34,7 +36,7 @@ def uncertainty_of(study: Study) -> UncertaintyTable:
     return study.uncertainty.model_copy(update={"draws": 0})
 
 
-def surface_notes(study: Study) -> list[str]:
+def surface_notes(study: Study) -> list[Note]:
     """Return what is not found on a rough surface, one sentence each."""
     if study.indenter is not None or study.uncertainty.draws == 0:
         return []

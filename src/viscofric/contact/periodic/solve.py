@@ -22,6 +22,7 @@ from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSol
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si, velocity
 
@@ -171,12 +172,12 @@ def solve_periodic(
     return replace(solution, warnings=_doubts(solution, steepness, layer))
 
 
-def _doubts(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[str, ...]:
+def _doubts(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[Note, ...]:
     """Return what is doubtful about small strain; of many spots the rms slope says more than the steepest place."""
-    doubts = [too_steep(steepness)]
+    doubts = {"large-strain": too_steep(steepness)}
     if layer is not None:
-        doubts.append(layer.doubt(solution.indentation))
-    return tuple(doubt for doubt in doubts if doubt)
+        doubts["deep-in-layer"] = layer.doubt(solution.indentation)
+    return tuple(Note(code, doubt) for code, doubt in doubts.items() if doubt)
 
 
 class _Given(NamedTuple):

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.friction.measurement.gapless import SPEED_TOLERANCE, Gapless
 from viscofric.nominal import SAME_LOAD, clusters
+from viscofric.notes import Note
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -105,7 +106,10 @@ def conditions(
     notes = list(course.notes)
     if moving.size < len(runs):
         notes.append(
-            f"{len(runs) - moving.size} of {len(runs)} readings were taken with the disc at rest and left out."
+            Note(
+                "disc-at-rest",
+                f"{len(runs) - moving.size} of {len(runs)} readings were taken with the disc at rest and left out.",
+            )
         )
     if not moving.size:
         return [], tuple(notes)
@@ -167,13 +171,20 @@ def conditions(
     rolling = [one for one in found if not np.any(one.slip_sign) and one.slip > 0.0]
     if rolling:
         notes.append(
-            f"{where(rolling, len(found))} the slip ({1e3 * rolling[0].slip:.2g} mm/s) cannot be told from "
-            "none and is taken for pure rolling; Coulomb friction of such slip is in viscoelastic friction."
+            Note(
+                "slip-is-rolling",
+                f"{where(rolling, len(found))} the slip ({1e3 * rolling[0].slip:.2g} mm/s) cannot be told from "
+                "none and is taken for pure rolling; Coulomb friction of such slip is in viscoelastic friction.",
+            )
         )
     if swept:
         notes.append(
-            f"At {swept} set{'s' if swept > 1 else ''} of temperature, load and speed the slip was swept without gaps "
-            "and is cut into intervals; Coulomb friction is its mean over each of them."
+            Note(
+                "slip-swept",
+                f"At {swept} set{'s' if swept > 1 else ''} of temperature, load and speed the slip was swept without "
+                "gaps "
+                "and is cut into intervals; Coulomb friction is its mean over each of them.",
+            )
         )
     return found, tuple(notes)
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.notes import Note
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -57,10 +59,11 @@ def of_the_disc(runs: TractionRuns) -> Course:
         unclear = timed[_unreversed(runs.step[timed], point, opposed, slip[timed] / speed[timed])]
         if unclear.size:
             largest = 1e3 * float(np.abs(slip[unclear]).max())
-            told = (
+            told = Note(
+                "slip-not-reversed",
                 f"In {unclear.size} of {len(runs)} readings the slip, at most {largest:.2g} mm/s, is not reversed "
                 "within the point of the test as in the other points of the step: it is below its error there and "
-                "counts as none."
+                "counts as none.",
             )
             notes = (told,)
             slip[unclear] = 0.0

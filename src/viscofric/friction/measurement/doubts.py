@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.nominal import SAME_LOAD
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,7 +35,7 @@ def threshold(freedom: float, chance: float) -> float:
     return float(stdtrit(freedom, 1.0 - 0.5 * chance) if np.isfinite(freedom) else -ndtri(0.5 * chance))
 
 
-def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[str]:
+def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
     """Note what does not look like a sound measurement."""
     groups = [fit.group for fit in fits]
     return [
@@ -45,7 +46,7 @@ def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[str]:
     ]
 
 
-def _negative(fits: list[Fit], entries: list[Entry]) -> list[str]:
+def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
     """Note negative coefficients, by what can be the reason for each."""
     groups = [fit.group for fit in fits]
     notes = []
@@ -55,8 +56,12 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[str]:
         for place in _significant(groups, entries, number, deviation):
             reasons[reason(fits[place], entries[place])].append(place)
         notes += [
-            f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is negative "
-            f"({_shown(entries[places[0]], number)}): {why}."
+            Note(
+                "negative-friction",
+                f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is "
+                "negative "
+                f"({_shown(entries[places[0]], number)}): {why}.",
+            )
             for why, places in reasons.items()
         ]
     return notes
@@ -87,18 +92,19 @@ def _why_coulomb(fit: Fit, entry: Entry) -> str:
     return "probably the sign of the force, or of the velocities, is reversed"
 
 
-def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[str]:
+def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[Note]:
     found = _significant(groups, entries, 3, np.array([abs(entry.value[3]) for entry in entries]))
     if not found:
         return []
-    told = (
+    told = Note(
+        "inconsistent",
         f"{where([groups[one] for one in found], len(groups))} the four sign configurations do not fit together: the "
-        f"consistency is {_shown(entries[found[0]], 3)} of the load where scatter alone would give zero."
+        f"consistency is {_shown(entries[found[0]], 3)} of the load where scatter alone would give zero.",
     )
     return [told]
 
 
-def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[str]:
+def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
     """Compare the zero that is fitted with the one that was recorded."""
     groups = [fit.group for fit in fits]
     recorded = np.array([zeros.mean(fit.group) if fit.fits_offset else np.nan for fit in fits])
@@ -107,14 +113,15 @@ def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[s
     if not found:
         return []
     first = found[0]
-    told = (
+    told = Note(
+        "another-zero",
         f"{where([groups[one] for one in found], len(groups))} the zero of the force cell told by the configurations, "
-        f"{_shown(entries[first], 0)} N, is not the recorded one, {recorded[first]:.2g} N; the former is used."
+        f"{_shown(entries[first], 0)} N, is not the recorded one, {recorded[first]:.2g} N; the former is used.",
     )
     return [told]
 
 
-def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[str]:
+def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[Note]:
     """Name the conditions where replicates lack configurations, or are too few."""
     total = len(groups)
     notes = []
@@ -124,21 +131,30 @@ def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[str]:
     if rolled:
         readings = rolled[0][1]
         notes.append(
-            f"{where([group for group, _ in rolled], total)} slip is zero (pure rolling) in {readings} "
-            f"reading{'s' if readings > 1 else ''}, so that not every replicate has all configurations and all "
-            "readings are fitted together."
+            Note(
+                "pure-rolling",
+                f"{where([group for group, _ in rolled], total)} slip is zero (pure rolling) in {readings} "
+                f"reading{'s' if readings > 1 else ''}, so that not every replicate has all configurations and all "
+                "readings are fitted together.",
+            )
         )
     missing = [group for group, readings in zip(together, beside, strict=True) if not readings]
     if missing:
         notes.append(
-            f"{where(missing, total)} not every replicate has all sign configurations, so all readings "
-            "are fitted together."
+            Note(
+                "incomplete-replicates",
+                f"{where(missing, total)} not every replicate has all sign configurations, so all readings "
+                "are fitted together.",
+            )
         )
     alone = [group for group, entry in zip(groups, entries, strict=True) if not np.isfinite(entry.error[1])]
     if alone:
         notes.append(
-            f"{where(alone, total)} there are too few readings to tell the scatter, so standard errors are "
-            "given as infinite; repeat the test."
+            Note(
+                "few-readings",
+                f"{where(alone, total)} there are too few readings to tell the scatter, so standard errors are "
+                "given as infinite; repeat the test.",
+            )
         )
     return notes
 

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.friction.measurement.doubts import CHANCE, ROUNDING, threshold
 from viscofric.friction.measurement.separation import DRIFT, FORCE, ZERO_CHANGES, Fit
 from viscofric.friction.measurement.zeros import Zeros, wanders
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -97,31 +98,42 @@ class Drift:
         entry = fit.entry(self.weights, zeros, error, freedom)
         return entry.widened((self.error * fit.each[:, :, DRIFT].mean(axis=0)) ** 2, self.freedom)
 
-    def notes(self, fits: list[Fit]) -> list[str]:
+    def notes(self, fits: list[Fit]) -> list[Note]:
         """Say what drifts, by how much, and what was done."""
         told = []
         load = float(np.mean([fit.group.load for fit in fits]))
         if self.follows:
             told.append(
-                "The zero of the force cell changes from one recording to the next and the forces change with it, so "
-                "that each reading is taken above its own recorded zero."
+                Note(
+                    "zero-unsteady",
+                    "The zero of the force cell changes from one recording to the next and the forces change with "
+                    "it, so "
+                    "that each reading is taken above its own recorded zero.",
+                )
             )
         if self.rate:
             moved = np.array([fit.each[:, 1:3, DRIFT].mean(axis=0) for fit in fits if fit.fits_offset])
             size = np.abs(self.rate * moved).max(axis=0)
             told.append(
-                f"The zero of the force cell drifts by {_PER_HOUR * self.rate:.2g} ± {_PER_HOUR * self.error:.1g} N/h, "
-                f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
-                f"(viscoelastic) and {size[1]:.2g} (Coulomb)."
+                Note(
+                    "zero-drifts",
+                    f"The zero of the force cell drifts by {_PER_HOUR * self.rate:.2g} ± "
+                    f"{_PER_HOUR * self.error:.1g} N/h, "
+                    f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
+                    f"(viscoelastic) and {size[1]:.2g} (Coulomb).",
+                )
             )
         if self.wandering:
             how, advice = "unevenly ", "measure the configurations of a condition in quick succession"
             if not self.timed:
                 how, advice = "", "record the times of the readings (time)"
             told.append(
-                f"The zero of the force cell moves {how}in the course of the test, with a standard deviation of "
-                f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; "
-                f"{advice}."
+                Note(
+                    "zero-wanders",
+                    f"The zero of the force cell moves {how}in the course of the test, with a standard deviation of "
+                    f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; "
+                    f"{advice}.",
+                )
             )
         return told
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.measurement.least_squares import regressors, told_apart
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.friction.measurement.conditions import Condition
@@ -37,9 +38,10 @@ def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> l
     given = float(zeros.value[0])
     if abs(mean - given) <= _AWAY * np.hypot(error, zeros.error) + 1e-9 * abs(given):
         return []
-    sentence = (
+    sentence = Note(
+        "given-zero-contradicted",
         f"The zero of the force cell that was given, {given:.3g} N, is used, though the configurations at {told.size} "
-        f"conditions tell another one, {mean:.3g} ± {error:.1g} N."
+        f"conditions tell another one, {mean:.3g} ± {error:.1g} N.",
     )
     return [sentence]
 

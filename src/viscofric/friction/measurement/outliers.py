@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.friction.measurement.doubts import ROUNDING
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -57,10 +58,11 @@ def told_of(runs: TractionRuns, found: list[tuple[Condition, int]], *, left_out:
         for group, row in found[:_NAMED]
     ]
     more = f" and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
-    told = (
+    told = Note(
+        "outliers",
         f"{'One reading deviates' if one else f'{len(found)} readings deviate'} from the others of the same "
         f"configuration by more than {_OUTLIER:g} robust standard deviations and {'was' if one else 'were'} "
-        f"{'left out' if left_out else 'kept'}: {', '.join(named)}{more}."
+        f"{'left out' if left_out else 'kept'}: {', '.join(named)}{more}.",
     )
     return [told]
 

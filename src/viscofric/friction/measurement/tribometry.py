@@ -21,6 +21,7 @@ from viscofric.friction.measurement.separation import Fit
 from viscofric.friction.measurement.uneven import Uneven
 from viscofric.friction.measurement.unnoticed_slip import unnoticed_slip
 from viscofric.friction.measurement.zeros import Zeros
+from viscofric.notes import Note
 from viscofric.traction import TractionRuns
 from viscofric.units import Quantity, positive, share
 
@@ -235,7 +236,8 @@ class _Separation:
         checked = any(entry.checks for entry in self.entries)
         assumption = assumed.sentence([groups[place] for place in self.assumed], len(groups))
         if not assumption and not assumed.nothing:
-            told = [*told, "The Coulomb friction that was given is not used: the signs of the speeds tell it."]
+            unused = "The Coulomb friction that was given is not used: the signs of the speeds tell it."
+            told = [*told, Note("coulomb-not-used", unused)]
 
         def column(number: int, kind: str) -> Array:
             return np.array([getattr(entry, kind)[number] for entry in self.entries])
@@ -256,7 +258,7 @@ class _Separation:
             consistency=column(3, "value") if checked else None,
             consistency_error=column(3, "error") if checked else None,
             source=runs.source,
-            notes=(*runs.notes, *([assumption] if assumption else []), *self.notes, *told),
+            notes=(*runs.notes, *([Note("coulomb-assumed", assumption)] if assumption else []), *self.notes, *told),
             slip=np.array([group.slip for group in groups]),
             offset=column(0, "value"),
             assumption=assumption,

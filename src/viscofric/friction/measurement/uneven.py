@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.friction.measurement.growth import Growth
 from viscofric.nominal import SAME_LOAD
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -86,7 +87,7 @@ class Uneven:
         )
         return entry.widened(by_scatter, entry.freedom[1]).widened(by_rest, np.inf)
 
-    def notes(self, groups: list[Condition], entries: list[Entry]) -> list[str]:
+    def notes(self, groups: list[Condition], entries: list[Entry]) -> list[Note]:
         """Say where the speeds differ and what was made of it."""
         told = []
         largest = 100 * float(np.abs(self.apart).max(initial=0.0))
@@ -102,8 +103,12 @@ class Uneven:
             )
             place = where([groups[one] for one in found], len(groups))
             told.append(
-                f"{place} the disc's speed differs by up to {largest:.2g} % between directions of slip; the change of "
-                f"viscoelastic friction between them {what}."
+                Note(
+                    "speed-differs",
+                    f"{place} the disc's speed differs by up to {largest:.2g} % between directions of slip; the "
+                    "change of "
+                    f"viscoelastic friction between them {what}.",
+                )
             )
         return told
 

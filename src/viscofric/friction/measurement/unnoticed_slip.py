@@ -8,6 +8,7 @@ import numpy as np
 
 from viscofric.friction.measurement.doubts import CHANCE, ROUNDING, threshold
 from viscofric.nominal import SAME_LOAD
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.friction.measurement.entry import Entry
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 _MATTERS = 0.1
 
 
-def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[str]]:
+def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[Note]]:
     """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed.
 
     Slip that is too small to be measured can still hold much of Coulomb friction, with one sign.
@@ -51,8 +52,13 @@ def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], li
         if apart > chance * error and apart > max(_MATTERS * abs(other.value[2]), ROUNDING):
             found.append(place)
             told.append(
-                f"At {group} viscoelastic friction without slip, {entry.value[1]:.2g} ± {entry.error[1]:.2g}, is not "
-                f"that with slip, {other.value[1]:.2g} ± {other.error[1]:.2g}: ball and disc probably slip there by "
-                "less than can be measured, and Coulomb friction is in it; it is left out."
+                Note(
+                    "unnoticed-slip",
+                    f"At {group} viscoelastic friction without slip, {entry.value[1]:.2g} ± {entry.error[1]:.2g}, is "
+                    "not "
+                    f"that with slip, {other.value[1]:.2g} ± {other.error[1]:.2g}: ball and disc probably slip there "
+                    "by "
+                    "less than can be measured, and Coulomb friction is in it; it is left out.",
+                )
             )
     return found, told

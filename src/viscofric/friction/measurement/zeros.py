@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.friction.measurement.least_squares import told_apart
+from viscofric.notes import Note
 from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
@@ -137,10 +138,16 @@ class Zeros:
         load = float(np.mean([group.load for group in used]))
         where = f"At {len(used)} of {len(groups)} conditions the zero of the force cell is the recorded one"
         if self.recordings.size < 2:
-            return [f"{where}, of one recording, whose error is not in the standard errors of viscoelastic friction."]
-        told = (
+            return [
+                Note(
+                    "recorded-zero",
+                    f"{where}, of one recording, whose error is not in the standard errors of viscoelastic friction.",
+                )
+            ]
+        told = Note(
+            "recorded-zero",
             f"{where}, whose {self.recordings.size} recordings scatter by {self.error:.2g} N "
-            f"({self.error / load:.2g} of the load); this is in the standard errors of viscoelastic friction."
+            f"({self.error / load:.2g} of the load); this is in the standard errors of viscoelastic friction.",
         )
         return [told]
 
@@ -150,9 +157,10 @@ class Zeros:
             return []
         first, last = self.recordings[0], self.recordings[-1]
         span = float(np.ptp(self.recordings))
-        told = (
+        told = Note(
+            "recorded-zero-drifts",
             f"The recorded zero of the force cell drifts, from {first:.3g} N at first to {last:.3g} N at last, within "
-            f"{span:.2g} N ({span / load:.2g} of the load)."
+            f"{span:.2g} N ({span / load:.2g} of the load).",
         )
         return [told]
 

@@ -15,6 +15,7 @@ from viscofric.friction.shifting.pairs import FEWEST_POINTS
 from viscofric.friction.shifting.placement import arrange, groups, rivals, scan_pairs
 from viscofric.friction.shifting.refusals import Doubts, shown, too_flat
 from viscofric.friction.shifting.selection import WORTH_TELLING, widened, widenings
+from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.superposition.common_shifts import fitted
@@ -180,10 +181,11 @@ def _marginal(chosen: Sequence[FrictionIsotherm], factors: Array) -> tuple[str, 
     if not found.size:
         return ()
     places = ", ".join(f"{shown(chosen[one])} and {shown(chosen[one + 1])}" for one in found.tolist())
-    told = (
+    told = Note(
+        "marginal-overlap",
         f"Between {places} friction curves overlap so little for their errors that chance might have hidden it; what "
         f"is found then is off to one side, so that standard errors of the shift there are made up to "
-        f"{math.sqrt(float(factors.max())):.2g} times as large."
+        f"{math.sqrt(float(factors.max())):.2g} times as large.",
     )
     return (told,)
 

@@ -16,7 +16,7 @@ from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_ro
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.nominal import SAME_LOAD
-from viscofric.notes import Remedy
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive, to_si
 
@@ -162,9 +162,10 @@ def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
     count = int(np.count_nonzero(curves.viscoelastic < -2.0 * curves.viscoelastic_error))
     if not count:
         return ()
-    sentence = (
+    sentence = Note(
+        "friction-below-zero",
         f"Viscoelastic friction is below zero at {count} of {len(curves)} points, by more than twice its standard "
-        "error, which that of a rubber never is; check the signs of the forces."
+        "error, which that of a rubber never is; check the signs of the forces.",
     )
     return (sentence,)
 

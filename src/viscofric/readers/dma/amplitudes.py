@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Note
 from viscofric.readers.dma.points import at
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def insist_on_one_amplitude(points: Points, rows: Indices, source: str) -> None:
     raise DataFileError(source, problem + "sweeps at one amplitude are wanted, not an amplitude sweep.")
 
 
-def on_amplitudes(sweeps: Sequence[Sorted]) -> list[str]:
+def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:
     """Tell strain amplitudes that differ: the modulus of a filled rubber falls with amplitude.
 
     A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57, doi:10.1002/app.1962.070061906.
@@ -73,12 +74,12 @@ def on_amplitudes(sweeps: Sequence[Sorted]) -> list[str]:
     (least, at_least), (most, at_most) = (f((float(np.median(one)), T) for one, T in known) for f in (min, max))
     if most > AMPLITUDES_DIFFER * least:
         told = f"The strain amplitudes of the isotherms differ, from {100 * least:.3g} % {at([at_least])} to "
-        notes.append(f"{told}{100 * most:.3g} % {at([at_most])}; {falls}temperature.")
+        notes.append(Note("amplitudes-differ", f"{told}{100 * most:.3g} % {at([at_most])}; {falls}temperature."))
     within = [(one, T) for one, T in known if one.max() > AMPLITUDES_DIFFER * one.min()]
     if within:
         widest, where = max(within, key=lambda each: float(each[0].max() / each[0].min()))
         isotherms = "an isotherm" if len(within) == 1 else f"{len(within)} isotherms"
         told = f"The strain amplitude is not one within {isotherms}"
         span = f"{100 * widest.min():.3g} to {100 * widest.max():.3g} % {at([where])}"
-        notes.append(f"{told}, at most from {span}; {falls}frequency.")
+        notes.append(Note("amplitudes-differ", f"{told}, at most from {span}; {falls}frequency."))
     return notes

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Note
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ SWEPT = 0.8
 TEMPERATURE_SWEEP = 5
 
 
-def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[Indices], list[str]]:
+def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[Indices], list[Note]]:
     """Return the points of each isotherm, in the order of reading, and notes on points that belong to none.
 
     Points of one file and step are parted where their temperatures leave a gap.  Where they leave none over more
@@ -75,7 +76,12 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
     notes = []
     if moving:
         what = "1 point left out: its" if len(moving) == 1 else f"{len(moving)} points left out: their"
-        notes.append(f"{what} temperature was moving between two isotherms ({points.named(sorted(moving))}).")
+        notes.append(
+            Note(
+                "temperature-moving",
+                f"{what} temperature was moving between two isotherms ({points.named(sorted(moving))}).",
+            )
+        )
     merged = _merged(points, groups)
     kept = _insist_on_several(points, merged, source)
     _insist_on_one_temperature(points, kept, source)
@@ -222,7 +228,7 @@ def _insist_on_several(points: Points, groups: list[Indices], source: str) -> li
     return [group for group, count in zip(groups, counts, strict=True) if count >= needed]
 
 
-def _on_small_groups(points: Points, groups: list[Indices], kept: list[Indices]) -> list[str]:
+def _on_small_groups(points: Points, groups: list[Indices], kept: list[Indices]) -> list[Note]:
     ids = {id(group) for group in kept}
     small = [group for group in groups if id(group) not in ids]
     if not small:
@@ -232,4 +238,9 @@ def _on_small_groups(points: Points, groups: list[Indices], kept: list[Indices])
     where = f"{low} °C" if low == high else f"between {low} and {high} °C"
     what = "1 point" if len(rows) == 1 else f"{len(rows)} points"
     alone = "it belongs" if len(rows) == 1 else "they belong"
-    return [f"{what} left out: {alone} to no isotherm with several frequencies ({points.named(rows)}; {where})."]
+    return [
+        Note(
+            "points-left-out",
+            f"{what} left out: {alone} to no isotherm with several frequencies ({points.named(rows)}; {where}).",
+        )
+    ]

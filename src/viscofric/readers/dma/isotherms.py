@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.data import Isotherm, IsothermalSweeps
-from viscofric.errors import DataFileError, InputError, shortened
+from viscofric.errors import DataFileError, InputError, short_notes
+from viscofric.notes import Note, note_of
 from viscofric.readers.dma.amplitudes import insist_on_one_amplitude
 from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
 from viscofric.readers.dma.points import Sorted, at, joined, listed
@@ -104,7 +105,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     for rows in groups:
         insist_on_one_amplitude(points, rows, source)
     sweeps = [_isotherm(points, rows) for rows in groups]
-    notes: list[str] = [
+    notes: list[Note] = [
         *_on_formats(readings),
         *on_deformation,
         *_own_notes(readings),
@@ -116,7 +117,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     formats = list(dict.fromkeys(one.format for one in readings))
     isotherms = tuple(one.isotherm for one in sweeps)
     known = deformation is not None or any(one.deformation is not None for one in readings)
-    found = IsothermalSweeps(isotherms, kind, source, tuple(map(shortened, notes)), ", ".join(formats))
+    found = IsothermalSweeps(isotherms, kind, source, short_notes(notes), ", ".join(formats))
     return TracedSweeps(found, tuple(readings), points, tuple(sweeps), known)
 
 
@@ -130,35 +131,39 @@ def _names(readings: Sequence[Readings]) -> str:
     return listed(names[:3], len(names) - 3) if len(names) > 3 else listed(names)
 
 
-def _on_formats(readings: Sequence[Readings]) -> list[str]:
+def _on_formats(readings: Sequence[Readings]) -> list[Note]:
     formats = list(dict.fromkeys(one.format for one in readings))
     if len(formats) == 1:
         what = "The file was" if len(readings) == 1 else f"All {len(readings)} files were"
-        return [f"{what} taken for: {formats[0]}."]
+        return [Note("format", f"{what} taken for: {formats[0]}.")]
     taken = [(name, [one for one in readings if one.format == name]) for name in formats]
-    return ["; ".join(f"{_names(some)} taken for: {name}" for name, some in taken) + "."]
+    return [Note("format", "; ".join(f"{_names(some)} taken for: {name}" for name, some in taken) + ".")]
 
 
-def _own_notes(readings: Sequence[Readings]) -> list[str]:
+def _own_notes(readings: Sequence[Readings]) -> list[Note]:
     """Return what the readers noted; a note that several files share stands once."""
     if len(readings) == 1:
-        return list(readings[0].notes)
-    shared: dict[str, list[Readings]] = {}
+        return list(map(note_of, readings[0].notes))
+    shared: dict[Note, list[Readings]] = {}
     for one in readings:
-        for note in one.notes:
+        for note in map(note_of, one.notes):
             shared.setdefault(note, []).append(one)
-    return [f"{'All files' if len(some) == len(readings) else _names(some)}: {note}" for note, some in shared.items()]
+    return [note.at("All files" if len(some) == len(readings) else _names(some)) for note, some in shared.items()]
 
 
-def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[str]]:
+def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[Note]]:
     """Decide between tension and shear: what the files say, else what the caller says."""
     if asked not in (None, "tension", "shear"):
         raise InputError(f"deformation = {asked!r}: must be 'tension' or 'shear'.")
     said = [one for one in readings if one.deformation is not None]
     if not said:
         if asked is not None:
-            return asked, [f"The moduli are taken as measured in {asked}, as asked; the file does not say it."]
-        note = "The file does not say whether its moduli are tensile or shear; shown as tensile until that is known."
+            note = f"The moduli are taken as measured in {asked}, as asked; the file does not say it."
+            return asked, [Note("deformation-given", note)]
+        note = Note(
+            "deformation-unknown",
+            "The file does not say whether its moduli are tensile or shear; shown as tensile until that is known.",
+        )
         return "tension", [note]
     kind = said[0].deformation or "tension"
     by = f" ({said[0].said_by})" if said[0].said_by else ""
@@ -169,10 +174,15 @@ def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tup
         raise DataFileError(other.source, problem)
     if asked not in (None, kind):
         raise DataFileError(said[0].source, f"the header says {kind}{by}, but deformation={asked!r} was asked.")
-    notes = [f"The file's header says that the moduli were measured in {kind}{by}."]
+    notes = [Note("deformation", f"The file's header says that the moduli were measured in {kind}{by}.")]
     silent = [one for one in readings if one.deformation is None]
     if silent:
-        notes.append(f"{_names(silent)}: does not say whether the moduli are tensile or shear; taken as {kind}.")
+        notes.append(
+            Note(
+                "deformation-not-said",
+                f"{_names(silent)}: does not say whether the moduli are tensile or shear; taken as {kind}.",
+            )
+        )
     return kind, notes
 
 
@@ -197,26 +207,38 @@ def _isotherm(points: Points, rows: Indices) -> Sorted:
     return Sorted(isotherm, rows, origins)
 
 
-def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: int) -> list[str]:
+def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: int) -> list[Note]:
     """Tell what was sorted and averaged."""
     notes = []
     unsorted = [one for one in sweeps if np.any(np.diff(points.angular_frequency[one.rows]) < 0)]
     averaged = [one for one in sweeps if len(one.rows) > len(one.origins)]
     if unsorted:
-        notes.append(f"The rows {at([one.isotherm.temperature for one in unsorted])} were sorted by frequency.")
+        notes.append(
+            Note("sorted", f"The rows {at([one.isotherm.temperature for one in unsorted])} were sorted by frequency.")
+        )
     if averaged:
         repeated = sum(len(one.rows) - len(one.origins) for one in averaged)
         what = "1 repeated frequency" if repeated == 1 else f"{repeated} repeated frequencies"
         were = "was" if repeated == 1 else "were"
-        notes.append(f"{what} {at([one.isotherm.temperature for one in averaged])} {were} averaged.")
+        notes.append(Note("averaged", f"{what} {at([one.isotherm.temperature for one in averaged])} {were} averaged."))
         again = [one.isotherm.temperature for one in averaged if all(len(rows) > 1 for rows in one.origins)]
         if again:
-            notes.append(f"All frequencies {at(again)} were measured more than once, as in sweeps run again.")
+            notes.append(
+                Note(
+                    "measured-again",
+                    f"All frequencies {at(again)} were measured more than once, as in sweeps run again.",
+                )
+            )
         worst, kelvin = max(_disagreement(points, one) for one in averaged)
         if worst > REPEATS_DIFFER:
-            notes.append(f"Repeated readings differ by up to {100 * worst:.0f} % of their modulus {at([kelvin])}.")
+            notes.append(
+                Note(
+                    "repeats-differ",
+                    f"Repeated readings differ by up to {100 * worst:.0f} % of their modulus {at([kelvin])}.",
+                )
+            )
     if files == 1 and np.any(np.diff(points.temperature[keep]) < -ISOTHERM_GAP):
-        notes.append("The isotherms were sorted by temperature.")
+        notes.append(Note("sorted", "The isotherms were sorted by temperature."))
     return notes
 
 

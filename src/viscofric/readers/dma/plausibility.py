@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.notes import Note
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -45,8 +46,11 @@ def doubts(table: Table, places: dict[str, int], temperature: Array, storage_mod
         row = int(np.argmax(outside))
         place = next(places[m] for m in ("storage modulus", "loss modulus", "complex modulus") if m in places)
         notes.append(
-            f"A storage modulus of {storage_modulus[row]:.3g} Pa (line {table.lines[row]}) is not one of a solid; "
-            f"the unit in column {table.columns[place].heading!r} is probably wrong."
+            Note(
+                "implausible-modulus",
+                f"A storage modulus of {storage_modulus[row]:.3g} Pa (line {table.lines[row]}) is not one of a solid; "
+                f"the unit in column {table.columns[place].heading!r} is probably wrong.",
+            )
         )
     return notes
 
@@ -61,7 +65,11 @@ def _of_temperature(table: Table, place: int, temperature: Array) -> list[str]:
     in_celsius = np.allclose(temperature[known] - printed, CELSIUS_ZERO, rtol=0.0, atol=1e-6)
     in_kelvin = np.allclose(temperature[known], printed, rtol=1e-9, atol=0.0)
     if in_celsius and low >= LIKE_KELVIN[0] and high <= LIKE_KELVIN[1]:
-        return [f"{span} and look like kelvin; they were read as °C, as the heading says."]
+        return [
+            Note("implausible-temperature", f"{span} and look like kelvin; they were read as °C, as the heading says.")
+        ]
     if in_kelvin and high < COLDEST:
-        return [f"{span} and look like °C; they were read as kelvin, as the heading says."]
+        return [
+            Note("implausible-temperature", f"{span} and look like °C; they were read as kelvin, as the heading says.")
+        ]
     return []

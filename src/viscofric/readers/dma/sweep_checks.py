@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.notes import Note
 from viscofric.readers.dma.amplitudes import on_amplitudes
 from viscofric.readers.dma.points import at
 from viscofric.units import celsius
@@ -36,7 +37,7 @@ LIKE_LOGARITHMS = (3.0, 12.0)  # Pa
 LARGEST_LOSS = 10.0
 
 
-def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
+def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
     """Return a sentence on each sort of doubt; nothing is left out or changed."""
     return [
         *_on_temperature(points, sweeps),
@@ -46,7 +47,7 @@ def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
     ]
 
 
-def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
+def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
     wide, drifting, furthest, fastest = [], [], 0.0, 0.0
     for one in sweeps:
         # of several files, each has its own course of temperature
@@ -62,10 +63,15 @@ def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
             fastest = max(fastest, drift)
     notes = []
     if wide:
-        notes.append(f"The temperature ranges over up to {furthest:.1f} K within the {_isotherm(wide)} {at(wide)}.")
+        notes.append(
+            Note(
+                "temperature-range",
+                f"The temperature ranges over up to {furthest:.1f} K within the {_isotherm(wide)} {at(wide)}.",
+            )
+        )
     if drifting:
         told = f"drifts steadily, by up to {fastest:.1f} K, within the {_isotherm(drifting)} {at(drifting)}"
-        notes.append(f"The temperature {told}.")
+        notes.append(Note("temperature-drifts", f"The temperature {told}."))
     return notes
 
 
@@ -83,7 +89,7 @@ def _drift(kelvin: Array) -> float:
     return abs(slope) if slope**2 * (place @ place) > STEADY * (about @ about) else 0.0
 
 
-def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
+def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
     notes = []
     for name in ("storage", "loss"):
         found = outliers([one.isotherm for one in sweeps], name)
@@ -99,7 +105,7 @@ def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[str]:
         else:
             told = f"{len(found)} {name} moduli lie far off their neighbours, the first at {where}; they were kept "
             told += f"({points.named(rows)})."
-        notes.append(told)
+        notes.append(Note("outlying-modulus", told))
     return notes
 
 
@@ -161,18 +167,32 @@ def _residuals(x: Array, y: Array) -> Array:
     return r
 
 
-def _on_sense(sweeps: Sequence[Sorted]) -> list[str]:
+def _on_sense(sweeps: Sequence[Sorted]) -> list[Note]:
     """Tell what no rubber does: it grows softer when it cools, or dissipates far more than it stores."""
     notes = []
     storage = np.concatenate([one.isotherm.storage_modulus for one in sweeps])
     loss = np.concatenate([one.isotherm.loss_modulus for one in sweeps])
     if storage.min() > LIKE_LOGARITHMS[0] and storage.max() < LIKE_LOGARITHMS[1]:
         span = f"{storage.min():.3g} to {storage.max():.3g}"
-        notes.append(f"All storage moduli lie between {span} Pa and look like logarithms; they were read as moduli.")
+        notes.append(
+            Note(
+                "logarithms",
+                f"All storage moduli lie between {span} Pa and look like logarithms; they were read as moduli.",
+            )
+        )
     lossy = float(np.median(loss / storage))
     if lossy > LARGEST_LOSS:
-        notes.append(f"Half of all tan δ are above {lossy:.3g}, as of a liquid; are the columns of the moduli swapped?")
+        notes.append(
+            Note(
+                "columns-swapped",
+                f"Half of all tan δ are above {lossy:.3g}, as of a liquid; are the columns of the moduli swapped?",
+            )
+        )
     level = [float(np.median(np.log(one.isotherm.storage_modulus))) for one in sweeps]
     if len(sweeps) > 2 and np.all(np.diff(level) > 0.0):
-        notes.append("Every isotherm is stiffer than the next colder one; are the temperatures right?")
+        notes.append(
+            Note(
+                "stiffer-when-warmer", "Every isotherm is stiffer than the next colder one; are the temperatures right?"
+            )
+        )
     return notes

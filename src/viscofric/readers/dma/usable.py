@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Note
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 LARGEST_MODULUS = 1e15  # Pa
 
 
-def usable(points: Points, source: str) -> tuple[Indices, list[str]]:
+def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
     """Return which points can be used, and a note on each sort of those left out.
 
     Parameters
@@ -42,7 +43,7 @@ def usable(points: Points, source: str) -> tuple[Indices, list[str]]:
         raise DataFileError(source, "holds no point of a frequency sweep.")
     columns = (points.temperature, points.angular_frequency, points.storage_modulus, points.loss_modulus)
     keep = np.all([np.isfinite(column) for column in columns], axis=0)
-    notes: list[str] = []
+    notes: list[Note] = []
     _leave_out(points, source, ~keep, notes, ("a value is missing in it", "a value is missing in each"), None)
     cold = np.flatnonzero(keep & (points.temperature <= 0.0))
     if cold.size:
@@ -71,7 +72,7 @@ def _leave_out(
     points: Points,
     source: str,
     bad: NDArray[np.bool_],
-    notes: list[str],
+    notes: list[Note],
     told: tuple[str, str],
     values: tuple[NDArray[np.float64], str] | None,
     *,
@@ -86,13 +87,18 @@ def _leave_out(
         raise DataFileError(source, f"{len(rows)} of {len(points)} points cannot be used: {told[1]} ({named}).")
     first = int(rows[0])
     if len(rows) > 1:
-        notes.append(f"{len(rows)} points left out: {told[1]} ({named}{_span(points, rows)}).")
+        notes.append(Note("points-left-out", f"{len(rows)} points left out: {told[1]} ({named}{_span(points, rows)})."))
     elif values is None:
-        notes.append(f"{_capital(named)} left out: {told[0]}.")
+        notes.append(Note("points-left-out", f"{_capital(named)} left out: {told[0]}."))
     else:
         hertz = points.angular_frequency[first] / (2 * math.pi)
         where = f"{celsius(points.temperature[first]):z.1f} °C, {hertz:.4g} Hz"
-        notes.append(f"{_capital(named)} left out: {told[0]} ({values[0][first]:.4g} {values[1]} at {where}).")
+        notes.append(
+            Note(
+                "points-left-out",
+                f"{_capital(named)} left out: {told[0]} ({values[0][first]:.4g} {values[1]} at {where}).",
+            )
+        )
 
 
 def _span(points: Points, rows: Indices) -> str:

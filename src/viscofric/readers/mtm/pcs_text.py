@@ -93,7 +93,10 @@ def _load(rows: Rows) -> tuple[Array, tuple[str, ...]]:
     """Return the load of each row: the ball's, else the pin's, NaN if neither is there."""
     ball, pin = rows.columns["ball load"], rows.columns["pin load"]
     pinned = int(np.sum(np.isnan(ball) & ~np.isnan(pin)))
-    note = f"{pinned} rows are of a pin, which is at rest: their load is the pin's and the ball's speed is zero."
+    note = Note(
+        "rows-of-a-pin",
+        f"{pinned} rows are of a pin, which is at rest: their load is the pin's and the ball's speed is zero.",
+    )
     return np.where(np.isnan(ball), pin, ball), (note,) if pinned else ()
 
 
@@ -140,7 +143,12 @@ def _temperature(rows: Rows, row: Whole, thermometer: Thermometer) -> tuple[Arra
     own, other = (rows.columns[f"{name} rtd temp"][row] for name in (thermometer, _OTHER[thermometer]))
     told = []
     if np.isnan(own).all() and not np.isnan(other).all():
-        told.append(f"The {thermometer} RTD was not recorded; temperatures are those of the {_OTHER[thermometer]} RTD.")
+        told.append(
+            Note(
+                "thermometer-missing",
+                f"The {thermometer} RTD was not recorded; temperatures are those of the {_OTHER[thermometer]} RTD.",
+            )
+        )
         own, other = other, own
     else:
         gap = np.abs(own - other)
@@ -153,7 +161,7 @@ def _temperature(rows: Rows, row: Whole, thermometer: Thermometer) -> tuple[Arra
             choice = Remedy(f"; thermometer={_OTHER[thermometer]!r} takes that one.", ".", page=".")
             told.append(Note("thermometers-differ", words, remedy=choice))
         else:
-            told.append(f"Temperatures are those of the {thermometer} RTD.")
+            told.append(Note("thermometer", f"Temperatures are those of the {thermometer} RTD."))
     lacking = np.flatnonzero(np.isnan(own))
     if lacking.size:
         rows.refuse(int(row[lacking[0]]), "there is a traction force, but no temperature.")
@@ -177,11 +185,14 @@ def _sense_of_force(force: Array, disc: Array, ball: Array, row: Whole, signal: 
         agrees = float(np.median((force[first] - force[first + 1]) * np.sign(slip[first] - slip[first + 1]))) >= 0.0
         if agrees:
             return 1.0, ()
-        note = "Forces are positive where the ball is faster; their signs are turned round."
+        note = Note("force-signs-turned", "Forces are positive where the ball is faster; their signs are turned round.")
         return -1.0, (note,)
     alone = (signal == 4) & (np.abs(slip) > clear)
     if alone.any() and float(np.median(force[alone] * np.sign(slip[alone]))) < 0.0:
-        note = "Most forces point against the slip of the disc on the ball; their signs are kept as they are printed."
+        note = Note(
+            "force-signs-kept",
+            "Most forces point against the slip of the disc on the ball; their signs are kept as they are printed.",
+        )
         return 1.0, (note,)
     return 1.0, ()
 
@@ -204,9 +215,15 @@ def _times(rows: Rows, row: Whole) -> tuple[Array, datetime | None, tuple[str, .
         if not np.isnan(time[here]).all():
             latest = float(np.nanmax(time[here]))
     if np.isnan(time).all():
-        return time, None, ("There is no step time, so that it is not known when readings were taken.",)
+        return (
+            time,
+            None,
+            ("There is no step time, so that it is not known when readings were taken.",),
+        )
     first = float(np.nanmin(time))
-    note = f"The date of {undated} steps cannot be read; they are assumed to follow the one before at once."
+    note = Note(
+        "date-unread", f"The date of {undated} steps cannot be read; they are assumed to follow the one before at once."
+    )
     began = clock + timedelta(seconds=first) if clock is not None and not undated else None
     return time - first, began, (note,) if undated else ()
 
@@ -238,5 +255,7 @@ def _step_numbers(export: Export) -> tuple[Whole, tuple[str, ...]]:
     printed = np.array([step.number for step in export.steps], dtype=np.int64)
     if np.all(np.diff(printed) > 0):
         return printed, ()
-    note = "The numbers of the steps do not ascend in the file, so that steps are counted from 1."
+    note = Note(
+        "steps-renumbered", "The numbers of the steps do not ascend in the file, so that steps are counted from 1."
+    )
     return np.arange(1, printed.size + 1), (note,)

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError, check_choice, shortened
+from viscofric.errors import DataFileError, InputError, check_choice, short_notes
 from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 from viscofric.readers.mtm import formats
 from viscofric.readers.source import Source
 from viscofric.traction import TractionRuns, TractionStep, notes_on_friction
@@ -107,23 +107,18 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
     replicate, numbering = _replicates(parts, columns, step)
     friction = columns["traction_force"] / columns["load"]
     several = len(parts) > 1
-    told = [_of_file(part.source, note) if several else note for part in parts for note in part.notes]
+    told = [note_of(note).at(Path(part.source).name if several else "") for part in parts for note in part.notes]
     return TractionRuns(
         **columns,
         replicate=replicate,
         source=", ".join(part.source for part in parts),
-        notes=(*map(shortened, (*told, *numbering, *timing)), *notes_on_friction(friction)),
+        notes=(*short_notes((*told, *numbering, *timing)), *notes_on_friction(friction)),
         zero_force=_optional(parts, "zero_force"),
         time=time,
         step=step,
         track_radius=_optional(parts, "track_radius"),
         steps=steps,
     )
-
-
-def _of_file(source: str, note: str) -> str:
-    text = f"{Path(source).name}: {note}"
-    return Note(note.code, text) if isinstance(note, Note) else text
 
 
 def _optional(parts: Sequence[TractionReadings], name: str) -> Array | None:
@@ -143,7 +138,8 @@ def _times(parts: Sequence[TractionReadings]) -> tuple[Array | None, tuple[str, 
     starts = [part.began for part in parts]
     known = [start for start in starts if start is not None]
     if len(known) < len(starts):
-        return time, ("The date of some files is not known, so that time begins anew with each file.",)
+        note = "The date of some files is not known, so that time begins anew with each file."
+        return time, (Note("date-unknown", note),)
     later = [(start - min(known)).total_seconds() for start in known]
     return time + np.repeat(later, [len(part) for part in parts]), ()
 
@@ -230,8 +226,12 @@ def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) ->
             own = own - own.min() + max(int(number.max()) for number in numbers) + 1
             held = _held(here, own)
             told.append(
-                f"{Path(part.source).name}: conditions of an earlier file are measured again under the same replicate "
-                f"numbers; they are other repetitions, numbered {own.min()} to {own.max()} here."
+                Note(
+                    "replicates-renumbered",
+                    f"{Path(part.source).name}: conditions of an earlier file are measured again under the same "
+                    "replicate "
+                    f"numbers; they are other repetitions, numbered {own.min()} to {own.max()} here.",
+                )
             )
         taken |= held
         numbers.append(own)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.rheology.cards.card import (
     Reading,
     Solid,
@@ -177,10 +178,17 @@ def _material(blocks: list[_Block], notes: list[str]) -> tuple[list[_Block], str
     chosen = viscoelastic[0]
     name = chosen[0].options.get("NAME", "") if chosen[0].keyword == "MATERIAL" else ""
     if len(viscoelastic) > 1:
-        notes.append(f"The file holds {len(viscoelastic)} viscoelastic materials; the first, {name!r}, was read.")
+        notes.append(
+            Note(
+                "first-of-several",
+                f"The file holds {len(viscoelastic)} viscoelastic materials; the first, {name!r}, was read.",
+            )
+        )
     ignored = sorted({block.keyword for block in chosen} - _UNDERSTOOD - _IMMATERIAL)
     if ignored:
-        notes.append(f"Keywords that were not read: {', '.join('*' + keyword for keyword in ignored)}.")
+        notes.append(
+            Note("not-read", f"Keywords that were not read: {', '.join('*' + keyword for keyword in ignored)}.")
+        )
     return chosen, name
 
 
@@ -219,7 +227,9 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
     if block is None or not block.data:
         raise InputError("holds no *ELASTIC or *HYPERELASTIC with numbers, so that its moduli are not known.")
     if len(block.data) > 1 and elastic is not None:
-        notes.append(f"Line {block.row}: elasticity depends on temperature; its first line was taken.")
+        notes.append(
+            Note("first-line-taken", f"Line {block.row}: elasticity depends on temperature; its first line was taken.")
+        )
     instantaneous = block.options.get("MODULI", "LONG TERM").upper().replace(" ", "") == "INSTANTANEOUS"
     values = block.data[0]
     if elastic is not None:
@@ -230,7 +240,7 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
             raise InputError(f"line {block.row}: *ELASTIC wants a modulus above zero, a Poisson ratio from 0 to 0.5.")
         shear = modulus * reading.pascal / (2.0 * (1.0 + ratio))
         return shear, None if ratio == 0.5 else modulus * reading.pascal / (3.0 * (1.0 - 2.0 * ratio)), instantaneous
-    notes.append("The card is hyperelastic; the material is its small-strain limit.")
+    notes.append(Note("hyperelastic", "The card is hyperelastic; the material is its small-strain limit."))
     shear, softness = _hyperelastic(block)
     bulk = None if softness == 0.0 else 2.0 / softness * reading.pascal
     return shear * reading.pascal, bulk, instantaneous
@@ -282,5 +292,10 @@ def _shift(
         return Arrhenius(values[1] / gas * GAS_CONSTANT, reading.kelvin(values[0], notes, zero))
     if kind in ("WLF", "ARRHENIUS"):
         raise InputError(f"line {block.row}: *TRS, DEFINITION={kind} lacks numbers; WLF has 3, ARRHENIUS 2.")
-    notes.append(f"*TRS, DEFINITION={kind} is a subroutine outside the card; the material holds at its reference only.")
+    notes.append(
+        Note(
+            "shift-in-subroutine",
+            f"*TRS, DEFINITION={kind} is a subroutine outside the card; the material holds at its reference only.",
+        )
+    )
     return None

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.rheology.cards.card import (
     Reading,
     Solid,
@@ -101,7 +102,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     properties, tables, ignored = _commands(text)
     notes: list[str] = [] if content else reading.unit_note()
     if ignored:
-        notes.append(f"Commands that were not read: {', '.join(sorted(ignored))}.")
+        notes.append(Note("not-read", f"Commands that were not read: {', '.join(sorted(ignored))}."))
     modulus = properties.get("EX")
     ratio = properties.get("PRXY", properties.get("NUXY"))
     if modulus is None or ratio is None:
@@ -203,7 +204,10 @@ def _shift(
             f"line {table.row}: TB,SHIFT,…,{table.option} wants {3 if table.option == 'WLF' else 2} constants."
         )
     notes.append(
-        f"TB,SHIFT,…,{table.option or 'without option'} is a subroutine outside the card (constants "
-        f"{', '.join(f'{value:g}' for value in values)}); the material holds at its reference temperature only."
+        Note(
+            "assumed",
+            f"TB,SHIFT,…,{table.option or 'without option'} is a subroutine outside the card (constants "
+            f"{', '.join(f'{value:g}' for value in values)}); the material holds at its reference temperature only.",
+        )
     )
     return None

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import CELSIUS_ZERO, conversion
@@ -113,9 +114,13 @@ class Reading:
         if zero is not None:
             return temperature - zero
         if temperature >= _KELVIN_FROM:
-            notes.append(f"The reference temperature {temperature:g} has no unit; it was taken for K.")
+            notes.append(
+                Note("unit-assumed", f"The reference temperature {temperature:g} has no unit; it was taken for K.")
+            )
             return temperature
-        notes.append(f"The reference temperature {temperature:g} has no unit; it was taken for °C.")
+        notes.append(
+            Note("unit-assumed", f"The reference temperature {temperature:g} has no unit; it was taken for °C.")
+        )
         return temperature + CELSIUS_ZERO
 
     def unit_note(self) -> list[str]:

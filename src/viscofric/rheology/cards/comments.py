@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.files import parse_json
+from viscofric.notes import Note
 from viscofric.rheology.cards.card import Solid, card_law
 from viscofric.rheology.cards.native import VERSION, about, assembled, shift_of
 from viscofric.units import CELSIUS_ZERO, celsius
@@ -138,7 +139,7 @@ def stored_content(text: str) -> dict[str, Any] | None:
     return content
 
 
-def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material, list[str]]:
+def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material, list[Note]]:
     """Join what a card's keywords say with what its comments say; the keywords count where they differ."""
     if content is None:
         told = {"name": solid.name, "poisson_ratio": solid.poisson_ratio}
@@ -147,10 +148,15 @@ def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material,
     notes, card = [], content["card"]
     told = {name: value for name, value in content.items() if name != "card"}
     if not _close(card.get("poisson_ratio"), solid.poisson_ratio):
-        notes.append(f"The Poisson ratio was changed to {solid.poisson_ratio:.6g} in the card, which counts.")
+        notes.append(
+            Note(
+                "changed-in-card",
+                f"The Poisson ratio was changed to {solid.poisson_ratio:.6g} in the card, which counts.",
+            )
+        )
         told["poisson_ratio"] = solid.poisson_ratio
     if card.get("shift") and not _same_law(card_law(shift_of(told.get("shift"))), solid.shift):
-        notes.append("The shift was changed in the card, which counts.")
+        notes.append(Note("changed-in-card", "The shift was changed in the card, which counts."))
         told.pop("shift", None)
         return _with_shift(assembled(solid.spectrum, told), solid.shift, told), notes
     return assembled(solid.spectrum, told), notes

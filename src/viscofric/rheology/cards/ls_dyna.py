@@ -17,6 +17,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.rheology.cards.card import (
     Reading,
     Solid,
@@ -130,7 +131,9 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
     )
     others = sum(1 for _, line in lines if _KEYWORD.match(line.strip()))
     if others > 1:
-        notes.append(f"The file holds {others} general viscoelastic materials; the first was read.")
+        notes.append(
+            Note("first-of-several", f"The file holds {others} general viscoelastic materials; the first was read.")
+        )
     wide = match[3] == "+" or (long_format and match[3] != "-")
     body = []
     for row, line in lines[start + 1 :]:
@@ -177,8 +180,11 @@ def _shift(
         return Arrhenius(A * GAS_CONSTANT, reading.kelvin(reference, notes, 0.0 if content else None))
     if A > 0.0:
         notes.append(
-            f"A = {A:g} with B = {B:g} would make relaxation slower as it gets warmer (time is multiplied by "
-            "exp(-A(T-TREF)/(B+T-TREF))); the shift was left out, check the sign of A."
+            Note(
+                "assumed",
+                f"A = {A:g} with B = {B:g} would make relaxation slower as it gets warmer (time is multiplied by "
+                "exp(-A(T-TREF)/(B+T-TREF))); the shift was left out, check the sign of A.",
+            )
         )
         return None
     return WLF(-A / LN10, B, reading.kelvin(reference, notes, number_of(content, "absolute_zero")))

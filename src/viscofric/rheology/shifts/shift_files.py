@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.arguments import flag
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
+from viscofric.notes import Note
 from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftList, shift_list
 from viscofric.readers.dma.tables.workbook import is_workbook, sheets
 from viscofric.readers.source import Source
@@ -79,13 +80,20 @@ def read_shift_factors(
     values = _falling(source.path, kelvin, values, flag(inverse, "inverse"))
     notes = found.notes
     if spread is None:
-        notes += ("The file of shift factors gives no uncertainty; the factors are taken as exact.",)
+        notes += (
+            Note("factors-exact", "The file of shift factors gives no uncertainty; the factors are taken as exact."),
+        )
     stated = found.reference
     wanted = None if reference is None else positive(reference, "K", "reference")
     if stated is None:
         stated = _zero(source.path, kelvin, values, wanted)
         if wanted is None and stated not in kelvin:
-            notes += (f"α is taken as 1 at {celsius(stated):z.2f} °C, where the table of shift factors passes zero.",)
+            notes += (
+                Note(
+                    "reference-interpolated",
+                    f"α is taken as 1 at {celsius(stated):z.2f} °C, where the table of shift factors passes zero.",
+                ),
+            )
     try:
         factors = ShiftFactors(kelvin, values, stated, spread, notes)
     except InputError as error:

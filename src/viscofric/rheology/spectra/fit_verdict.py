@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import LiquidError
+from viscofric.notes import Note
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST
 from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 from viscofric.rheology.spectra.response import shown_modulus
@@ -139,7 +140,7 @@ def judged(
 
 def _about_rubber(
     spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, softest: float, loss_tangent: float
-) -> list[str]:
+) -> list[Note]:
     where = (
         f"E0 = {shown_modulus(spectrum.E0)} lies {_beside(spectrum.E0, softest)} the smallest measured E' "
         f"({shown_modulus(softest)})"
@@ -147,21 +148,29 @@ def _about_rubber(
     end = f"at the lowest frequency, {fit.frequency_range[0]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
     if fit.E0_missed:
         also = f" {end[0].upper()}{end[1:]}: the rubber plateau was not measured." if fit.E0_extrapolated else ""
-        notes = [f"{where}: the fit does not follow the softest points.{also}"]
+        notes = [Note("plateau-missed", f"{where}: the fit does not follow the softest points.{also}")]
     elif fit.E0_extrapolated:
-        notes = [f"{where}, and {end}: the rubber plateau was not measured, so that E0 is extrapolated."]
+        notes = [
+            Note(
+                "plateau-extrapolated",
+                f"{where}, and {end}: the rubber plateau was not measured, so that E0 is extrapolated.",
+            )
+        ]
     else:
         return []
     slopes = _slopes_at_low_end(master_curve)
     if slopes is not None and loss_tangent > 1.0:
         notes.append(
-            f"At the lowest frequency E' falls as ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}: nothing measured "
-            "tells a soft rubber from a liquid (2 and 1), and whether there is an E0 above zero is not known."
+            Note(
+                "plateau-doubtful",
+                f"At the lowest frequency E' falls as ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}: nothing measured "
+                "tells a soft rubber from a liquid (2 and 1), and whether there is an E0 above zero is not known.",
+            )
         )
     return notes
 
 
-def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: float, loss_tangent: float) -> list[str]:
+def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: float, loss_tangent: float) -> list[Note]:
     where = (
         f"E_inf = {shown_modulus(spectrum.E_inf)} lies {_beside(spectrum.E_inf, stiffest)} the largest measured E' "
         f"({shown_modulus(stiffest)})"
@@ -170,19 +179,31 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: floa
     notes = []
     if fit.E_inf_at_limit:
         notes.append(
-            f"E_inf = {shown_modulus(spectrum.E_inf)} is the largest that the fit allows, {STIFFEST:g} times the "
-            f"largest measured E' ({shown_modulus(stiffest)}), and no result: {end}, and the sweeps do not tell how "
-            "stiff the glass is."
+            Note(
+                "glass-doubtful",
+                f"E_inf = {shown_modulus(spectrum.E_inf)} is the largest that the fit allows, {STIFFEST:g} times the "
+                f"largest measured E' ({shown_modulus(stiffest)}), and no result: {end}, and the sweeps do not tell "
+                "how "
+                "stiff the glass is.",
+            )
         )
     elif fit.E_inf_missed:
         also = f" {end[0].upper()}{end[1:]}: the glass was not measured." if fit.E_inf_extrapolated else ""
-        notes.append(f"{where}: the fit does not follow the stiffest points.{also}")
+        notes.append(Note("glass-missed", f"{where}: the fit does not follow the stiffest points.{also}"))
     elif fit.E_inf_extrapolated:
-        notes.append(f"{where}, and {end}: the glass was not measured, so that E_inf is extrapolated.")
+        notes.append(
+            Note(
+                "glass-extrapolated", f"{where}, and {end}: the glass was not measured, so that E_inf is extrapolated."
+            )
+        )
     if spectrum.E_inf > STIFFEST_GLASS:
         notes.append(
-            f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no rubber has such a "
-            "glass, and the spectrum is not physical above the measured frequencies."
+            Note(
+                "glass-doubtful",
+                f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no rubber has "
+                "such a "
+                "glass, and the spectrum is not physical above the measured frequencies.",
+            )
         )
     return notes
 

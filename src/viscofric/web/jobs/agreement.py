@@ -137,14 +137,14 @@ def _told(tree: xarray.DataTree) -> dict[str, Any]:
     from viscofric.report.friction_tables import agreement_table
     from viscofric.report.results import group, notes, reference_temperature, sentences
     from viscofric.report.sweeps import cases_of
-    from viscofric.report.words import key_numbers
+    from viscofric.report.words import AGREEMENT, key_numbers
     from viscofric.web.jobs.friction_data import by_temperature, drawn_line, texts, told_table
 
     asked, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
     assert asked is not None
     lines = predicted(cases_of(asked))
     kinds = {"friction": lines.friction, "lower": lines.lower, "upper": lines.upper, "extrapolated": lines.extrapolated}
-    about = [number for number in key_numbers(tree) if number.name == "Prediction less measurement"]
+    about = [number for number in key_numbers(tree) if number.name == AGREEMENT]
     told = [] if agreement is None else sentences(agreement.attrs, "sentences")
     at_reference = None
     if along is not None:

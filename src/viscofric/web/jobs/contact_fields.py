@@ -53,9 +53,8 @@ def told(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: b
 
 def _doubts(asked: Asked, within: bool | None) -> list[str]:
     """Tell where the rubber is extrapolated, in temperature or in frequency."""
-    rubber = asked.rubber
-    at_any = rubber.doubts([])  # of the rubber as such, which other steps tell
-    said = [words for words in rubber.doubts([asked.case.temperature]) if words not in at_any]
+    # What is doubtful about the rubber as such is told by other steps.
+    said: list[str] = [note for note in asked.rubber.doubts([asked.case.temperature]) if note.code == "extrapolated"]
     if within is False:
         rough = asked.case.geometry == "rough"
         what = "Frequencies 2πv/λ of its waves lie" if rough else "The frequency v/a lies"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict
 
+from viscofric.notes import note_of
 from viscofric.study.assumptions import assumption_checks
 from viscofric.study.contacts import Contacts, doubts
 from viscofric.study.record import Failure
@@ -87,7 +88,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
                 "value": plain(one.value),
                 "limit": one.limit,
                 "holds": one.holds,
-                "sentence": one.sentence,
+                "sentence": note_of(one.sentence).words("page"),
             }
             for one in assumption_checks(contacts, asked, at_points)
         ],

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import Note
 from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.instruments.eplexor_master import (
     AS_IT_IS,
@@ -45,8 +46,9 @@ _SAME_TEMPERATURE = 1e-9  # K
 #: No instrument sweeps further than this; a master curve does.
 _WIDEST_SWEEP = 1e6
 
-_AMPLITUDE_NOTE = (
-    "Strain dyn is taken for the amplitude of the strain (half of peak to peak); the file does not say it."
+_AMPLITUDE_NOTE = Note(
+    "amplitude-assumed",
+    "Strain dyn is taken for the amplitude of the strain (half of peak to peak); the file does not say it.",
 )
 
 
@@ -193,12 +195,14 @@ def _bound(unit: str) -> str:
     return "absolute zero" if unit == "K" else "zero"
 
 
-def _passed_over(sheet: _Sheet, complete: NDArray[np.bool_]) -> list[str]:
+def _passed_over(sheet: _Sheet, complete: NDArray[np.bool_]) -> list[Note]:
     missing = [place.rsplit(", ", 1)[1] for place, kept in zip(sheet.places, complete, strict=True) if not kept]
     if not missing:
         return []
     shown = ", ".join(missing[:3]) + (f" and {len(missing) - 3} more" if len(missing) > 3 else "")
-    return [f"Left out for want of a temperature, frequency or modulus in sheet {DATA!r}: {shown}."]
+    return [
+        Note("points-left-out", f"Left out for want of a temperature, frequency or modulus in sheet {DATA!r}: {shown}.")
+    ]
 
 
 def _is_master(temperature: Array, frequency: Array, shifts: ShiftList | None, programmed: Array | None) -> bool:
@@ -232,14 +236,19 @@ def _isotherms(
     return isotherm_of_each_row(frequency, usable, shifts.log10_shifts, programmed, path, places)
 
 
-def _taken_apart(shifts: ShiftList, step: NDArray[np.intp]) -> list[str]:
+def _taken_apart(shifts: ShiftList, step: NDArray[np.intp]) -> list[Note]:
     found = np.unique(step)
     still = shifts.measured_reference
     at = "" if still is None else f" at {celsius(still):z.1f} °C"
     apart = f"they were taken apart into {found.size} isotherms by the sheet 'Shiftlist' (measured f = f / 10^shift)"
-    notes = [f"The rows are a master curve{at}; {apart}."]
+    notes = [Note("master-curve-taken-apart", f"The rows are a master curve{at}; {apart}.")]
     absent = np.sort(np.delete(shifts.temperatures, found)) - CELSIUS_ZERO
     if absent.size:
         listed = ", ".join(f"{one:z.1f}" for one in absent)
-        notes.append(f"The sheet 'Shiftlist' also names {listed} °C, of which the workbook holds no rows.")
+        notes.append(
+            Note(
+                "temperatures-without-rows",
+                f"The sheet 'Shiftlist' also names {listed} °C, of which the workbook holds no rows.",
+            )
+        )
     return notes

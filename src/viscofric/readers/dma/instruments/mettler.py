@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import Note
 from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma, unit_conversion
@@ -107,7 +108,12 @@ def read(source: Source) -> Readings:
             raise DataFileError(source.path, f"the number in column {name!r} must be above {bound}.", lines[row])
     notes = []
     if "x" in blocks[0].names:
-        notes.append("The amplitude x is a displacement and the sample's length is not told, so the strain is unknown.")
+        notes.append(
+            Note(
+                "strain-unknown",
+                "The amplitude x is a displacement and the sample's length is not told, so the strain is unknown.",
+            )
+        )
     return Readings(
         source.path,
         NAME,

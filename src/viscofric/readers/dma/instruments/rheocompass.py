@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import Note
 from viscofric.readers.dma import names
 from viscofric.readers.dma.deformation import said_by_columns, tools_in
 from viscofric.readers.dma.instruments.rheocompass_intervals import (
@@ -66,7 +67,7 @@ def read(source: Source) -> Readings:
     found = intervals(source)
     oscillating = [interval for interval in found if interval.oscillates]
     decimals = Decimals.of(source.path, oscillating)
-    notes: list[str] = []
+    notes: list[Note] = []
     tables, lines, steps = [], [], []
     sweeps: list[Interval] = []
     for interval in oscillating:
@@ -90,7 +91,7 @@ def read(source: Source) -> Readings:
     if others:
         what = "1 interval that is no frequency sweep was"
         what = what if others == 1 else f"{others} intervals that are no frequency sweeps were"
-        notes.insert(0, f"{what} passed over.")
+        notes.insert(0, Note("no-frequency-sweep", f"{what} passed over."))
     moduli = [interval.columns[interval.places["storage modulus"]] for interval in sweeps]
     columns = [column for interval in sweeps for column in interval.columns[1:]]
     deformation, said_by = said_by_columns(moduli, columns, tools_in(head(source)))
@@ -156,7 +157,7 @@ def _table(source: Source, interval: Interval, rows: Rows, frequency: Array, dec
     return np.array([temperature, frequency, storage, loss, amplitude])
 
 
-def _doubts(interval: Interval) -> list[str]:
+def _doubts(interval: Interval) -> list[Note]:
     complete = {line for line, _ in _complete(interval)}
     empty = [line for line, _ in interval.rows if line not in complete]
     notes = []
@@ -165,16 +166,25 @@ def _doubts(interval: Interval) -> list[str]:
         if lines:
             shown = ", ".join(str(line) for line in lines[:3]) + (" and more" if len(lines) > 3 else "")
             what = "1 point was" if len(lines) == 1 else f"{len(lines)} points were"
-            notes.append(f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown}).")
+            notes.append(
+                Note("points-left-out", f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown}).")
+            )
     strain = interval.places.get("strain amplitude")
     if strain is not None and interval.units[strain] not in STRAIN_FACTORS:
         notes.append(
-            f"The strain amplitudes were not read: column {interval.columns[strain]!r} has no unit such as '%'."
+            Note(
+                "interval-doubtful",
+                f"The strain amplitudes were not read: column {interval.columns[strain]!r} has no unit such as '%'.",
+            )
         )
     if interval.missing:
         notes.append(
-            f"The interval in line {interval.line} announces {interval.announced} points, {interval.missing} of which "
-            "are not in the file."
+            Note(
+                "points-missing",
+                f"The interval in line {interval.line} announces {interval.announced} points, {interval.missing} of "
+                "which "
+                "are not in the file.",
+            )
         )
     return notes
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.notes import setting
+from viscofric.notes import Note, setting
 from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.deformation import said_by_columns
 from viscofric.readers.dma.instruments.ta_steps import ROLES, roles
@@ -72,7 +72,7 @@ def readings_of(
     if left_out:
         points = "1 point was" if len(left_out) == 1 else f"{len(left_out)} points were"
         want = "for want of a temperature, modulus or frequency that is a number (the frequency above zero)"
-        notes.append(f"{points} left out {want}: {_listed(left_out)}.")
+        notes.append(Note("points-left-out", f"{points} left out {want}: {_listed(left_out)}."))
     places = tuple(place for part in parts for place in part.places)
     if not places:
         raise DataFileError(
@@ -121,7 +121,12 @@ def _passed_over(steps: Sequence[Step]) -> list[str]:
     if not others:
         return []
     count = "1 step was" if len(others) == 1 else f"{len(others)} steps were"
-    return [f"{count} passed over as no frequency sweep{'' if len(others) == 1 else 's'}: {_listed(others)}."]
+    return [
+        Note(
+            "no-frequency-sweep",
+            f"{count} passed over as no frequency sweep{'' if len(others) == 1 else 's'}: {_listed(others)}.",
+        )
+    ]
 
 
 def _listed(names: Sequence[str], most: int = 6) -> str:
@@ -139,7 +144,9 @@ def _points(source: Source, step: Step, notes: list[str]) -> _Points:
         insist_on_agreement(source.path, storage, loss, None if tangent is None else tangent.values)
     else:
         loss = storage * step.signals["tan delta"].values
-        notes.append("The file holds no loss modulus; it was taken as the storage modulus times tan δ.")
+        notes.append(
+            Note("loss-computed", "The file holds no loss modulus; it was taken as the storage modulus times tan δ.")
+        )
     good = (
         np.isfinite(temperature) & np.isfinite(frequency) & np.isfinite(storage) & np.isfinite(loss) & (frequency > 0)
     )
@@ -164,7 +171,12 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
         problem = f"step {step.name!r} has no column 'Temperature'; give "
         remedy = setting("material.temperature", "Temperature of the sweep", "'25 degC'") + "."
         raise DataFileError(source.path, problem, code="no-temperature", remedy=remedy)
-    notes.append(f"No column holds a temperature; {celsius(source.temperature):z.1f} °C was given by the user.")
+    notes.append(
+        Note(
+            "temperature-given",
+            f"No column holds a temperature; {celsius(source.temperature):z.1f} °C was given by the user.",
+        )
+    )
     return np.full(len(step.places), source.temperature)
 
 
@@ -174,7 +186,12 @@ def _modulus(source: Source, step: Step, role: str, notes: list[str]) -> Array:
         problem = f"column {signal.heading!r} has the unit {signal.unit!r}; leave out modulus_unit."
         raise DataFileError(source.path, problem)
     if source.modulus_unit:
-        notes.append(f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked.")
+        notes.append(
+            Note(
+                "modulus-unit-given",
+                f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked.",
+            )
+        )
         return unit_conversion(source.modulus_unit, "Pa", "modulus_unit")[0] * signal.values
     return _conversion(source, step, signal, "Pa", "MPa")[0] * signal.values
 
@@ -224,6 +241,11 @@ def _strain(step: Step, notes: list[str]) -> Array:
     factor = STRAIN_FACTORS.get(signal.unit)
     if factor is None:
         shown = f"the unit {signal.unit!r}" if signal.unit else "no unit"
-        notes.append(f"The strain amplitudes were not read: column {signal.heading!r} has {shown}, not '%'.")
+        notes.append(
+            Note(
+                "strain-amplitude-not-read",
+                f"The strain amplitudes were not read: column {signal.heading!r} has {shown}, not '%'.",
+            )
+        )
         return nothing
     return np.where(signal.values >= 0.0, factor * signal.values, math.nan)

@@ -20,6 +20,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import parse_json
+from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
@@ -96,10 +97,17 @@ def _part(parent: Any, key: str) -> Any:
 def _notes(name: str, section: Mapping[str, Any]) -> list[str]:
     classification = _part(section, "Classification")
     if name == "Processed":
-        return ["The file holds processed results only, which may not be as they were measured."]
+        return [
+            Note("processed-results", "The file holds processed results only, which may not be as they were measured.")
+        ]
     if str(classification.get("Id") or "") in _AS_MEASURED:
         return []
-    return [f"The results may not be as they were measured: {str(classification.get('Description', ''))!r}."]
+    return [
+        Note(
+            "processed-results",
+            f"The results may not be as they were measured: {str(classification.get('Description', ''))!r}.",
+        )
+    ]
 
 
 def _by_vendor(document: Mapping[str, Any], name: str) -> _Results | None:

@@ -13,6 +13,7 @@ import re
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
@@ -119,7 +120,9 @@ def _lims_table(draft: list[Row], notes: list[str]) -> Table:
         elif label == "data point":
             table.rows.append((line, values))
     if re.fullmatch(r"[0-9]{1,9}", stated) and int(stated) != len(table.rows):
-        notes.append(f"Step {table.name!r} states {int(stated)} points and holds {len(table.rows)}.")
+        notes.append(
+            Note("points-missing", f"Step {table.name!r} states {int(stated)} points and holds {len(table.rows)}.")
+        )
     return table
 
 

@@ -19,6 +19,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import decoded
+from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
 from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
@@ -155,10 +156,12 @@ def _step_of_text(
             if events == 1
             else f"{events} rows with a negative time mark events"
         )
-        notes.append(f"{marks}; no point was read there.")
+        notes.append(Note("points-missing", f"{marks}; no point was read there."))
     if measured and rows[-1] is measured[-1] and len(rows[-1][1]) < len(names):
         line, _ = measured.pop()
-        notes.append(f"The last row (line {line}) is torn and was left out; the file may have been cut short.")
+        notes.append(
+            Note("cut-short", f"The last row (line {line}) is torn and was left out; the file may have been cut short.")
+        )
     for line, cells in measured:
         if len(cells) < len(names):
             problem = f"the row has {len(cells)} cells where the header names {len(names)} signals."
@@ -177,9 +180,13 @@ def _step_of_records(title: str, names: list[str], units: list[str], data: bytes
         _note_records_behind(records, int(negative[0]), notes)
         records = records[: negative[0]]
     elif len(data) % size:
-        notes.append(f"Record {count + 1} is torn and was left out; the file may have been cut short.")
+        notes.append(
+            Note("cut-short", f"Record {count + 1} is torn and was left out; the file may have been cut short.")
+        )
     else:
-        notes.append("No record with a negative time closes the data; the file may have been cut short.")
+        notes.append(
+            Note("cut-short", "No record with a negative time closes the data; the file may have been cut short.")
+        )
     records = np.where(np.isfinite(records), records, np.nan)
     places = roles([_ALSO.get(name.lower(), name) for name in names])
     signals = {role: Signal(names[place], units[place], records[:, place]) for role, place in places.items()}
@@ -194,6 +201,9 @@ def _note_records_behind(records: NDArray[np.float64], end: int, notes: list[str
     like_data = int(np.sum(np.isfinite(behind) & (behind >= last) & (behind < last + 1e6)))
     if like_data:
         notes.append(
-            f"Record {end + 1} has a negative time and ends the data; {like_data} later records look like data "
-            "and were not read."
+            Note(
+                "doubtful-rows",
+                f"Record {end + 1} has a negative time and ends the data; {like_data} later records look like data "
+                "and were not read.",
+            )
         )

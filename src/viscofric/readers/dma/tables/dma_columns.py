@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.notes import setting
+from viscofric.notes import Note, setting
 from viscofric.readers.dma.agreement import insist_on_agreement
 from viscofric.readers.dma.deformation import deformation_of, said_by_columns
 from viscofric.readers.dma.names import (
@@ -79,7 +79,12 @@ def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) ->
     place = places["frequency"]
     if not table.columns[place].unit and quantity(table.columns[place].name) == "angular frequency":
         shown = table.columns[place].heading
-        notes.append(f"The column {shown!r} has no unit; it was read in rad/s, as its name implies.")
+        notes.append(
+            Note(
+                "frequency-without-unit",
+                f"The column {shown!r} has no unit; it was read in rad/s, as its name implies.",
+            )
+        )
         return table.numbers_or_missing(place)
     return _in_rad_per_second(table, place)
 
@@ -124,13 +129,18 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
         return storage, loss
     tangent = table.numbers_or_missing(places["tan delta"])
     if "storage modulus" in values:
-        notes.append("The loss moduli were computed as storage modulus times tan δ.")
+        notes.append(Note("loss-computed", "The loss moduli were computed as storage modulus times tan δ."))
         return values["storage modulus"], values["storage modulus"] * tangent
     if "loss modulus" in values:
-        notes.append("The storage moduli were computed as loss modulus over tan δ.")
+        notes.append(Note("storage-computed", "The storage moduli were computed as loss modulus over tan δ."))
         tangent = np.where(tangent == 0.0, np.nan, tangent)
         return values["loss modulus"] / tangent, values["loss modulus"]
-    notes.append("Storage and loss moduli were computed from the absolute value of the complex modulus and tan δ.")
+    notes.append(
+        Note(
+            "moduli-computed",
+            "Storage and loss moduli were computed from the absolute value of the complex modulus and tan δ.",
+        )
+    )
     storage = values["complex modulus"] / np.hypot(1.0, tangent)
     return storage, storage * tangent
 
@@ -153,7 +163,10 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
     column = table.columns[place]
     if source.modulus_unit and not column.unit:
         factor, offset = unit_conversion(source.modulus_unit, "Pa", "modulus_unit")
-        note = f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked."
+        note = Note(
+            "modulus-unit-given",
+            f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked.",
+        )
         if note not in notes:
             notes.append(note)
     else:

@@ -103,14 +103,14 @@ def _temperature(
             raise DataFileError(table.path, problem + "absolute zero.", int(table.lines[row]))
         return kelvin
     if source.temperature is not None:
-        notes.append("No column holds a temperature; it was given by the user.")
+        notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
         return np.full(len(angular), source.temperature)
     told, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
     if told is None or decades > WIDEST_SWEEP:
         raise _no_temperature(table, decades)
-    notes.append(f"No column holds a temperature; it was taken from the {named} name.")
+    notes.append(Note("temperature-from-name", f"No column holds a temperature; it was taken from the {named} name."))
     return np.full(len(angular), told)
 
 
@@ -169,21 +169,34 @@ def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     if len(found) > 1:
         several = " and ".join(repr(table.columns[place].heading) for place in found)
         notes.append(
-            Note("strain-amplitude-not-read", f"The strain amplitudes were not read: {several} may hold them.")
+            Note(
+                "strain-amplitude-not-read",
+                Note("strain-amplitude-not-read", f"The strain amplitudes were not read: {several} may hold them."),
+            )
         )
     if len(found) != 1:
         return None
     column = table.columns[found[0]]
     factor = STRAIN_FACTORS.get(column.unit.strip() or "1")
     if factor is None:
-        notes.append(f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'.")
+        notes.append(
+            Note(
+                "strain-amplitude-not-read",
+                f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'.",
+            )
+        )
         return None
     try:
         values = factor * table.numbers_or_missing(found[0])
     except DataFileError:  # words in a column that is not needed
         return None
     if not column.unit.strip():
-        notes.append(f"Column {column.heading!r} has no unit; it was read as a fraction (0.01 is 1 %).")
+        notes.append(
+            Note(
+                "strain-without-unit",
+                f"Column {column.heading!r} has no unit; it was read as a fraction (0.01 is 1 %).",
+            )
+        )
     return np.where(values >= 0.0, values, np.nan)
 
 

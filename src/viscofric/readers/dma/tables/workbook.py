@@ -15,6 +15,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import insist_on_size
+from viscofric.notes import Note
 from viscofric.readers.dma.deformation import tools_in
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_points
@@ -154,7 +155,10 @@ def read(source: Source) -> Readings:
     }
     _insist_on_own_temperatures(source, readings)
     hidden = [name for name in _workbook(source).hidden if name in readings]
-    notes = [f"The sheet {name!r} is hidden in the workbook; it was read all the same." for name in hidden]
+    notes = [
+        Note("hidden-sheet", f"The sheet {name!r} is hidden in the workbook; it was read all the same.")
+        for name in hidden
+    ]
     whole = _joined(source, readings)
     return replace(whole, notes=(*notes, *whole.notes))
 
@@ -242,7 +246,10 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
         none if part.strain_amplitude is None else part.strain_amplitude
         for part, none in zip(parts, nothing, strict=True)
     ]
-    told = f"The sheets {', '.join(map(repr, names))} were taken for temperatures of one specimen."
+    told = Note(
+        "sheets-as-temperatures",
+        f"The sheets {', '.join(map(repr, names))} were taken for temperatures of one specimen.",
+    )
     return Readings(
         source=source.path,
         format=NAME,
