@@ -326,3 +326,73 @@ def test_lock_is_complete_and_names_no_index() -> None:
     assert names <= locked, "renew it: CONTRIBUTING.md"
     assert not re.search(r"://|^\s*-(?!-hash)", lock, re.MULTILINE)
     assert not any(name.startswith(("torch", "nvidia", "cuda", "cupy")) for name in locked)
+
+
+#: Modules that look into text which viscofric did not write: files, arguments, messages of others, SVG, addresses.
+FOREIGN_TEXT = (
+    "viscofric.readers",
+    "viscofric.rheology.cards",
+    "viscofric.rheology.shifts.shift_table",
+    "viscofric.units",
+    "viscofric.files",
+    "viscofric.contact.arrays.backend",
+    "viscofric.literature.basis",
+    "viscofric.study.run_file",
+    "viscofric.study.results_file",
+    "viscofric.study.workbook",
+    "viscofric.study.quantities",
+    "viscofric.study.surface_steps",
+    "viscofric.report.dark",
+    "viscofric.report.html",
+    "viscofric.report.numbers",  # true minus signs
+    "viscofric.report.question",  # no line breaks before units
+    "viscofric.web.access",
+    "viscofric.web.study_text",
+    "viscofric.web.workspace",
+)
+SEARCHES = ("startswith", "endswith", "partition", "rpartition", "removeprefix", "removesuffix", "split", "replace")
+
+
+def looks_into_sentences(text: str) -> Iterator[int]:
+    """Yield the lines that search text for several words, an error's for any, compare it with many, or import `re`."""
+    for node in ast.walk(ast.parse(text)):
+        sought: list[ast.expr] = []
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            if "re" in [getattr(node, "module", None), *(alias.name for alias in node.names)]:
+                yield node.lineno
+        elif isinstance(node, ast.Compare) and isinstance(node.ops[0], (ast.In, ast.NotIn)):
+            sought, least = [node.left], 1 if ast.unparse(node.comparators[0]) in ("str(error)", "str(note)") else 3
+        elif isinstance(node, ast.Compare):
+            sought, least = [node.left, *node.comparators], 5
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in SEARCHES:
+            sought, least = node.args[:1], 3
+        if any(
+            isinstance(one, ast.Constant) and isinstance(one.value, str) and len(one.value.split()) >= least
+            for one in sought
+        ):
+            yield node.lineno
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'said = "cannot be written" in str(error)',
+        'said = note.partition("was left out of")[0]',
+        'said = "overlap in reduced speed" in note',
+        "import re",
+        'said = "x" in str(error)',
+    ],
+)
+def test_reading_sentences_is_noticed(line: str) -> None:
+    assert list(looks_into_sentences(line)) == [1]
+
+
+def test_no_module_reads_the_sentences_of_another() -> None:
+    """Notes and errors have codes, so that a sentence can be reworded without breaking a program."""
+    found = [
+        f"{module}, line {line}"
+        for module, path in MODULES.items()
+        if not any(belongs(module, one) for one in FOREIGN_TEXT)
+        for line in looks_into_sentences(path.read_text("utf-8"))
+    ]
+    assert not found, f"use the codes of notes and errors instead: {found}"

@@ -3,12 +3,17 @@
 import copy
 import json
 import pickle
+from dataclasses import replace
+from importlib.resources import files
 
+import numpy as np
 import pytest
 
+import viscofric as vf
 from viscofric.errors import DataFileError, InputError, StudyError, SuperpositionError
 from viscofric.notes import Note, Remedy, codes, note_of, records
 
+EXAMPLE = files("viscofric") / "example"
 GIVE = Remedy("; give unit=.", "; give --unit.", page="; fill in “Unit”.", field="material.unit")
 
 
@@ -77,3 +82,24 @@ def test_the_field_of_an_error_is_that_of_its_first_problem_where_nothing_else_n
     assert StudyError("Two things are wrong.", wrong).field == "conditions.load"
     assert InputError("Wrong.", field="material").field == "material"
     assert InputError("Wrong.").field is None
+
+
+def test_every_note_of_sweeps_master_curve_and_spectrum_has_a_code():
+    sweeps = vf.read_dma(EXAMPLE / "dma.csv")
+    sweeps = replace(sweeps, isotherms=sweeps.isotherms[:6])
+    fit = vf.superpose(sweeps, "30 degC")
+    spectrum = vf.fit_retardation_spectrum(fit.master_curve)
+    notes = [*sweeps.notes, *fit.notes, *spectrum.fit.notes]
+    assert notes
+    assert [note for note in notes if not note_of(note).code] == []
+
+
+def test_every_note_of_traction_runs_and_friction_curves_has_a_code():
+    """Runs in which each replicate lacks sign configurations, and one reading stands far from the others."""
+    runs = vf.read_mtm(EXAMPLE / "mtm.csv")
+    force = runs.traction_force.copy()
+    force[5] *= 1.5
+    few = replace(runs, traction_force=force).select(np.arange(len(runs)) % 7 != 3)
+    curves = vf.separate(few)
+    assert {"readings-selected", "incomplete-replicates"} <= codes(curves.notes)
+    assert [note for note in curves.notes if not note_of(note).code] == []

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import SuperpositionError
+from viscofric.notes import Note
 from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, join, join_at
 from viscofric.units import celsius
 
@@ -60,8 +61,12 @@ class JoinedIsotherms:
             else "many times what is typical here; they were joined where they overlap best, with a large uncertainty."
         )
         return tuple(
-            f"The sweeps at {shown(self.isotherms[place].temperature)} and "
-            f"{shown(self.isotherms[place + 1].temperature)} disagree by {self.joins[place].misfit:.2g} decades, {how}"
+            Note(
+                "sweeps-disagree",
+                f"The sweeps at {shown(self.isotherms[place].temperature)} and "
+                f"{shown(self.isotherms[place + 1].temperature)} disagree by {self.joins[place].misfit:.2g} decades, "
+                f"{how}",
+            )
             for place in failures(self.joins)
         )
 
@@ -119,7 +124,7 @@ def join_isotherms(isotherms: tuple[Isotherm, ...], logs: list[LogSweep]) -> Joi
     if broken.size:
         raise SuperpositionError(_gap(isotherms, first + int(broken[0])))
     notes = tuple(
-        f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}"
+        Note("left-out", f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}")
         for place, gap in [(p, p) for p in range(first)] + [(p, p - 1) for p in range(last + 1, len(isotherms))]
     )
     inside = slice(first, last + 1)

@@ -252,7 +252,8 @@ def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None,
 def _badly_given(logs: list[LogSweep], log10_shifts: Array) -> list[str]:
     """Say in a sentence that the shift factors that were given join the isotherms badly on the whole."""
     found = own_shifts(logs, log10_shifts)
-    return [f"The given shift factors do not join the isotherms: {found.clause}."] if found.wrong else []
+    text = f"The given shift factors do not join the isotherms: {found.clause}."
+    return [Note("given-factors-wrong", text)] if found.wrong else []
 
 
 def _joined_by_pairs(temperatures: Array, places: tuple[int, ...]) -> list[str]:
@@ -265,7 +266,7 @@ def _joined_by_pairs(temperatures: Array, places: tuple[int, ...]) -> list[str]:
         f"shift; each step there is uncertain by {PAIR_UNCERTAINTY:g} decades or more. Look for loss moduli that "
         "the instrument itself makes, as a resonance does at its highest frequencies."
     )
-    return [sentence]
+    return [Note("joined-by-pairs", sentence)]
 
 
 def _without_overlap(temperatures: Array, quality: OverlapQuality) -> list[str]:
@@ -276,7 +277,7 @@ def _without_overlap(temperatures: Array, quality: OverlapQuality) -> list[str]:
         f"{quality.without_overlap} of {quality.neighbours} pairs of neighbouring sweeps do not overlap once shifted, "
         f"from {ranges(_steps(temperatures, quality.gaps))}: nothing measured tests the shift there."
     )
-    return [sentence]
+    return [Note("no-overlap", sentence)]
 
 
 def _unidentified(values: Array, covariance: Array) -> list[int]:
@@ -308,7 +309,7 @@ def _unidentified_vertical(temperatures: Array, covariance: Array) -> list[str]:
         f"b is not identified from {ranges(_steps(temperatures, places))}: there the sweeps do not tell it from α "
         f"(standard error of a step up to {100.0 * (10.0 ** errors[places].max() - 1.0):.0f} %)."
     )
-    return [sentence]
+    return [Note("vertical-not-identified", sentence)]
 
 
 def _steps(temperatures: Array, places: Iterable[int]) -> tuple[tuple[float, float], ...]:
