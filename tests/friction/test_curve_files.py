@@ -107,7 +107,7 @@ def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:
     assert curves.coulomb is None
     assert curves.load_unit == "N"
     assert curves.source == str(path)
-    assert any("neither standard errors nor scatter" in note for note in curves.notes)
+    assert "errors-unknown" in codes(curves.notes)
 
 
 def test_a_table_without_errors_is_shifted_by_the_scatter_of_its_points(tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from viscofric.friction.measurement.conditions import conditions
 from viscofric.friction.measurement.course import of_the_disc
 from viscofric.friction.measurement.least_squares import operators, residuals
 from viscofric.friction.measurement.tribometry import separate
+from viscofric.notes import codes
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
 ROUNDING = 1e-12
@@ -270,7 +271,7 @@ def test_standard_errors_are_honest_where_replicates_are_incomplete() -> None:
     incomplete = rows[~((rows[:, 5] == 3) & (rows[:, 0] < 0) & (rows[:, 0] > rows[:, 1]))]
     curves = separate(runs_from(incomplete))
     assert len(incomplete) == 180 * 11
-    assert any("not every replicate" in note for note in curves.notes)
+    assert "incomplete-replicates" in codes(curves.notes)
     held = np.count_nonzero(np.abs(curves.viscoelastic - 0.03) <= stdtrit(11 - 3, 0.975) * curves.viscoelastic_error)
     low, high = binom.interval(1 - 1e-6, 180, 0.95)
     assert low <= held <= high
@@ -283,8 +284,8 @@ def test_readings_without_slip_are_named_as_the_cause() -> None:
     rolling = (rows[:, 0] > rows[:, 1]) & (rows[:, 5] == 1)
     rows[rolling, 1] = rows[rolling, 0]
     notes = separate(runs_from(rows)).notes
-    assert any("slip is zero (pure rolling) in 2 readings" in note for note in notes)
-    assert not any("has all sign configurations" in note for note in notes)
+    assert [" 2 readings" in note for note in notes if note.code == "pure-rolling"] == [True]
+    assert "incomplete-replicates" not in codes(notes)
 
 
 def test_pure_rolling_one_way_says_what_to_measure() -> None:
@@ -552,7 +553,7 @@ def test_unknown_errors_are_infinite_and_said() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[:3], replicates=1)
     curves = separate(runs)
     assert np.all(np.isinf(curves.viscoelastic_error))
-    assert any("too few readings" in note for note in curves.notes)
+    assert "few-readings" in codes(curves.notes)
 
 
 def test_no_readings_are_an_error() -> None:
