@@ -134,3 +134,13 @@ def test_measured_points_are_solved_with_the_elastic_ball_of_the_study(tmp_path:
     assert len(contacts.along) == 9
     solved: list[Any] = [*contacts.sweep.cases, *contacts.at_points, *contacts.along]
     assert {case.modulus for case in solved} == {5e6}
+
+
+@pytest.mark.parametrize(("speeds", "cases", "solved"), [(1, "curves", 1), (1, "each", 1), (4, "each", 4)])
+def test_a_case_by_itself_is_one_contact(tmp_path: Path, speeds: int, cases: str, solved: int) -> None:
+    text = STUDY.partition("[measurement]")[0].replace('["25 N", "10 N"]', '"25 N"')
+    text = text.replace('"100 mm/s"', str([f"{10 * 2**n} mm/s" for n in range(speeds)]))
+    study = parse_study(f'{text}[solver]\ncases = "{cases}"\n', tmp_path / "study.toml")
+    rubber = StudyRubber.of(study.material, study.uncertainty, study.conditions.temperature)
+    plan = Contacts(study, [rubber], None).plan
+    assert (plan.total, len(plan.wanted())) == (speeds, solved)
