@@ -87,7 +87,7 @@ def _look_and_move(tab: Tab) -> None:
     # Words follow the numbers: 60 °C, 100 mm/s.
     assert tab.page.input_value(".live-number >> nth=0") == "100\u00a0mm/s"
     assert f"μ = {friction:.3g}" in tab.text(".why")
-    assert "not sprung back" in tab.text(".why")
+    assert "not recovered" in tab.text(".why")
     # The leading edge of the map is on the right, and farther from the axis.
     x = tab.value(f"document.querySelector('{MAP} .plot').data[0].x")
     assert max(x) > -min(x) > 0.0
@@ -200,7 +200,7 @@ def _change_shapes(tab: Tab) -> None:
     tab.page.select_option("#contact-shape", "made")
     assert tab.value(f"[{study}.indenter, {study}.conditions.load, {study}.surface.hurst]") == [None, None, 0.8]
     tab.until(f"{CONTACT}.kind === 'rough' && page.state.state.result('curve').kind === 'rough'")
-    assert "of the area" in tab.text("#step-contact .key-numbers")
+    assert "Contact area fraction" in tab.text("#step-contact .key-numbers")
     tab.until(f"{_DRAWN}.some((one) => one.error_y?.array)")
     tab.page.select_option("#contact-shape", "ball")
     assert tab.value(f"[{study}.indenter.radius, {study}.conditions.load]") == ["9.525 mm", "5 N"]
@@ -214,7 +214,7 @@ def _make_a_mistake(tab: Tab) -> None:
     radius.press("Enter")
     tab.until("document.querySelector('#step-contact .field.wrong .field-error')?.textContent.includes('kg')")
     tab.until("Boolean(document.querySelector('.live-contact.stale'))")
-    assert "something in the form is not right" in tab.text("#step-contact .notes.error:not([hidden])")
+    assert "Fix the marked field to update the friction curve" in tab.text("#step-contact .notes.error:not([hidden])")
     radius.fill("5 mm")
     radius.press("Enter")
     tab.until("!document.querySelector('.live-contact.stale') && !document.querySelector('#step-contact .field.wrong')")

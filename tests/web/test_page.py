@@ -62,7 +62,7 @@ def test_keyboard_reaches_steps_and_focus_goes_to_their_heading(tab: Tab) -> Non
 
 def test_changes_are_checked_undone_and_survive_a_reload(tab: Tab) -> None:
     page = tab.page
-    assert tab.text("#synthetic") == "synthetic material"
+    assert tab.text("#synthetic") == "synthetic data"
     page.get_by_text("run file: 75 cases").wait_for()  # in the list of steps
     page.get_by_label("Accuracy of friction").fill("5")
     page.get_by_label("Title of the study and report").fill("My ball")

@@ -91,7 +91,7 @@ def test_from_the_example_to_its_spectrum(tab: Tab) -> None:
     drawn(tab, "modulus", 8)
     tab.page.fill("#modulus-temperature", "333.15")
     tab.until("document.querySelector('#figure-modulus .figure-title').textContent.includes('60\N{NO-BREAK SPACE}°C')")
-    assert "sweep at 60\N{NO-BREAK SPACE}°C" in tab.text("#figure-modulus figcaption")
+    assert "sweep measured at 60\N{NO-BREAK SPACE}°C" in tab.text("#figure-modulus figcaption")
     tab.screenshot("rubber-spectrum")
 
 
@@ -185,7 +185,7 @@ def test_rubbers_of_the_catalogue_and_laws(tab: Tab) -> None:
     assert tab.page.is_hidden("#synthetic")
     tab.step("shift")
     drawn(tab, "shift-factors", 1)
-    assert "answers above" in tab.text("#step-shift")
+    assert "Valid above" in tab.text("#step-shift")
     example(tab)
     assert tab.page.is_visible("#synthetic")
     tab.step("shift")
