@@ -67,7 +67,7 @@ function mount(section, app) {
     busy: (stage) =>
       (status.textContent = {
         coarse: "solving …",
-        sharp: "sharpening …",
+        sharp: "refining …",
         "": answer ? (answer.stage === "sharp" ? "converged" : "coarse") : "",
       }[stage]),
   });
