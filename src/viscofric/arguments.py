@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,9 +18,8 @@ from viscofric.notes import Note, note_of
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: What NumPy holds in an array that is not of real numbers, by the letter of its kind.
 _KINDS = {

@@ -12,9 +12,8 @@ from viscofric.errors import InputError
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, ComplexArray, Integers
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: How a dynamic mechanical analyser deformed its sample.
 Deformation: TypeAlias = Literal["tension", "shear"]
@@ -30,7 +29,7 @@ def read_only(values: object, name: str = "a column of measurements") -> Array:
     return column
 
 
-def whole_numbers(values: object, name: str) -> NDArray[np.int64]:
+def whole_numbers(values: object, name: str) -> Integers:
     """Return a read-only copy as whole numbers."""
     column = read_only(values, name)
     if not np.all(np.abs(column) < _LARGEST_WHOLE) or np.any(column != np.rint(column)):
@@ -40,7 +39,7 @@ def whole_numbers(values: object, name: str) -> NDArray[np.int64]:
     return numbers
 
 
-def picked(rows: object, count: int, noun: str) -> NDArray[np.int64]:
+def picked(rows: object, count: int, noun: str) -> Integers:
     """Return the places of the rows that a mask or places pick out of so many."""
     try:
         places = np.array(None) if np.ma.is_masked(rows) else np.asarray(rows)
@@ -221,7 +220,7 @@ class MasterCurve:
         return len(self.angular_frequency)
 
     @property
-    def complex_modulus(self) -> NDArray[np.complex128]:
+    def complex_modulus(self) -> ComplexArray:
         """E' + iE'', Pa."""
         return np.asarray(self.storage_modulus + 1j * self.loss_modulus)
 

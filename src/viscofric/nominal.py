@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,12 +11,9 @@ from viscofric.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.notes import Note
 
-    Array: TypeAlias = NDArray[np.float64]
-    Labels: TypeAlias = NDArray[np.int64]
 
 #: Readings scatter about their nominal condition; the next condition is further off than this.
 SAME_TEMPERATURE = 1.0  # K
@@ -27,7 +24,7 @@ SAME_LOAD = 0.05  # relative
 LONGEST_CHAIN = 4.0
 
 
-def numbered(values: Array, allowed: Array) -> Labels:
+def numbered(values: Array, allowed: Array) -> Integers:
     """Give nominal values numbers in ascending order: a gap wider than allowed starts the next one.
 
     Parameters
@@ -48,7 +45,7 @@ def numbered(values: Array, allowed: Array) -> Labels:
     return labels
 
 
-def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str | Note]) -> Labels:
+def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str | Note]) -> Integers:
     """Give nominal values numbers as `numbered` does, and insist that they can be told from scatter.
 
     Parameters

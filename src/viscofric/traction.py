@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,9 +17,9 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, Integers, Mask
 
 
 @dataclass(frozen=True)
@@ -127,12 +127,12 @@ class TractionRuns:
     traction_force: Array
     load: Array
     temperature: Array
-    replicate: NDArray[np.int64]
+    replicate: Integers
     source: str = ""
     notes: tuple[str, ...] = ()
     zero_force: Array | None = None
     time: Array | None = None
-    step: NDArray[np.int64] | None = None
+    step: Integers | None = None
     track_radius: Array | None = None
     steps: tuple[TractionStep, ...] = ()
 
@@ -211,7 +211,7 @@ class TractionRuns:
         note = Note("readings-selected", f"{chosen.size} of {len(self)} readings are selected.")
         return replace(self, **columns, notes=(*self.notes, note))
 
-    def _in_steps(self, name: str, wanted: int | Sequence[int]) -> NDArray[np.bool_]:
+    def _in_steps(self, name: str, wanted: int | Sequence[int]) -> Mask:
         """Tell which readings belong to some steps, all of which there must be."""
         numbers = np.atleast_1d(whole_numbers(wanted, name))
         asked = Remedy(f"{name} = {brief(wanted)}")

@@ -19,7 +19,9 @@ from viscofric.errors import InputError, ViscofricError, brief, not_imported
 
 if TYPE_CHECKING:
     import pint
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
+
+    from viscofric.arrays import Array
 
 #: A scalar as users write it: a plain SI number, text with a unit, or a pint quantity.
 Quantity: TypeAlias = "float | str | pint.Quantity[Any]"
@@ -246,7 +248,7 @@ def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = ""
         raise _wrong(name, str(shown), unit, "cannot be read as a number with a unit") from error
 
 
-def to_si_array(values: Quantities, unit: str, name: str = "value") -> NDArray[np.float64]:
+def to_si_array(values: Quantities, unit: str, name: str = "value") -> Array:
     """Convert one or many values to a 1-D float array in an SI unit; see `to_si`."""
     if isinstance(values, str) or np.isscalar(values):
         return np.array([to_si(values, unit, name)])  # type: ignore[arg-type]
@@ -263,7 +265,7 @@ def to_si_array(values: Quantities, unit: str, name: str = "value") -> NDArray[n
     return np.array([to_si(value, unit, name) for value in each])
 
 
-def to_si_in_shape(values: Quantities, unit: str, name: str) -> NDArray[np.float64]:
+def to_si_in_shape(values: Quantities, unit: str, name: str) -> Array:
     """Convert one or many values to floats in an SI unit, in the shape in which they are given; see `to_si`."""
     if isinstance(values, np.ndarray) and values.dtype.kind in "fiu":
         return numbers(values, name)

@@ -24,18 +24,16 @@ from __future__ import annotations
 import functools
 import math
 import operator
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _BLOCK = 8  # cells along an edge of a block at most
 _REACH = 2.5  # s, in cells

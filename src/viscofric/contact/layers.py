@@ -32,7 +32,7 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -40,9 +40,10 @@ from viscofric.arguments import flag, numbers
 from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 LARGE_COMPRESSION = 0.3  # indentation over thickness beyond which small strain is doubtful
 

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    import numpy as np
     import xarray
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.contact.derivatives.friction import FrictionDerivatives
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 class Level(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -39,8 +39,6 @@ from viscofric.units import Quantity, positive, to_si, velocity
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
     from viscofric.contact.derivatives.friction import FrictionDerivatives
     from viscofric.contact.free.control import Control
     from viscofric.contact.free.grids import Extent
@@ -48,7 +46,6 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 
-    Array: TypeAlias = NDArray[np.float64]
 
 __all__ = ["SMALL_STRAIN", "solve_steady"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias, overload
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.notes import Remedy
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, Integers, Mask
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +73,7 @@ class Agreement:
     bias_at: Array
     rms_at: Array
     share_within_error_at: Array
-    points_at: NDArray[np.int64]
+    points_at: Integers
     relative_difference: Array
     bias_error: float
     bias_error_at: Array
@@ -245,7 +243,7 @@ def _error_of_mean(independent: Array, common: Array) -> float:
     return float(np.hypot(np.sqrt(np.sum(independent**2)) / independent.size, common.mean()))
 
 
-def _share(within: NDArray[np.bool_]) -> float:
+def _share(within: Mask) -> float:
     return float(within.mean()) if within.size else math.nan
 
 

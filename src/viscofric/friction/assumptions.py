@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,11 +19,9 @@ from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties
 from viscofric.units import Quantity, plain, positive, to_si_array
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantities
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Representative strain under a ball over a/R (D. Tabor, The Hardness of Metals (1951); K. L. Johnson, Contact
 #: Mechanics (1985), section 6.3).

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -34,13 +34,11 @@ from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.sensitivity import ComplianceSensitivity
     from viscofric.rheology.material import Material
 
-    Array: TypeAlias = NDArray[np.float64]
 
 LEVEL = 0.95
 #: From here on the first order alone is told to be rough, relative to the friction.

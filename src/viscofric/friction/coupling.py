@@ -13,7 +13,7 @@ a contact is the mean of |X| over that of Θ, waves weighted as its pressure (He
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,12 +25,9 @@ from viscofric.notes import Note
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
     from viscofric.friction.contact_size import ContactSize
     from viscofric.friction.curves import FrictionCurves
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Shear that changes the surface by a larger part of what pressure does is told: as much as of ν = 0.49 under μ_c = 1.
 LARGEST = 0.02

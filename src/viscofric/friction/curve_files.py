@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,9 +20,8 @@ from viscofric.units import CELSIUS_ZERO
 if TYPE_CHECKING:
     from os import PathLike
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _TITLE = "viscofric friction curves"
 _REMARKS = ("source", "assumption", "note")

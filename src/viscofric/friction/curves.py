@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -17,11 +17,10 @@ from viscofric.units import Quantity, celsius, positive, share
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array, Integers, Mask
     from viscofric.contact.solution import ContactSolution
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _REQUIRED = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
 _OPTIONAL = (
@@ -146,7 +145,7 @@ class FrictionCurves:
     viscoelastic: Array
     viscoelastic_error: Array
     viscoelastic_scatter: Array
-    replicates: NDArray[np.int64]
+    replicates: Integers
     coulomb: Array | None = None
     coulomb_error: Array | None = None
     coulomb_scatter: Array | None = None
@@ -283,7 +282,7 @@ class FrictionCurves:
         half[known] = wide[known] * error[known]
         return value - half, value + half
 
-    def select(self, keep: NDArray[np.bool_] | NDArray[np.int64]) -> FrictionCurves:
+    def select(self, keep: Mask | Integers) -> FrictionCurves:
         """Return the entries that a mask or row numbers pick, in that order; notes and source stay."""
         rows = picked(keep, len(self), "entries")
         columns = {

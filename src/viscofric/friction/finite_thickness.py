@@ -23,18 +23,16 @@ counts, and falls with the thickness as slowly as the loss of waves as long as t
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from viscofric.contact.layers import Layer
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Thinnest layer that is estimated, in contact radii: on thinner ones nothing of the contact is a half-space's.
 THINNEST = 1.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,12 +11,10 @@ from viscofric.nominal import SAME_LOAD
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Points are the same within rounding of units, not within scatter: predictions are made at the measured
 # points.

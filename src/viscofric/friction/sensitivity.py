@@ -7,7 +7,7 @@ all τ.  It is smooth, goes to its value in the glass for vτ far below the cont
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,13 +17,11 @@ from viscofric.contact.steady import solve_and_differentiate
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Modes without compliance stand so far apart in ln τ: g is that smooth.
 SPACING = 0.5

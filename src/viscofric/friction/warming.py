@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,15 +19,13 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.thermal import ThermalProperties
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Loads whose logarithms differ by less are one, and parts of the way that are looked at: a maximum may lie on it.
 _SAME_LOAD, _STEPS = 0.05, np.linspace(0.0, 1.0, 5)

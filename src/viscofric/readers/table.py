@@ -20,9 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
     from os import PathLike
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Integers
 
-    Array = NDArray[np.float64]
 
 # "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C": tried in this order.
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
@@ -89,7 +88,7 @@ class Table:
     path: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[str, ...], ...]
-    lines: NDArray[np.int64]
+    lines: Integers
     decimal_comma: bool
     tools: tuple[tuple[str, str], ...] = ()
 

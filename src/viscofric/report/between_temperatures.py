@@ -10,9 +10,9 @@ from viscofric.report.results import group, rubbers, values
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 _ROWS = 120  # of a map, about
 # So far beyond the temperatures at which the shift factor is known, it goes on straight over 1/T: enough for a picture.

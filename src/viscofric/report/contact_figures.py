@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -20,12 +20,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: More cells along an edge than this do not show; the map draws every n-th.
 _MOST_CELLS = 256

@@ -14,11 +14,10 @@ from viscofric.report.sweeps import SEED, VARIED, solved_cases, value_label
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
-    Array = NDArray[np.float64]
 
 FIELDS = "fields"
 #: Coordinates of a case, in the order in which they are told.

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array, Mask
+
 
 _SMALLEST = 1e-9  # relative errors below are drawn there
 _FEW = 4.0  # points
@@ -104,9 +104,7 @@ def _along(cases: xr.Dataset) -> Array:
     return np.asarray(1e3 * values(cases, "speed") if _has_speeds(cases) else 1.0 + np.arange(cases.sizes["case"]))
 
 
-def _points(
-    axes: Axes, x: Array, y: Array, mask: NDArray[np.bool_], colour: str, marker: str, filled: bool, label: str
-) -> None:
+def _points(axes: Axes, x: Array, y: Array, mask: Mask, colour: str, marker: str, filled: bool, label: str) -> None:
     shown = mask & np.isfinite(y) & (y >= 0.0)
     if shown.any():
         style: dict[str, Any] = {"color": colour, "marker": marker, "markersize": _FEW, "linestyle": "none"}

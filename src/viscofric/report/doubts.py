@@ -11,10 +11,9 @@ from viscofric.report.results import number, values
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
-    Mask = NDArray[np.bool_]
+    from viscofric.arrays import Array, Mask
+
 
 WIDE, EXTRAPOLATED = "wide contact", "beyond the sweeps"
 

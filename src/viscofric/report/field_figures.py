@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 _MOST_CELLS = 200  # along an edge of a map; more do not show
 _MARGIN = 1.12  # of what is shown, over the largest contact

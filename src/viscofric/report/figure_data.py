@@ -17,13 +17,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray as xr
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
 
-    Array = NDArray[np.float64]
     #: Sweeps as read, isotherms as joined, or either as a dataset along `reading`.
     Sweeps: TypeAlias = IsothermalSweeps | Superposition | Sequence[Isotherm] | xr.Dataset
     #: A master curve, what it came from, or a dataset along `reading`.

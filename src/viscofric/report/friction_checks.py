@@ -20,11 +20,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import xarray as xr
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.report.check import Verdict
 
-    Array = NDArray[np.float64]
 
 #: What a comparison with friction is worth where the rubber comes from friction.
 CIRCULAR = "The rubber was itself identified from friction; if that is this friction, this tests nothing."

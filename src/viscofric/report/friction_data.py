@@ -14,9 +14,9 @@ from viscofric.report.shift_figures import LEVEL_95
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array, Mask
+
     #: Friction coefficients as curves, or a dataset along `case` (predicted) or `point` (measured).
     Friction: TypeAlias = FrictionCurves | xr.Dataset
     #: The same, or all temperatures on one curve.
@@ -47,9 +47,9 @@ class Predicted(NamedTuple):
     friction: Array
     lower: Array
     upper: Array
-    extrapolated: NDArray[np.bool_]
+    extrapolated: Mask
 
-    def rows(self, mask: NDArray[np.bool_]) -> Predicted:
+    def rows(self, mask: Mask) -> Predicted:
         """Return the rows of a mask in ascending speed."""
         chosen = np.flatnonzero(mask)
         chosen = chosen[np.argsort(self.speed[chosen], kind="stable")]

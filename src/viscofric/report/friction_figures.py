@@ -24,11 +24,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.report.friction_data import Friction, ReducedFriction
 
-    Array = NDArray[np.float64]
 
 _BAND = 0.18  # how much of a band's colour covers what lies below it
 _MILLIMETRES = 1e3

@@ -13,11 +13,9 @@ from viscofric.report.table import aligned
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
 
-    Array = NDArray[np.float64]
 
 #: Standard errors within which what should be zero counts as zero.
 CONSISTENT_WITHIN = 2.0

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray as xr
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it

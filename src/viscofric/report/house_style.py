@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.colorbar import Colorbar
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 # Okabe and Ito's colours, which colour-blind readers tell apart
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"

@@ -11,11 +11,9 @@ from viscofric.report.table import aligned
 from viscofric.rheology.cards.native import plain
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
 
-    Array = NDArray[np.float64]
 
 _UNITS = {
     "angular_frequency": "rad/s",

@@ -28,12 +28,11 @@ from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.friction.identification.result import IdentifiedMaterial
     from viscofric.report.figure_data import Master, Shifts, ShiftTable
 
-    Array = NDArray[np.float64]
 
 _MEGAPASCAL = 1e6
 #: The modulus is drawn so far beyond the frequencies of the contacts, as a factor.

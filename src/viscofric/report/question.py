@@ -24,11 +24,10 @@ from viscofric.report.sweeps import cases_of, labelled, sweep_axes, value_label
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.report.sweeps import SweepAxis
 
-    Array = NDArray[np.float64]
 
 _FEW = 6  # points that are told one by one
 

@@ -14,11 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import xarray as xr
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array, Integers
     from viscofric.notes import Note
 
-    Array = NDArray[np.float64]
 
 #: Temperatures closer than this are one nominal temperature, K.
 SAME_TEMPERATURE = 0.5
@@ -138,9 +137,9 @@ def nominal_temperatures(*temperatures: Array) -> Array:
     return means
 
 
-def nearest(nominal: Array, temperature: Array) -> NDArray[np.int64]:
+def nearest(nominal: Array, temperature: Array) -> Integers:
     """Return, for each temperature, the index of the nominal one nearest to it."""
-    index: NDArray[np.int64] = np.abs(np.asarray(temperature)[:, None] - nominal[None, :]).argmin(axis=1)
+    index: Integers = np.abs(np.asarray(temperature)[:, None] - nominal[None, :]).argmin(axis=1)
     return index
 
 

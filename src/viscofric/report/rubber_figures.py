@@ -26,13 +26,12 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.cm import ScalarMappable
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.report.figure_data import Master, Sweeps
     from viscofric.rheology.spectra.modulus_table import ModulusTable
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-    Array = NDArray[np.float64]
     Fitted = RetardationSpectrum | ModulusTable | xr.Dataset
 
 

@@ -11,11 +11,9 @@ from viscofric.report.numbers import several, short
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.traction import TractionRuns
 
-    Array = NDArray[np.float64]
 
 _MOST_TEMPERATURES = 8
 #: Relative to the speed of the disc; slip below it is that of pure rolling.

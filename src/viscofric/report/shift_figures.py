@@ -23,13 +23,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array, Mask
     from viscofric.report.figure_data import Shifts
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
-    Array = NDArray[np.float64]
 
 LEVEL_95 = 1.959963984540054
 #: 10 to this power is still a float, and beyond any axis.
@@ -186,7 +185,7 @@ def draw_law(axes: Axes, law: ShiftLaw, temperatures: Array, whose: str = "") ->
     return handles
 
 
-def _answered(law: ShiftLaw, temperatures: Array) -> NDArray[np.bool_]:
+def _answered(law: ShiftLaw, temperatures: Array) -> Mask:
     """Say where a law answers, with some room to its pole."""
     measured = getattr(law, "temperatures", None)
     if measured is not None:

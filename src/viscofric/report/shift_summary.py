@@ -15,14 +15,12 @@ from viscofric.rheology.cards.native import plain
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
     from viscofric.rheology.shifts.laws import ParametricLaw
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
-    Array = NDArray[np.float64]
 
 _UNITS = {"temperature": "K", "reference": "K", "log10_shift_factor": "1", "standard_error": "1", "covariance": "1"}
 

@@ -13,12 +13,11 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.rheology.spectra.retardation import RelaxationSpectrum
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
-    Array = NDArray[np.float64]
 
 _PASCAL_PER_MEGAPASCAL = 1e6
 #: Modes weaker than the strongest by more than this are left below the axis: they change nothing that can be seen.

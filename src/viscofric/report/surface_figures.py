@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.roughness.ensemble import RoughFriction
     from viscofric.roughness.persson import PerssonTheory
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from viscofric.roughness.spectrum import PowerSpectrum
     from viscofric.roughness.topography import Topography
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: More points along an edge than this do not show; maps draw every n-th.
 _MOST_POINTS = 512

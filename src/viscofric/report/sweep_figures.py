@@ -36,11 +36,10 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.report.sweeps import Layout, SweepAxis
 
-    Array = NDArray[np.float64]
 
 FRICTION = r"viscoelastic friction coefficient $\mu$"
 _COEFFICIENT = "friction_coefficient"

@@ -14,9 +14,9 @@ from viscofric.report.results import group
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 #: Dimension of results that are told case by case.
 CASE = "case"

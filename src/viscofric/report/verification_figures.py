@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,12 +13,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.verification.refinement import Refinement
     from viscofric.verification.windows import Windows
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _LEAST_SHOWN = 1e-8
 

@@ -34,9 +34,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray as xr
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from viscofric.arrays import Array
 
 
 #: Name of the key number that compares prediction and measurement.

@@ -17,9 +17,8 @@ from viscofric.rheology.spectra.retardation import RelaxationSpectrum, Retardati
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: The half-Gaussians end so many standard deviations from their centres, where they hold no more compliance.
 WIDTH = 4.5

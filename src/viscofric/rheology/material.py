@@ -16,9 +16,9 @@ from viscofric.rheology.spectra.table_modes import modes_of_table, what_was_fitt
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import ComplexArray
     from viscofric.units import Quantity
 
 Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
@@ -195,9 +195,7 @@ class Material:
     def _modes_of_table(self) -> RetardationSpectrum:
         return modes_of_table(self.spectrum)  # type: ignore[arg-type]
 
-    def complex_modulus(
-        self, angular_frequency: ArrayLike, temperature: Quantity | None = None
-    ) -> NDArray[np.complex128]:
+    def complex_modulus(self, angular_frequency: ArrayLike, temperature: Quantity | None = None) -> ComplexArray:
         """Return E(ω, T) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
         return self.at(temperature).complex_modulus(angular_frequency)
 

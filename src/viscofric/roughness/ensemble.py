@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
@@ -25,12 +25,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import xarray
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.layers import Layer
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Of the complementarity: what the grid does to friction is a thousand times more.
 _TOLERANCE = 1e-6

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, Mask
 
 
 def filled(heights: Array, spacing: tuple[float, float], periodic: bool, method: str) -> Array:
@@ -22,7 +20,7 @@ def filled(heights: Array, spacing: tuple[float, float], periodic: bool, method:
     return (_harmonic if method == "harmonic" else _nearest)(heights, spacing, periodic, holes)
 
 
-def _nearest(heights: Array, spacing: tuple[float, float], periodic: bool, holes: NDArray[np.bool_]) -> Array:
+def _nearest(heights: Array, spacing: tuple[float, float], periodic: bool, holes: Mask) -> Array:
     from scipy.ndimage import distance_transform_edt
 
     count, pad = heights.shape, [(0, 0), (0, 0)]
@@ -36,7 +34,7 @@ def _nearest(heights: Array, spacing: tuple[float, float], periodic: bool, holes
     return found
 
 
-def _harmonic(heights: Array, spacing: tuple[float, float], periodic: bool, holes: NDArray[np.bool_]) -> Array:
+def _harmonic(heights: Array, spacing: tuple[float, float], periodic: bool, holes: Mask) -> Array:
     """Solve Laplace's equation in the holes; an edge of the scan lets nothing through."""
     from scipy.sparse import coo_array, csr_array
     from scipy.sparse.linalg import spsolve

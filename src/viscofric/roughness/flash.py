@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,11 +31,9 @@ from viscofric.errors import ConvergenceError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.thermal import ThermalProperties
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _MOST_ITERATIONS = 200
 #: Temperatures are settled when they change by less than this, K, plus the same share of the largest rise.

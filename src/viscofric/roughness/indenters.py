@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +12,7 @@ from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array
 
 
 def rough_indenter(heights: Array, spacing: tuple[float, float], shape: Indenter | None) -> HeightMap | Profile:

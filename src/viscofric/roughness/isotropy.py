@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import nnls
@@ -10,9 +10,8 @@ from scipy.optimize import nnls
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Weight of the second differences of the answer, which decide only what the lines leave open.
 _SMOOTHNESS = 0.03

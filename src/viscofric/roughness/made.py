@@ -17,9 +17,8 @@ from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, positive, to_si, two_lengths
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, ComplexArray
 
-    Array: TypeAlias = NDArray[np.float64]
 
 Density: TypeAlias = Callable[["Array"], "Array"]
 #: A wave just at a cut-off is in, whatever the rounding.
@@ -252,7 +251,7 @@ class _Waves:
         weights = hermitian_factor(self.points[1])
         return float((self.variance(density) * self.q**order * weights).sum())
 
-    def series(self, density: Density, exact: bool) -> NDArray[np.complex128]:
+    def series(self, density: Density, exact: bool) -> ComplexArray:
         """Return Fourier coefficients with random phases, and random amplitudes if not exact."""
         amplitude = np.sqrt(self.variance(density))
         found = np.zeros(amplitude.shape, complex)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import scipy.fft
@@ -13,11 +13,8 @@ from viscofric.errors import InputError, brief, check_choice
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.roughness.topography import Topography
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpectrum:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,9 +13,10 @@ from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.errors import InputError, brief
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, Mask
+
 
 _BORDER = (math.pi - 1.0 + math.log(2.0)) / 24.0
 
@@ -167,7 +168,7 @@ def _insist(solution: object) -> None:
         raise InputError(f"solution = {brief(solution)}: must be what solve_periodic gave.")
 
 
-def _patches(loaded: NDArray[np.bool_]) -> int:
+def _patches(loaded: Mask) -> int:
     """Count patches that touch at sides or corners, on a surface that repeats itself."""
     from scipy.ndimage import label
     from scipy.sparse import coo_array

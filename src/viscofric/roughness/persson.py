@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -41,9 +41,9 @@ from viscofric.units import Quantities, Quantity, positive, share, to_si, to_si_
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import NDArray
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 _CLOSEST, _LOOSEST = 1e-8, 0.1
 

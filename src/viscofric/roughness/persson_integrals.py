@@ -6,7 +6,7 @@ The formulae are those of `viscofric.roughness.persson`.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy.special import erf
@@ -14,13 +14,11 @@ from scipy.special import erf
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.rheology.material import Material
     from viscofric.roughness.flash import Flash
     from viscofric.roughness.spectrum import PowerSpectrum
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Refinements after which the integrals count as not converged; the first grid has 8 intervals per decade.
 _MOST_REFINEMENTS = 7
@@ -120,7 +118,7 @@ class Theory:
         sharing = self.gamma + (1.0 - self.gamma) * area**2
         return area, sharing * dissipated
 
-    def _modulus(self, case: Case, grid: _Grid, rise: Array) -> NDArray[np.complex128]:
+    def _modulus(self, case: Case, grid: _Grid, rise: Array) -> ComplexArray:
         """Return E(q v cos φ, T_q) for each q and φ."""
         frequency = case.speed * grid.q[:, None] * grid.cosines
         if self.flash is None or case.kelvin is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.fft
@@ -16,9 +16,8 @@ from viscofric.errors import InputError, brief
 from viscofric.units import Quantities, to_si_array
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: A wave just at an edge belongs to the longer ones, whatever the rounding.
 _ROUNDING = 1e-9

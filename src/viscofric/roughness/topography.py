@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -15,13 +15,12 @@ from viscofric.units import Quantity, two_lengths
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.height_map import HeightMap, Profile
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.periodic.surface import PeriodicSurface
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

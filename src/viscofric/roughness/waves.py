@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import scipy.fft
@@ -12,9 +12,8 @@ from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: A wave just at a cut-off stays whatever the rounding.
 _ROUNDING = 1e-9

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     import xarray
     from numpy.typing import NDArray
 
+    from viscofric.arrays import Integers, Mask
     from viscofric.friction.curves import FrictionCurves
 
-    Array: TypeAlias = NDArray[Any]
 
 #: Coordinates that agree to as many digits are the same.
 _DIGITS = 9
@@ -57,9 +57,9 @@ class CaseTable:
 
     name: str
     coordinates: tuple[str, ...]
-    columns: dict[str, Array]
+    columns: dict[str, NDArray[Any]]
     units: dict[str, str]
-    solved: NDArray[np.bool_]
+    solved: Mask
     attributes: dict[Any, Any] = field(default_factory=dict)
 
     @classmethod
@@ -123,8 +123,8 @@ class CaseTable:
 class Common(NamedTuple):
     """Cases in common: their rows in both tables, and what is to be said of the axes."""
 
-    first: NDArray[np.int64]
-    second: NDArray[np.int64]
+    first: Integers
+    second: Integers
     remarks: tuple[str, ...]
 
 
@@ -168,7 +168,7 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
     return Common(first, second, tuple(remarks))
 
 
-def _keys(column: Array) -> list[Any]:
+def _keys(column: NDArray[Any]) -> list[Any]:
     """Return values that are the same where coordinates agree but for rounding."""
     if column.dtype.kind in "OUST":
         return [str(value) for value in column.tolist()]

@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.study.planning.estimates import Expectation
@@ -202,7 +201,7 @@ def check_results(folder: Path) -> CheckedResults:
     return CheckedResults(cases, finished, damaged, tuple(unverified))
 
 
-def _check_temperatures(rubber: Rubber, temperatures: NDArray[np.float64]) -> None:
+def _check_temperatures(rubber: Rubber, temperatures: Array) -> None:
     """Raise `InputError` where the rubber has no shift factor at a temperature that is asked for."""
     shift_of(rubber)(temperatures)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,9 +11,8 @@ from viscofric.study.cases_in_common import CaseTable, common_cases
 from viscofric.study.provenance_differences import provenance_differences
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Variables that are compared -> the variable with its stated error.
 COMPARED = {

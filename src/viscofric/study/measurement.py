@@ -18,8 +18,8 @@ from viscofric.study import labels
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Ball
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from viscofric.study.measurement_table import MeasurementTable
     from viscofric.study.record import Record
 
-    Array = NDArray[np.float64]
     Groups = dict[str, xarray.Dataset]
 
 

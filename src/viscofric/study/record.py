@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
@@ -12,13 +12,10 @@ from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
     from viscofric.errors import ViscofricError
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 class ContactFields(NamedTuple):

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     import xarray
-    from numpy.typing import NDArray
 
+    from viscofric.arrays import Mask
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.compare import ResultsComparison
     from viscofric.study.export import Form
@@ -146,7 +146,7 @@ class StudyResults:
         return tuple(map(note_of, json.loads(self.tree.attrs["warnings"])))
 
 
-def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> NDArray[np.bool_]:
+def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> Mask:
     """Return in which cases the estimated numerical error of friction is above the accuracy asked for.
 
     Parameters
@@ -161,7 +161,7 @@ def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> NDArray[np.bool_]
     if {"indentation", "front", "rear"} <= set(cases.variables):
         slopes = np.ravel(2.0 * cases["indentation"].values / (cases["front"].values + cases["rear"].values))
         floor = FRICTION_FLOOR * float(np.max(slopes[np.isfinite(slopes)], initial=0.0))
-    beyond: NDArray[np.bool_] = error > accuracy * np.maximum(friction, floor) * (1.0 + _ROUNDING)
+    beyond: Mask = error > accuracy * np.maximum(friction, floor) * (1.0 + _ROUNDING)
     return beyond
 
 

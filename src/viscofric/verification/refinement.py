@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,11 +23,8 @@ from viscofric.verification.model_problems import HERTZ_RADIUS, SLOPE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.geometry import Geometry
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,9 +26,8 @@ from viscofric.verification.model_problems import POISSON_RATIO, RUBBER_MODULUS,
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _WAVELENGTH, _AMPLITUDE = 1e-3, 1e-6  # m: slopes of 0.006
 _RUBBER = one_time(10.0, 1.0)

@@ -37,12 +37,10 @@ from viscofric.errors import ConvergenceError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.contact.free.stage import Stage
     from viscofric.contact.operators.convolution import ConvolutionOperator
 
-    Array: TypeAlias = NDArray[np.float64]
 
 Way: TypeAlias = Literal["pressure", "balance"]
 
@@ -179,7 +177,7 @@ def mean_gradients(stage: Stage, fields: list[Array]) -> list[Gradient]:
     return [_change(stage.operator, one, by_held) for one, (_, _, by_held) in zip(sums, solved, strict=True)]
 
 
-def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
+def _box(mask: Mask) -> tuple[slice, slice]:
     """Smallest rectangle of cells that holds a set of them."""
     rows, columns = (np.flatnonzero(mask.any(axis=1 - axis)) for axis in (0, 1))
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,14 +13,11 @@ from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
 from viscofric.contact.free.control import GivenLoad
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.derivatives.adjoint import Gradient
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.free.stage import Stage
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 # Parts of the changes from grid to grid, and of what moving cells take away, that are claimed as error: with these, all

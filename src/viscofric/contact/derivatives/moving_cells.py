@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,12 +26,10 @@ from viscofric.contact.derivatives.adjoint import friction_adjoint, mean_gradien
 from viscofric.contact.free.balance import CUTS, lag
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.derivatives.adjoint import Gradient, Way
     from viscofric.contact.free.stage import Stage
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Part of itself, or of a cell, by which the grid is stretched and shifted: rounding and curvature both cost 1e-5.
 _STEP = 1e-5

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +12,10 @@ from viscofric.contact.fields.subsurface import line_stress, stress_layer
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 # Depths at which the highest stress is first looked for, in radii of a circle of the contact's area.
 _DEPTHS = np.geomspace(0.02, 2.5, 22)

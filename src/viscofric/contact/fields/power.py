@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +11,9 @@ from viscofric.contact.fields._cells import on_cells, spacing
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, Mask
 
 
 def surface_power(x: ArrayLike, pressure: ArrayLike, displacement: ArrayLike, speed: float) -> Array:
@@ -65,7 +65,7 @@ def surface_power(x: ArrayLike, pressure: ArrayLike, displacement: ArrayLike, sp
     return np.asarray(-to_si(speed, "m/s", "speed") * load * _slope_in_contact(depth, load > 0.0) / step)
 
 
-def _slope_in_contact(depth: Array, loaded: NDArray[np.bool_]) -> Array:
+def _slope_in_contact(depth: Array, loaded: Mask) -> Array:
     """Change from cell to cell along x, over loaded neighbours where there are any."""
     change = np.zeros((depth.shape[0] + 1, *depth.shape[1:]))
     change[1:-1] = np.diff(depth, axis=0)

@@ -6,7 +6,7 @@ they do not depend on the modulus, hence (by the correspondence principle) not o
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.fft
@@ -20,9 +20,10 @@ from viscofric.units import checked_poisson_ratio, positive, to_si, to_si_array
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array
+
 
 # Sign of xx, yy, zz, yz, xz, xy on the other side of the loaded cell, along x and along y.
 _PARITY_X = np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.fft
@@ -20,11 +20,11 @@ from viscofric.errors import InputError
 from viscofric.units import checked_poisson_ratio, positive, to_si, velocity
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array
     from viscofric.contact.influence.potentials import CellPotential
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Most cells of the window that is looked at.
 LARGEST = 2**24

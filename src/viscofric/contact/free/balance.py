@@ -28,7 +28,7 @@ cell, Λ is their mean and F_t = Λ ∫ p ∂²h/∂x² dA holds exactly, on any
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -37,11 +37,10 @@ from viscofric.contact.operators.convolution import bent_share
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.operators.convolution import SteadyMaterial
 
-    Array: TypeAlias = NDArray[np.float64]
-    ComplexArray: TypeAlias = NDArray[np.complex128]
 
 #: Shortest and longest wave that might be the first one left out, and the likely one: wavenumbers times the cell.
 #: From the closed form of the line contact, for E∞/E0 from 1.1 to 1e4 and v τ/a0 from 1e-6 to 1e6.

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.operators.convolution import ConvolutionOperator
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 class Control(Protocol):

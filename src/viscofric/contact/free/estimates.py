@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.stage import Stage
 
-    Array: TypeAlias = NDArray[np.float64]
 
 FEWEST_GRIDS = 3  # one change alone may be small by chance
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.

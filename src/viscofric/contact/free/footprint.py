@@ -8,16 +8,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.grids import Grid
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

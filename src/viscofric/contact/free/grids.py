@@ -9,18 +9,14 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 if TYPE_CHECKING:
     from typing import Self
 
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
-    Mask: TypeAlias = NDArray[np.bool_]
-    Indices: TypeAlias = NDArray[np.intp]
+    from viscofric.arrays import Array, Indices, Mask
 
 
 class Extent(NamedTuple):

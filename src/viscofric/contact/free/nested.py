@@ -11,7 +11,7 @@ import logging
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,12 +23,10 @@ from viscofric.contact.operators.convolution import collocation_shift
 from viscofric.errors import ConvergenceError, InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.free.problem import Problem
 
-    Array: TypeAlias = NDArray[np.float64]
 
 logger = logging.getLogger(__name__)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -14,15 +14,12 @@ from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.given_grid import COARSEST
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.control import Control
     from viscofric.contact.free.geometry import Geometry
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.operators.convolution import SteadyMaterial
     from viscofric.contact.operators.layer import ScaledLayer
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 class Shape(Protocol):

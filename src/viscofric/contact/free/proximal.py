@@ -19,18 +19,16 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.free.control import Control
     from viscofric.contact.operators.convolution import ConvolutionOperator
 
-    Array: TypeAlias = NDArray[np.float64]
 
 logger = logging.getLogger(__name__)
 

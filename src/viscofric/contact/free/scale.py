@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,13 +14,11 @@ from viscofric.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.contact.free.geometry import Geometry
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.indenters.indenter import Indenter
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Directions in which an indenter is felt for its mean height at a distance.
 _DIRECTIONS = 16
@@ -141,7 +139,7 @@ class ScaledIndenter:
         """Slope of the height across the motion, to its left."""
         return self._slope_along((-self.toward[1], self.toward[0]), x, y)
 
-    def extent(self, window: Grid, mask: NDArray[np.bool_]) -> Extent:
+    def extent(self, window: Grid, mask: Mask) -> Extent:
         """Extent of a set of cells along the indenter's own axes, m."""
         i, j = np.nonzero(mask)
         x, y = self._turned(window.x[i], window.y[j])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,14 +12,11 @@ from viscofric.contact.free.balance import CUTS, lag, opening
 from viscofric.contact.free.footprint import Footprint
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.free.grids import Extent, Grid
     from viscofric.contact.free.problem import Problem
     from viscofric.contact.operators.convolution import ConvolutionOperator
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

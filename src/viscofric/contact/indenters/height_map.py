@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -15,12 +15,12 @@ from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
     from scipy.interpolate import PPoly, RectBivariateSpline
 
+    from viscofric.arrays import Array, Mask
     from viscofric.contact.free.grids import Extent
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _FEWEST = 4  # points that a cubic spline needs
 
@@ -129,7 +129,7 @@ class HeightMap(Indenter):
         z = np.asarray(self.z)
         return RectBivariateSpline(*self._points, z - z.min(), kx=3, ky=3, s=0)
 
-    def _inside(self, x: Array, y: Array) -> NDArray[np.bool_]:
+    def _inside(self, x: Array, y: Array) -> Mask:
         px, py = self._points
         return np.asarray((x >= px[0]) & (x <= px[-1]) & (y >= py[0]) & (y <= py[-1]))
 
@@ -211,7 +211,7 @@ class Profile(Indenter):
         z = np.asarray(self.z)
         return CubicSpline(self._points, z - z.min())
 
-    def _inside(self, x: Array) -> NDArray[np.bool_]:
+    def _inside(self, x: Array) -> Mask:
         return np.asarray((x >= self._points[0]) & (x <= self._points[-1]))
 
 

@@ -5,19 +5,16 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar
 
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.errors import InputError, brief
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.grids import Extent
 
-    Array: TypeAlias = NDArray[np.float64]
 
 SMALL_STRAIN = 0.3  # slope of the indenter within the contact beyond which linear contact is doubtful
 

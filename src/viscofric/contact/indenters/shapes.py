@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -13,11 +13,8 @@ from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.grids import Extent
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

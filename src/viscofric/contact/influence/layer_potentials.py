@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -28,9 +28,8 @@ from viscofric.contact.layers import Layer
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Indices
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Thinnest layer, in cells.  Of a thinner one the cells' own edges would be felt more than the contact.
 THINNEST = 0.25
@@ -70,7 +69,7 @@ class _Table:
             result = result * t + power * self.coefficients[power][piece]
         return result * (2.0 / _PIECE)
 
-    def _locate(self, distance: Array) -> tuple[NDArray[np.intp], Array]:
+    def _locate(self, distance: Array) -> tuple[Indices, Array]:
         scaled = distance / _PIECE
         piece = np.minimum(scaled.astype(np.intp), self.coefficients.shape[1] - 1)
         return piece, 2.0 * (scaled - piece) - 1.0

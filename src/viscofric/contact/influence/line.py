@@ -12,15 +12,14 @@ The displacement under a pressure that is the same all along y is that of the lo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from scipy.special import exp1, expi
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # From here on twenty terms of the asymptotic series (DLMF 6.12.1) are right to the last digit.
 _ASYMPTOTIC = 50.0

@@ -17,7 +17,8 @@ from scipy.special import eval_legendre
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, Indices
+
     Inexact: TypeAlias = NDArray[Any]  # rates and what follows from them: real or complex
 
 # Up to this rate forty Gauss points integrate e^(−ε s) times polynomials of degree 15 to the last digit; from it on the
@@ -156,7 +157,7 @@ def panel_rule(edges: Array, order: int, rate: Inexact) -> tuple[Array, Inexact]
 
 
 @lru_cache(maxsize=4)
-def lattice_interpolation(order: int) -> tuple[NDArray[np.intp], Array]:
+def lattice_interpolation(order: int) -> tuple[Indices, Array]:
     """Interpolation in the cell 0 … 1 from values at whole numbers.
 
     Returns

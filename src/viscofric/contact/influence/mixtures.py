@@ -20,7 +20,7 @@ to cell by K(x) = ∫_0^1 ε e^(−ε s) L(x + s) ds + e^(−ε) K(x + 1).  And 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.fft
@@ -38,11 +38,9 @@ from viscofric.contact.influence.parts import (
 from viscofric.contact.influence.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.influence.parts import Potential
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _HALF_SPACE = HalfSpaceCell()
 

@@ -25,11 +25,9 @@ from viscofric.contact.influence.memory_rules import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.influence.memory_rules import Inexact
 
-    Array: TypeAlias = NDArray[np.float64]
     Potential: TypeAlias = Callable[[Array, Array], Array]
 
 # Longest exponent that still leaves a trace in double precision.

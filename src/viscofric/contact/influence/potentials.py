@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, Mask
 
 
 class CellPotential(Protocol):
@@ -57,7 +55,7 @@ def cell_potential(x: Array, y: Array, aspect: float = 1.0) -> Array:
     return result
 
 
-def _from_afar(x: Array, y: Array, aspect: float) -> tuple[NDArray[np.bool_], Array, Array, Array]:
+def _from_afar(x: Array, y: Array, aspect: float) -> tuple[Mask, Array, Array, Array]:
     """Return where the multipole series is not to be used; and x²/r², y²/r² and 1/r² for it (anything there)."""
     x2, y2 = x * x, y * y
     r2 = x2 + y2

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 import scipy.fft
@@ -18,14 +18,13 @@ from viscofric.contact.influence.potentials import HalfSpaceCell
 if TYPE_CHECKING:
     from typing import Self
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.arrays.backend import AnyArray
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.influence.potentials import CellPotential
 
-    Array: TypeAlias = NDArray[np.float64]
-    ComplexArray: TypeAlias = NDArray[np.complex128]
 
 # A mode with a memory shorter than this (in cells) dissipates by its leading term, λ² ∂²/∂x²: the next one
 # is λ² = 1e-6 smaller, while the difference of its two potentials would have lost that much to rounding.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +11,7 @@ from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influen
 from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, bent_share, second_difference
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array
 
 
 @dataclass

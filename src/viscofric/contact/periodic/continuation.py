@@ -8,18 +8,15 @@ from the one before, until nothing is left to add.  Where a step fails, a shorte
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 from viscofric.contact.periodic.operator import PeriodicOperator
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import AnyArray
     from viscofric.contact.complementarity import ComplementaritySolution
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _FIRST = 0.3  # of the relaxed compliance that is added
 _FACTOR, _LEAST_FACTOR = 1.8, 1.02  # from one added compliance to the next

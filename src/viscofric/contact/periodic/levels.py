@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,13 +18,11 @@ from viscofric.errors import ConvergenceError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.one_grid import Stage
 
-    Array: TypeAlias = NDArray[np.float64]
 
 logger = logging.getLogger(__name__)
 

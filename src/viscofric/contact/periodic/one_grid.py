@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import AnyArray, Backend
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
 _FEW_DIRECTIONS = (6, 12)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts

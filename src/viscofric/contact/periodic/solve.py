@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import scipy.fft
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.levels import Work
     from viscofric.contact.periodic.surface import Coarser
     from viscofric.rheology.material import Material
 
-    Array: TypeAlias = NDArray[np.float64]
 
 TIGHTEST, LOOSEST = 1e-12, 1e-2  # of the complementarity, in rms heights
 #: Friction is resolved relative to its own value, but not below this fraction of the slope of the longest wave.
@@ -241,7 +241,7 @@ def _assemble(
     given: _Given,
     units: _Units,
     motion: tuple[float, tuple[float, float], float | None],
-    transfer: NDArray[np.complex128] | Array,
+    transfer: ComplexArray | Array,
 ) -> tuple[PeriodicSolution, float]:
     """Return to SI units, and balance the energy; also return the rms slope under pressure."""
     velocity, toward, kelvin = motion

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import scipy.fft
@@ -16,9 +16,9 @@ from viscofric.units import Quantity, two_lengths
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array, ComplexArray
 
 
 class Coarser(NamedTuple):
@@ -123,7 +123,7 @@ class PeriodicSurface:
         fine /= self.z.size
         return [self._likeness(fine, shape) for shape in shapes]
 
-    def _likeness(self, fine: NDArray[np.complex128], shape: tuple[int, int]) -> Coarser:
+    def _likeness(self, fine: ComplexArray, shape: tuple[int, int]) -> Coarser:
         mx, my = shape
         coarse = np.zeros((mx, my // 2 + 1), complex)
         # The Nyquist waves of the coarse grid, which have no direction, are left out as well.

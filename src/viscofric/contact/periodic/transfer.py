@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from viscofric.contact.periodic.waves import hermitian_factor, wave_number, without_nyquist
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.layers import Layer
-
-    Array: TypeAlias = NDArray[np.float64]
-    ComplexArray: TypeAlias = NDArray[np.complex128]
 
 
 class Compliant(Protocol):

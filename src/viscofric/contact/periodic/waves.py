@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array: TypeAlias = NDArray[np.float64]
+    from viscofric.arrays import Array
 
 
 def wave_number(shape: tuple[int, int], spacing: tuple[float, float]) -> tuple[Array, Array]:

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,11 +26,11 @@ from viscofric.units import positive
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array
     from viscofric.units import Quantity
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Speeds and moduli for which the closed form is computed: vτ over the elastic half-width at M0, and M∞/M0.
 MEMORY_RANGE = (1e-9, 1e9)

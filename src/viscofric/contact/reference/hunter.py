@@ -30,7 +30,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import i0e, i1e, ive, k0e, k1e
@@ -41,11 +41,11 @@ from viscofric.errors import InputError
 from viscofric.units import positive
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array
     from viscofric.units import Quantity
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Speeds and moduli for which the closed form is computed: vτ/a0 and E∞/E0.
 MEMORY_RANGE = (1e-9, 1e9)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,11 +12,10 @@ from viscofric.contact.reference._checks import plane_strain_modulus
 from viscofric.units import positive
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array
     from viscofric.units import Quantity
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ itself, ∫ p u dA = (4/5) F δ for a paraboloid.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,11 +20,8 @@ from viscofric.errors import InputError
 from viscofric.units import positive, to_si, to_si_array
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantities, Quantity
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 def low_speed_friction(speed: Quantity, radius: Quantity, E0: Quantity, C: Quantities, tau: Quantities) -> float:

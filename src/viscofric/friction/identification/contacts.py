@@ -12,13 +12,11 @@ from viscofric.friction.identification.first_order import FirstOrder
 from viscofric.rheology.material import Material
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.identification.anchors import ContactAnchor
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-    Array = NDArray[np.float64]
 
 #: Change of the load for the slope of a size: its error is the square of it, that of the solutions over it.
 _LOAD_STEP = 0.05

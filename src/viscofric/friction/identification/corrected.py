@@ -8,11 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.identification.first_order import FirstOrder
-
-    Array = NDArray[np.float64]
 
 
 class Solved(NamedTuple):

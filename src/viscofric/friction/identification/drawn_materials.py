@@ -17,12 +17,10 @@ from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.identification.problem import Problem
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
-    Array = NDArray[np.float64]
 
 #: A roughness counts from this share of the evidence on.
 LEAST_SHARE = 0.05

@@ -15,11 +15,9 @@ import numpy as np
 from viscofric.contact.free.scale import Scale
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
 
-    Array = NDArray[np.float64]
 
 # Spacing and ends of the tables, in natural logarithms: the kernels are power laws beyond them.
 _STEP = 0.1

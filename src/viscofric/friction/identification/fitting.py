@@ -12,11 +12,8 @@ from viscofric.friction.identification.posterior import Minimum, descend, log_ev
 from viscofric.friction.identification.smoothness import ROUGHNESS
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.identification.problem import Problem
-
-    Array = NDArray[np.float64]
 
 
 class Weighed(NamedTuple):

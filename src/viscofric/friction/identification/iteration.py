@@ -12,13 +12,11 @@ from viscofric.friction.identification.fitting import Weighed, most_evident, wei
 from viscofric.friction.identification.posterior import descend
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.identification.posterior import Residuals
     from viscofric.friction.identification.problem import Problem
     from viscofric.friction.identification.solving import Contacts
 
-    Array = NDArray[np.float64]
 
 #: Rubbers for which contacts are solved, at most.
 STEPS = 20

@@ -16,12 +16,10 @@ from viscofric.units import angular_frequency as frequency_of
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.identification.anchors import ModulusAnchor
     from viscofric.units import Quantity
 
-    Array = NDArray[np.float64]
     #: Observations that err together, and what whitens their errors.
     Block: TypeAlias = tuple[tuple[ModulusObservation, ...], Array]
 

@@ -15,14 +15,11 @@ from viscofric.friction.identification.result import LevelFit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
     from viscofric.friction.identification.drawn_materials import MaterialOf
     from viscofric.friction.identification.fitting import Weighed
     from viscofric.friction.identification.problem import Problem
     from viscofric.friction.identification.solving import Contacts
 
-    Array = NDArray[np.float64]
 
 #: Relative error with which a level is held.
 HELD = 1e-3

@@ -8,13 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Complex = NDArray[np.complex128]
+    from viscofric.arrays import Array, ComplexArray
 
 
-def compliance(compliances: Array, tau: Array, log_frequency: Array) -> tuple[Complex, Complex, Complex]:
+def compliance(compliances: Array, tau: Array, log_frequency: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
     """Return S(ω) (n,), its derivatives by ln(1/E_inf) and every ln C (n, 1 + m), and by ln ω (n,)."""
     values = np.exp(compliances)
     lag = 1j * np.exp(log_frequency[:, None]) * tau
@@ -23,7 +20,7 @@ def compliance(compliances: Array, tau: Array, log_frequency: Array) -> tuple[Co
     return change.sum(axis=1), change, -np.sum(modes * lag / (1.0 + lag), axis=1)
 
 
-def log_modulus(part: str, S: Complex, change: Complex) -> tuple[Array, Array]:
+def log_modulus(part: str, S: ComplexArray, change: ComplexArray) -> tuple[Array, Array]:
     """Return ln of |E|, E' or E'' (n,), and how it follows changes (n, p) of the compliance S."""
     relative = -change / S[:, None]  # of E = 1/S
     E = 1.0 / S

@@ -16,13 +16,11 @@ from viscofric.notes import Remedy
 from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers, Mask
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
     from viscofric.units import Quantity
 
-    Array = NDArray[np.float64]
 
 #: Fewer points than these say nothing of a spectrum's shape.
 FEWEST_POINTS = 6
@@ -63,11 +61,11 @@ class Points:
     log_friction: Array
     error: Array
     temperatures: Array
-    number: NDArray[np.int64]
+    number: Integers
     load: float
     forces: Array
     raised: Array
-    rows: NDArray[np.int64]
+    rows: Integers
     notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -87,7 +85,7 @@ class Points:
             viscoelastic_freedom=np.full(len(self), np.inf),
         )
 
-    def chosen(self, keep: NDArray[np.bool_]) -> Points:
+    def chosen(self, keep: Mask) -> Points:
         """Return some of the points, by a mask (n,)."""
         columns = ("log_speed", "log_load", "log_friction", "error", "number", "forces", "raised", "rows")
         return replace(self, **{name: getattr(self, name)[keep] for name in columns})

@@ -9,9 +9,8 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
     #: Residuals (r,) of standard deviation one, and their derivatives (r, p).
     Residuals = Callable[[Array], tuple[Array, Array]]
 

@@ -9,16 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.identification.contacts import SolvedContact
     from viscofric.friction.identification.corrected import CorrectedFriction
     from viscofric.friction.identification.moduli import ModulusObservation
     from viscofric.friction.identification.points import Points
     from viscofric.friction.identification.shifts import Shifts
     from viscofric.friction.identification.smoothness import Smoothness
-
-    Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias, Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
@@ -17,12 +17,9 @@ from viscofric.units import Quantities, positive, to_si_array
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.prediction import ContactSettings
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,14 +13,14 @@ from viscofric.notes import codes
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
-    Array = NDArray[np.float64]
 
 #: Notes beside which nothing counts as identified: the friction is not that of one rubber, or of none that is known.
 NOTHING_IDENTIFIED = frozenset({"not-one-rubber", "too-steep", "constant-friction"})

@@ -26,15 +26,12 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.identification.known_moduli import Block
     from viscofric.friction.identification.points import Points
     from viscofric.friction.identification.solving import Contacts
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
-    Array = NDArray[np.float64]
 
 #: Retardation times reach so far beyond the contact's frequencies, decades; those beyond are felt as a spring or not.
 MARGIN = 1.9

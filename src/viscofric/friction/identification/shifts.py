@@ -14,11 +14,9 @@ from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.shifts.laws import ShiftLaw
 
-    Array = NDArray[np.float64]
 
 #: Found shifts stay where the curves overlap: within so many of the standard errors with which overlap alone tells
 #: them, and so much in ln α.  A free spectrum fits curves that have been moved apart as well.  What this expectation

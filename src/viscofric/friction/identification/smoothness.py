@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: Standard deviation of the mean of ln C about the first guess, and of ln(1/E_inf) about the compliance that is seen: a
 #: rubber of little loss has most of it, one amidst its transition a hundredth.

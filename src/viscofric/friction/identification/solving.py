@@ -16,14 +16,12 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.identification.anchors import ContactAnchor
     from viscofric.friction.identification.problem import Problem
     from viscofric.processes import Workers
 
-    Array = NDArray[np.float64]
 
 #: Contacts that are solved per decade of reduced speed, and how far beyond the points, decades.  What the closed form
 #: misses changes so slowly that four per decade carry it to 1e-4 of the friction.

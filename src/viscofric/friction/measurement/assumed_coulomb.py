@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,13 +13,9 @@ from viscofric.nominal import SAME_LOAD
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from viscofric.friction.measurement.entry import Entry
     from viscofric.friction.measurement.separation import Fit
     from viscofric.friction.measurement.zeros import Zeros
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

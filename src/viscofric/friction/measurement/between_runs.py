@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,12 +18,9 @@ from viscofric.friction.measurement.within_passes import of_readings
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.friction.measurement.separation import Fit
 
-    Array: TypeAlias = NDArray[np.float64]
-    Labels: TypeAlias = NDArray[np.int64]
 
 #: Degrees of freedom from which the scatter of a condition counts alone: Student's t is then 2.8, not 12.7.
 _ENOUGH = 4.0
@@ -47,7 +44,7 @@ class Scatter:
     """
 
     deviations: Array
-    run: Labels
+    run: Integers
     freedom: float
     factor: float
 

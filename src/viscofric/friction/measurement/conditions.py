@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,13 +16,10 @@ from viscofric.notes import Note
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.friction.measurement.course import Course
     from viscofric.traction import TractionRuns
 
-    Array: TypeAlias = NDArray[np.float64]
-    Labels: TypeAlias = NDArray[np.int64]
 
 # Width of the intervals that swept slip is cut into, in tolerances: as far as readings of one slip may stretch.
 _INTERVAL = 4.0
@@ -46,7 +43,7 @@ class Condition:
         sgn(u_disc) = ±1 and sgn(u_disc − u_ball) = ±1, or 0 in pure rolling.
     """
 
-    rows: Labels
+    rows: Integers
     temperature: float
     speed: float
     load: float
@@ -63,7 +60,7 @@ class Condition:
         return frozenset((round(one / 3), one - 3 * round(one / 3)) for one in set(self.configurations.tolist()))
 
     @cached_property
-    def configurations(self) -> Labels:
+    def configurations(self) -> Integers:
         """Number of the sign configuration of each reading."""
         return np.asarray(3 * self.disc_sign + self.slip_sign, dtype=np.int64)
 
@@ -189,7 +186,7 @@ def conditions(
     return found, tuple(notes)
 
 
-def _jitter(speed: Array, senses: Labels) -> float:
+def _jitter(speed: Array, senses: Integers) -> float:
     """Return the standard deviation of relative speeds, whatever the disc's differ by between the senses of slip.
 
     Where a ball rolls, what is called the sense of its slip is jitter too, and the speeds of one sense scatter less
@@ -201,7 +198,7 @@ def _jitter(speed: Array, senses: Labels) -> float:
     return min(float(np.std(speed)), float(np.std(apart)) / math.sqrt(1.0 - 2.0 / math.pi))
 
 
-def _equal_rows(keys: Labels) -> list[Labels]:
+def _equal_rows(keys: Integers) -> list[Integers]:
     """Return the places of equal rows, by ascending rows."""
     _, number = np.unique(keys, axis=0, return_inverse=True)
     number = number.reshape(-1)
@@ -216,14 +213,14 @@ def where(some: list[Condition], total: int) -> str:
     return f"At {len(some)} of {total} conditions, the first being {some[0]},"
 
 
-def _slips(ratio: Array, tolerance: float, told: float) -> tuple[Array, Labels, bool]:
+def _slips(ratio: Array, tolerance: float, told: float) -> tuple[Array, Integers, bool]:
     """Find the sense of sliding (along the disc's motion, ±1 or 0), number the magnitudes; say if they were swept.
 
     `told` is the slip of one reading that jitter cannot make.
     """
     resolution = max(0.1 * tolerance, told)
 
-    def numbered(values: Array) -> Labels:
+    def numbered(values: Array) -> Integers:
         return clusters(
             values,
             np.maximum(tolerance * np.abs(values), resolution),

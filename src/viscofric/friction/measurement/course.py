@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers, Mask
     from viscofric.traction import TractionRuns
-
-    Array: TypeAlias = NDArray[np.float64]
-    Labels: TypeAlias = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +70,7 @@ def of_the_disc(runs: TractionRuns) -> Course:
     return Course(speed, slip / np.where(speed > 0.0, speed, 1.0), notes)
 
 
-def _unreversed(step: Labels, point: Labels, opposed: NDArray[np.bool_], slip: Array) -> NDArray[np.bool_]:
+def _unreversed(step: Integers, point: Integers, opposed: Mask, slip: Array) -> Mask:
     """Find the readings of points where small slip is not reversed though most points of the step reverse theirs."""
     several = np.bincount(point) > 1
     _, number = np.unique(step, return_inverse=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,13 +12,11 @@ from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.measurement.entry import Entry
     from viscofric.friction.measurement.separation import Fit
     from viscofric.friction.measurement.zeros import Zeros
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: How often a sound test, of however many conditions, is noted for one kind of deviation: once in 370 times.  The
 #: threshold in standard errors is Student's t, larger where few replicates or many conditions stand behind them.

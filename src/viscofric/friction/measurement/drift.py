@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,11 +13,9 @@ from viscofric.friction.measurement.zeros import Zeros, wanders
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.friction.measurement.entry import Entry
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _FEWEST = 3  # degrees of freedom behind a rate
 # The recorded zeros are followed where this makes the sum of squares smaller by more than chance would.
@@ -148,7 +146,7 @@ def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
     return deviation if deviation > ROUNDING * max(fit.group.load for fit in fits) and wanders(zero) else 0.0
 
 
-def _centred(values: Array, line: NDArray[np.int64]) -> Array:
+def _centred(values: Array, line: Integers) -> Array:
     return np.asarray(values - (np.bincount(line, values) / np.bincount(line))[line])
 
 

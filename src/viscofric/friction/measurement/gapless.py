@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,11 +14,9 @@ from viscofric.notes import Note, Remedy, setting
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.traction import TractionRuns
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Field and label of the gap between nominal speeds, see `viscofric.notes.setting`.
 SPEED_TOLERANCE = ("measurement.speed_tolerance", "Gap between speeds")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,13 +16,10 @@ from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 from viscofric.notes import Note, Remedy, setting
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from viscofric.friction.measurement.assumed_coulomb import Assumed
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Speeds within this part of each other may have been meant to be one.
 _NEAR = 0.5

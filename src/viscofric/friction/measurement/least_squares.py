@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices
     from viscofric.friction.measurement.conditions import Condition
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 def regressors(group: Condition, *, offset: bool, coulomb: bool) -> Array:
@@ -34,7 +31,7 @@ def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -
     return int(np.linalg.matrix_rank(np.array(columns))) == unknowns
 
 
-def operators(design: Array, crossed: Array | None, parts: list[NDArray[np.intp]]) -> Array:
+def operators(design: Array, crossed: Array | None, parts: list[Indices]) -> Array:
     """Return what makes the coefficients of readings, in each of several parts by itself.
 
     Parameters

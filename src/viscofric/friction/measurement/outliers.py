@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,13 +10,11 @@ from viscofric.friction.measurement.doubts import ROUNDING
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.entry import Entry
     from viscofric.traction import TractionRuns
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _OUTLIER = 5.0  # robust standard deviations
 _FEWEST_FOR_OUTLIERS = 4  # readings of a configuration

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,14 +11,12 @@ from viscofric.friction.measurement.entry import Entry
 from viscofric.friction.measurement.least_squares import operators, regressors, residuals
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Integers
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.growth import Growth
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
 #: Degrees of freedom that steps of several configurations leave, for their sums to give errors.
@@ -77,10 +75,10 @@ class Fit:
     residual: Array = field(repr=False)
     checked: Array = field(repr=False)
     operator: Array = field(repr=False)
-    first_rows: NDArray[np.int64] = field(repr=False)
-    step: NDArray[np.intp] = field(repr=False)
-    passes: NDArray[np.intp] = field(repr=False)
-    runs_of_passes: NDArray[np.int64] = field(repr=False)
+    first_rows: Integers = field(repr=False)
+    step: Indices = field(repr=False)
+    passes: Indices = field(repr=False)
+    runs_of_passes: Integers = field(repr=False)
     unknowns: int
     by_steps: bool
     log_speed: Array = field(repr=False)
@@ -137,7 +135,7 @@ class Fit:
         unknowns = int(np.count_nonzero(np.any(design != 0.0, axis=0)))
         operator /= len(parts)
         by_steps = len(parts) == 1 and step.max() < passes.max() and step.max() + 1 - unknowns >= _FEWEST_STEPS
-        independent: NDArray[np.intp] | None = replicate
+        independent: Indices | None = replicate
         if len(parts) == 1:
             independent = step if by_steps else passes if passes.max() >= unknowns else None
         return cls(
@@ -226,7 +224,7 @@ def _times(runs: TractionRuns, group: Condition) -> Array:
     return np.full(group.rows.size, np.nan) if runs.time is None else runs.time[group.rows]
 
 
-def _replicates(runs: TractionRuns, group: Condition) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _replicates(runs: TractionRuns, group: Condition) -> tuple[Indices, Indices]:
     """Give numbers to the replicates, and to the steps, of a condition's readings.
 
     Readings of one step are no repetitions of the test.  Where their replicate numbers differ, the steps are the
@@ -244,7 +242,7 @@ def _replicates(runs: TractionRuns, group: Condition) -> tuple[NDArray[np.intp],
     return (run % _MOST_PASSES)[passes].astype(np.intp), step
 
 
-def _steps(step: NDArray[np.int64], group: Condition, replicate: NDArray[np.intp]) -> NDArray[np.intp]:
+def _steps(step: Integers, group: Condition, replicate: Indices) -> Indices:
     """Give numbers to the steps of a condition, those that a test numbers anew from run to run by their runs."""
     block = np.concatenate([[0], np.cumsum(np.diff(step) != 0)])[group.rows]
     _, block = np.unique(block, return_inverse=True)
@@ -255,7 +253,7 @@ def _steps(step: NDArray[np.int64], group: Condition, replicate: NDArray[np.intp
     return np.asarray(number if apart else block, dtype=np.intp)
 
 
-def _passes(group: Condition, step: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.int64]]:
+def _passes(group: Condition, step: Indices) -> tuple[Indices, Integers]:
     """Give numbers to the passes, a step in one configuration each, and return the number of the run of each."""
     configuration = group.configurations - group.configurations.min()
     pairs, passes = np.unique(np.column_stack([configuration, step]), axis=0, return_inverse=True)
@@ -263,12 +261,12 @@ def _passes(group: Condition, step: NDArray[np.intp]) -> tuple[NDArray[np.intp],
     return passes.reshape(-1), _MOST_PASSES * pairs[:, 0] + np.arange(len(pairs)) - first
 
 
-def _complete(group: Condition, replicate: NDArray[np.intp]) -> bool:
+def _complete(group: Condition, replicate: Indices) -> bool:
     """Whether every replicate has all the configurations that there are."""
     pairs = np.unique(10 * replicate.astype(np.int64) + group.configurations)
     return pairs.size == (int(replicate.max()) + 1) * len(group.signs)
 
 
-def _parted(replicate: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+def _parted(replicate: Indices) -> list[Indices]:
     order = np.argsort(replicate, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(replicate[order])) + 1)

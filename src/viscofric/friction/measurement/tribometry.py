@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -26,11 +26,8 @@ from viscofric.traction import TractionRuns
 from viscofric.units import Quantity, positive, share
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.friction.measurement.entry import Entry
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 # The change of friction over speed changes little by what it corrects.
@@ -265,7 +262,7 @@ class _Separation:
         )
 
 
-def _without(runs: TractionRuns, rows: NDArray[np.int64]) -> TractionRuns:
+def _without(runs: TractionRuns, rows: Integers) -> TractionRuns:
     """Leave out rows."""
     keep = np.full(len(runs), True)
     keep[rows] = False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,13 +14,10 @@ from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.measurement.entry import Entry
     from viscofric.friction.measurement.separation import Fit
     from viscofric.traction import TractionRuns
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

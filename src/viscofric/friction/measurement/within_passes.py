@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Integers, Mask
     from viscofric.friction.measurement.separation import Fit
 
-    Array: TypeAlias = NDArray[np.float64]
 
 _AUTOCORRELATIONS = np.linspace(0.0, 0.99, 200)
 
 
 def of_readings(
-    fits: list[Fit], weights: Array, lacking: NDArray[np.bool_]
+    fits: list[Fit], weights: Array, lacking: Mask
 ) -> tuple[dict[tuple[int, int], tuple[float, float]], float]:
     """Estimate the variance of coefficients whose passes leave nothing over, from the scatter within the passes.
 
@@ -72,19 +70,19 @@ def _deviations(fit: Fit, weights: Array) -> Array:
     return np.asarray(left - (np.bincount(fit.passes, left) / np.bincount(fit.passes))[fit.passes])
 
 
-def _products(deviations: Array, passes: NDArray[np.intp]) -> float:
+def _products(deviations: Array, passes: Indices) -> float:
     order = np.argsort(passes, kind="stable")
     same = passes[order][1:] == passes[order][:-1]
     return float(np.sum((deviations[order][1:] * deviations[order][:-1])[same]))
 
 
-def _of_sums(rho: float | Array, size: NDArray[np.int64]) -> Array:
+def _of_sums(rho: float | Array, size: Integers) -> Array:
     """Variance of the sum of n readings over n times that of one: 1 + 2 Σ (1 − k/n) ρᵏ over the lags k."""
     n = np.asarray(size, dtype=float)
     return np.asarray((1.0 + rho) / (1.0 - rho) - 2.0 * rho * (1.0 - rho**n) / (n * (1.0 - rho) ** 2))
 
 
-def _autocorrelation(ratio: float, sizes: NDArray[np.int64]) -> float:
+def _autocorrelation(ratio: float, sizes: Integers) -> float:
     """Return the autocorrelation, not below zero, at which products over squares have this ratio in expectation."""
     rho = _AUTOCORRELATIONS[:, None]
     size, count = np.unique(sizes, return_counts=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,13 +14,10 @@ from viscofric.notes import Note
 from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Integers
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.traction import TractionRuns
 
-    Array: TypeAlias = NDArray[np.float64]
-    Labels: TypeAlias = NDArray[np.int64]
 
 # Fewer recordings do not tell a drift from scatter.
 _FEWEST_FOR_DRIFT = 8
@@ -49,7 +46,7 @@ class Zeros:
     """
 
     value: Array
-    recording: Labels
+    recording: Integers
     error: float
     freedom: float
     given: bool
@@ -104,7 +101,7 @@ class Zeros:
         """Whether the zero is known behind every reading of a condition."""
         return bool(np.all(np.isfinite(self.of(group))))
 
-    def variance(self, group: Condition, operator: Array, part: NDArray[np.intp] | None) -> Array:
+    def variance(self, group: Condition, operator: Array, part: Indices | None) -> Array:
         """Return what the errors of the recordings leave in coefficients (4,) that `operator` makes of readings.
 
         Parts of the readings whose scatter tells errors (`part` numbers them) show it as far as their recordings

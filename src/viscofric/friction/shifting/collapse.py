@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Mask
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Rounding of log10(αv), so that the ends of a range belong to it.
 _ROUNDING = 1e-9
@@ -84,7 +83,7 @@ def collapse(temperature: Array, decades: Array, friction: Array, error: Array) 
     )
 
 
-def _isotherm(rows: NDArray[np.bool_], decades: Array, friction: Array, error: Array) -> tuple[Array, Array, Array]:
+def _isotherm(rows: Mask, decades: Array, friction: Array, error: Array) -> tuple[Array, Array, Array]:
     """Ascending log10 reduced speeds of one temperature, friction and its error; equal speeds averaged."""
     places, number = np.unique(decades[rows], return_inverse=True)
     count = np.bincount(number)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,11 +26,9 @@ from viscofric.units import celsius, kelvin_hint
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.shifting.isotherms import FrictionIsotherm
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Fitted curves overlap for sure if they would after being pulled apart by so many standard errors of their step.
 SURE = 2.0

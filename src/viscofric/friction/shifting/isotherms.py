@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,11 +17,9 @@ from viscofric.rheology.superposition.overlap import LogSweep
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Integers
     from viscofric.friction.curves import FrictionCurves
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Points of an isotherm whose speeds differ by less are one point.
 SAME_SPEED = 1e-3  # decades
@@ -92,7 +90,7 @@ class FrictionIsotherm:
         return LogSweep(self.speed, self.friction[:, None], 1.0 / (unit * self.variance))
 
 
-def nominal_rows(temperature: Array) -> list[NDArray[np.intp]]:
+def nominal_rows(temperature: Array) -> list[Indices]:
     """Return the rows of each isotherm, in ascending temperature."""
     number = numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE))
     return [np.flatnonzero(number == one) for one in range(int(number.max()) + 1)]
@@ -139,7 +137,7 @@ def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
     return float(sum(np.sum(curves.residual**2) for curves in several) / freedom)
 
 
-def _variances(error: Array, replicates: NDArray[np.int64], freedom: Array, rows: list[NDArray[np.intp]]) -> Array:
+def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[Indices]) -> Array:
     """Pool the squared errors of each temperature; a point without an error gets the typical one.
 
     A standard error found from few replicates is itself uncertain, and weights that scatter cost precision which the

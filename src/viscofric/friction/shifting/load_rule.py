@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,12 +12,10 @@ from viscofric.contact.indenters.shapes import Cone, Ellipsoid
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Exponents of the load in the size of the contact, and in its strain (load over modulus and size squared).
 _EXPONENTS: dict[type[Indenter], tuple[float, float]] = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,15 +14,12 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.units import Quantities, Quantity, celsius, positive, to_si_in_shape
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.collapse import Collapse
     from viscofric.friction.shifting.load_rule import LoadRule
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

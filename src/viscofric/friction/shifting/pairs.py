@@ -10,16 +10,14 @@ depend on speed can always be slid.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.shifting.isotherms import FrictionIsotherm
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Curves are slid along each other in steps of this many decades …
 STEP = 0.02

@@ -8,7 +8,7 @@ takes, always to the same side.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,11 +17,9 @@ from viscofric.friction.shifting.pairs import CONTRADICTION
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.shifting.placement import Pairs
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Steps that the fit moves further from where a pair coincides are not that pair's, decades.
 _NEAR = 0.2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,13 +21,10 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.laws import ShiftLaw
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 def shift_friction(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,14 +13,12 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors, referenced_cov
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.superposition.result import Superposition
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: A temperature that lies so near to the reference is the reference, K.
 AT_REFERENCE = 1e-6
@@ -171,7 +169,7 @@ def _factors(found: Any, name: str) -> ShiftFactors:
     return table
 
 
-def _known(law: Any, kelvin: Array) -> NDArray[np.bool_]:
+def _known(law: Any, kelvin: Array) -> Mask:
     """Say at which temperatures (n,) a law answers."""
     try:
         law.log10(kelvin)

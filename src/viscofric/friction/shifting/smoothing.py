@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Mask
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Half-width of the smoothing kernel, decades of reduced speed.
 BANDWIDTH = 0.25
@@ -46,7 +45,7 @@ class SmoothedPoints:
         breaks = np.flatnonzero(np.diff(self.decades) > WIDEST_GAP) + 1
         return tuple((float(part[0]), float(part[-1])) for part in np.split(self.decades, breaks))
 
-    def covers(self, decades: Array) -> NDArray[np.bool_]:
+    def covers(self, decades: Array) -> Mask:
         """Say which places lie in a stretch."""
         inside = [(decades >= low - _ROUNDING) & (decades <= high + _ROUNDING) for low, high in self.stretches]
         return np.asarray(np.any(inside, axis=0))

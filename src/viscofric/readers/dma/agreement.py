@@ -9,9 +9,8 @@ import numpy as np
 from viscofric.errors import DataFileError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: Both printed with two digits or so agree within this (relative),
 PRINTED = 0.05

@@ -13,11 +13,9 @@ from viscofric.readers.dma.points import at
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Indices
     from viscofric.readers.dma.points import Points, Sorted
 
-    Indices = NDArray[np.intp]
 
 #: Strain amplitudes of isotherms that differ by more than this factor are told.
 AMPLITUDES_DIFFER = 1.2

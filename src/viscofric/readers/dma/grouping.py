@@ -12,11 +12,9 @@ from viscofric.notes import Note
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices
     from viscofric.readers.dma.points import Points
 
-    Indices = NDArray[np.intp]
 
 #: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.
 ISOTHERM_GAP = 1.0  # K
@@ -212,7 +210,7 @@ def _merged(points: Points, groups: list[Indices]) -> list[Indices]:
     return [np.sort(np.concatenate(some)) for some in alike]
 
 
-def _printed_frequencies(points: Points, group: Indices) -> NDArray[np.float64]:
+def _printed_frequencies(points: Points, group: Indices) -> Array:
     """Return the frequencies of a group once each (logarithms, rounded to what is printed)."""
     return np.unique(np.round(np.log(points.angular_frequency[group]), 2))
 

@@ -20,14 +20,11 @@ from viscofric.readers.dma.usable import usable
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Indices
     from viscofric.data import Deformation
     from viscofric.readers.dma.points import Points
     from viscofric.readers.dma.readings import Readings
 
-    Array = NDArray[np.float64]
-    Indices = NDArray[np.intp]
 
 #: Frequencies closer than this (relative) are the same one, printed or measured twice.
 SAME_FREQUENCY = 1e-4

@@ -20,13 +20,10 @@ from viscofric.units import celsius, checked_poisson_ratio, positive
 if TYPE_CHECKING:
     from os import PathLike
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.data import Deformation
     from viscofric.readers.table import Table
     from viscofric.units import Quantity
-
-    Array = NDArray[np.float64]
 
 
 def read_master_curve(
@@ -144,7 +141,7 @@ def _of_reptate(source: Source, reference: float) -> tuple[Array, Array, Array, 
     return *columns, np.full(len(columns[0]), reference)
 
 
-def _insist_on_positive(path: str, lines: NDArray[np.int64], named: dict[str, Array]) -> None:
+def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> None:
     for name, values in named.items():
         bad = np.flatnonzero(~(values > 0.0))
         if bad.size:

@@ -10,11 +10,9 @@ from viscofric.notes import Note
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.readers.table import Table
 
-    Array = NDArray[np.float64]
 
 #: Sweeps of a rubber, printed in kelvin, lie within this.
 LIKE_KELVIN = (200.0, 400.0)

@@ -14,13 +14,10 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Integers, Mask
     from viscofric.data import Isotherm
     from viscofric.readers.dma.readings import Readings
 
-    Array = NDArray[np.float64]
-    Indices = NDArray[np.intp]
 
 #: So many are named where many share a note.
 _SHOWN = 3
@@ -52,9 +49,9 @@ class Points:
     storage_modulus: Array
     loss_modulus: Array
     strain_amplitude: Array
-    file: NDArray[np.int64]
-    step: NDArray[np.int64]
-    has_step: NDArray[np.bool_]
+    file: Integers
+    step: Integers
+    has_step: Mask
 
     def __len__(self) -> int:
         return len(self.places)

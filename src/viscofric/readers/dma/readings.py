@@ -8,12 +8,8 @@ from typing import TYPE_CHECKING
 from viscofric.notes import Remedy
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.data import Deformation
-
-    Array = NDArray[np.float64]
 
 
 #: What to do with a master curve where sweeps are read, and with sweeps where a master curve is.
@@ -75,7 +71,7 @@ class Readings:
     deformation: Deformation | None = None
     said_by: str = ""
     strain_amplitude: Array | None = None
-    step: NDArray[np.int64] | None = None
+    step: Integers | None = None
     notes: tuple[str, ...] = ()
     unit_is_asked: bool = False
 

@@ -15,13 +15,10 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.data import Isotherm
     from viscofric.readers.dma.points import Points, Sorted
 
-    Array = NDArray[np.float64]
-    Indices = NDArray[np.intp]
 
 #: A temperature that ranges further within one isotherm shifts its ends against each other visibly.
 WIDE = 1.0  # K

@@ -12,11 +12,8 @@ from viscofric.notes import Note
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Mask
     from viscofric.readers.dma.points import Points
-
-    Indices = NDArray[np.intp]
 
 
 #: A thousand times diamond.
@@ -71,10 +68,10 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
 def _leave_out(
     points: Points,
     source: str,
-    bad: NDArray[np.bool_],
+    bad: Mask,
     notes: list[Note],
     told: tuple[str, str],
-    values: tuple[NDArray[np.float64], str] | None,
+    values: tuple[Array, str] | None,
     *,
     most: bool = True,
 ) -> None:

@@ -12,11 +12,9 @@ from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.table import Column, Table, table_of_text
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.source import Source
 
-    Array = NDArray[np.float64]
 
 NAME = "a delimited text table with one reading per row"
 
@@ -136,7 +134,7 @@ def _insist_on_positive(table: Table, place: int, values: Array, limit: str) -> 
         raise DataFileError(table.path, f"{cell} in column {heading!r} must be above {limit}.", int(table.lines[row]))
 
 
-def _whole_numbers(table: Table, names: frozenset[str], what: str) -> NDArray[np.int64] | None:
+def _whole_numbers(table: Table, names: frozenset[str], what: str) -> Integers | None:
     place = table.find(names, what)
     if place is None:
         return None

@@ -14,9 +14,9 @@ from viscofric.readers.mtm.pcs_rows import SIGNALS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.mtm.pcs_rows import Rows
     from viscofric.readers.mtm.pcs_steps import Export
-    from viscofric.readers.mtm.readings import Array, Whole
 
 _ABORTED = re.compile(r"abort|stopped|terminat|interrupt|suspend|fail|error|incomplete", re.IGNORECASE)
 #: More than the rounding of printed forces (N) and coefficients of friction.
@@ -26,7 +26,7 @@ _COEFFICIENT_AGREES = 1e-4
 _SPEED_AGREES, _SPEEDS_AGREE = 5e-5, 1e-3
 
 
-def notes(rows: Rows, row: Whole, signal: Whole, load: Array) -> Iterator[str]:
+def notes(rows: Rows, row: Integers, signal: Integers, load: Array) -> Iterator[str]:
     """Say what an export holds and what is doubtful about it, one sentence each."""
     yield from _contents(rows.export, np.unique(rows.step[row]))
     yield from _kinds_of_rows(row, signal)
@@ -34,7 +34,7 @@ def notes(rows: Rows, row: Whole, signal: Whole, load: Array) -> Iterator[str]:
     yield from _unfinished(rows.export)
 
 
-def _contents(export: Export, used: Whole) -> Iterator[str]:
+def _contents(export: Export, used: Integers) -> Iterator[str]:
     told = [
         f"{what} {export.told[key]!r}"
         for key, what in (
@@ -56,7 +56,7 @@ def _contents(export: Export, used: Whole) -> Iterator[str]:
         )
 
 
-def _kinds_of_rows(row: Whole, signal: Whole) -> Iterator[str]:
+def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
     _, readings = np.unique(row, return_counts=True)
     single = int(np.sum(signal == len(SIGNALS)))
     pairs = int(np.sum(readings > 1))

@@ -13,8 +13,8 @@ from viscofric.readers.mtm.pcs_steps import LARGEST, NUMBER, UNITS, Export, at, 
 if TYPE_CHECKING:
     from typing import NoReturn
 
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.mtm.pcs_steps import Block, Step
-    from viscofric.readers.mtm.readings import Array, Whole
 
 SIGNALS = ("tf1", "tf2", "tf3", "tf4")
 
@@ -25,9 +25,9 @@ class Rows:
 
     export: Export
     columns: dict[str, Array]
-    step: Whole
-    row: Whole
-    line: Whole
+    step: Integers
+    row: Integers
+    line: Integers
 
     def __len__(self) -> int:
         return len(self.step)

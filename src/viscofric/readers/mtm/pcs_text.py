@@ -23,9 +23,10 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from datetime import datetime
 
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.mtm.pcs_rows import Rows
     from viscofric.readers.mtm.pcs_steps import Export
-    from viscofric.readers.mtm.readings import Array, Thermometer, Whole
+    from viscofric.readers.mtm.readings import Thermometer
     from viscofric.readers.source import Source
 
 NAME = "a text export of PCS Instruments' MTM or ETM"
@@ -100,7 +101,7 @@ def _load(rows: Rows) -> tuple[Array, tuple[str, ...]]:
     return np.where(np.isnan(ball), pin, ball), (note,) if pinned else ()
 
 
-def _readings(rows: Rows, load: Array) -> tuple[Whole, Whole, tuple[str, ...]]:
+def _readings(rows: Rows, load: Array) -> tuple[Integers, Integers, tuple[str, ...]]:
     """Find the readings: row, and place of the signal (4 is that of rows which have the traction force only)."""
     signals = rows.stacked(*SIGNALS)
     there = ~np.isnan(signals)
@@ -118,7 +119,7 @@ def _readings(rows: Rows, load: Array) -> tuple[Whole, Whole, tuple[str, ...]]:
     return row, signal, tuple(out)
 
 
-def _speeds(rows: Rows, row: Whole, signal: Whole) -> tuple[Array, Array]:
+def _speeds(rows: Rows, row: Integers, signal: Integers) -> tuple[Array, Array]:
     """Return the signed speeds of disc and ball that go with each reading."""
     speeds = []
     for body in ("disc", "ball"):
@@ -138,7 +139,7 @@ def _speeds(rows: Rows, row: Whole, signal: Whole) -> tuple[Array, Array]:
     return reverse * disc, reverse * ball
 
 
-def _temperature(rows: Rows, row: Whole, thermometer: Thermometer) -> tuple[Array, tuple[str, ...]]:
+def _temperature(rows: Rows, row: Integers, thermometer: Thermometer) -> tuple[Array, tuple[str, ...]]:
     """Return the temperature of each reading, K."""
     own, other = (rows.columns[f"{name} rtd temp"][row] for name in (thermometer, _OTHER[thermometer]))
     told = []
@@ -174,7 +175,9 @@ def _temperature(rows: Rows, row: Whole, thermometer: Thermometer) -> tuple[Arra
 _OTHER: dict[Thermometer, Thermometer] = {"lube": "pot", "pot": "lube"}
 
 
-def _sense_of_force(force: Array, disc: Array, ball: Array, row: Whole, signal: Whole) -> tuple[float, tuple[str, ...]]:
+def _sense_of_force(
+    force: Array, disc: Array, ball: Array, row: Integers, signal: Integers
+) -> tuple[float, tuple[str, ...]]:
     """Return -1 if forces are positive where the ball is faster, so that Coulomb friction follows the disc's slip."""
     first = np.flatnonzero((signal[:-1] % 2 == 0) & (signal[1:] == signal[:-1] + 1) & (row[1:] == row[:-1]))
     first = first[signal[first] < 3]
@@ -197,7 +200,7 @@ def _sense_of_force(force: Array, disc: Array, ball: Array, row: Whole, signal: 
     return 1.0, ()
 
 
-def _times(rows: Rows, row: Whole) -> tuple[Array, datetime | None, tuple[str, ...]]:
+def _times(rows: Rows, row: Integers) -> tuple[Array, datetime | None, tuple[str, ...]]:
     """Return the time of each reading since the first, s, and when that was by the clock."""
     starts = start_times([step.started for step in rows.export.steps])
     clock = next((start for start in starts if start is not None), None)
@@ -250,7 +253,7 @@ def _told(export: Export, key: str, unit: str) -> Array:
     return values
 
 
-def _step_numbers(export: Export) -> tuple[Whole, tuple[str, ...]]:
+def _step_numbers(export: Export) -> tuple[Integers, tuple[str, ...]]:
     """Return the numbers of the steps as printed, or counted where these do not ascend."""
     printed = np.array([step.number for step in export.steps], dtype=np.int64)
     if np.all(np.diff(printed) > 0):

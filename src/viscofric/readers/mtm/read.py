@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from os import PathLike
 
-    from viscofric.readers.mtm.readings import Array, Thermometer, TractionReadings, Whole
+    from viscofric.arrays import Array, Integers
+    from viscofric.readers.mtm.readings import Thermometer, TractionReadings
 
 _MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature")
 
@@ -144,11 +145,11 @@ def _times(parts: Sequence[TractionReadings]) -> tuple[Array | None, tuple[str, 
     return time + np.repeat(later, [len(part) for part in parts]), ()
 
 
-def _steps(parts: Sequence[TractionReadings]) -> tuple[Whole | None, tuple[TractionStep, ...]]:
+def _steps(parts: Sequence[TractionReadings]) -> tuple[Integers | None, tuple[TractionStep, ...]]:
     """Count the steps on through all files; a file without steps among others is one step."""
     if all(part.step is None for part in parts):
         return None, ()
-    numbers: list[Whole] = []
+    numbers: list[Integers] = []
     steps: list[TractionStep] = []
     last = 0
     for part in parts:
@@ -166,8 +167,8 @@ def _steps(parts: Sequence[TractionReadings]) -> tuple[Whole | None, tuple[Tract
 
 
 def _replicates(
-    parts: Sequence[TractionReadings], columns: dict[str, Array], step: Whole | None
-) -> tuple[Whole, tuple[str, ...]]:
+    parts: Sequence[TractionReadings], columns: dict[str, Array], step: Integers | None
+) -> tuple[Integers, tuple[str, ...]]:
     """Take the files' replicate numbers, or number the passes over equal conditions in their order."""
     known = [part.replicate for part in parts if part.replicate is not None]
     if len(known) == len(parts):
@@ -196,7 +197,7 @@ def _replicates(
     return np.array(numbers, dtype=np.int64)[np.cumsum(begins) - 1][place], (note,)
 
 
-def _nominal(columns: dict[str, Array]) -> Whole:
+def _nominal(columns: dict[str, Array]) -> Integers:
     """Return numbers of the nominal temperature, load, disc and ball speed of each reading, a column each."""
     disc, ball, load, temperature = (columns[name] for name in ("disc_speed", "ball_speed", "load", "temperature"))
     nominal = [
@@ -208,7 +209,7 @@ def _nominal(columns: dict[str, Array]) -> Whole:
     return np.stack(nominal, axis=1)
 
 
-def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) -> tuple[Whole, tuple[str, ...]]:
+def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) -> tuple[Integers, tuple[str, ...]]:
     """Take the replicate numbers of the files, counted on where a file repeats what an earlier one holds.
 
     Files of one repetition, such as one for each direction, have no reading in common; files that were each numbered
@@ -216,7 +217,7 @@ def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) ->
     """
     sense = np.sign(columns["disc_speed"] - columns["ball_speed"]).astype(np.int64)
     conditions = np.column_stack([_nominal(columns), sense])
-    numbers: list[Whole] = []
+    numbers: list[Integers] = []
     taken: set[tuple[int, ...]] = set()
     told = []
     for part, here in zip(parts, np.split(conditions, np.cumsum([len(part) for part in parts])[:-1]), strict=True):
@@ -238,6 +239,6 @@ def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) ->
     return np.concatenate(numbers), tuple(told)
 
 
-def _held(conditions: Whole, replicate: Whole) -> set[tuple[int, ...]]:
+def _held(conditions: Integers, replicate: Integers) -> set[tuple[int, ...]]:
     rows = np.unique(np.column_stack([conditions, replicate]), axis=0)
     return set(map(tuple, rows.tolist()))

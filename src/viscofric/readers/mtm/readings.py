@@ -10,12 +10,9 @@ import numpy as np
 if TYPE_CHECKING:
     from datetime import datetime
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.traction import TractionStep
 
-    Array: TypeAlias = NDArray[np.float64]
-    Whole: TypeAlias = NDArray[np.int64]
 
 #: Which of an instrument's thermometers gives the temperature of the readings.
 Thermometer: TypeAlias = Literal["lube", "pot"]
@@ -53,12 +50,12 @@ class TractionReadings:
     traction_force: Array
     load: Array
     temperature: Array
-    row: Whole
-    replicate: Whole | None = None
+    row: Integers
+    replicate: Integers | None = None
     zero_force: Array | None = None
     time: Array | None = None
     track_radius: Array | None = None
-    step: Whole | None = None
+    step: Integers | None = None
     steps: tuple[TractionStep, ...] = ()
     began: datetime | None = None
     notes: tuple[str, ...] = ()

@@ -10,7 +10,7 @@ import warnings
 import zipfile
 from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,9 +23,8 @@ from viscofric.readers.topography.scan import Asked, Scan, name_of
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: The package takes what a file says of itself at its word, so that a crafted one may never end or ask for any memory.
 LONGEST_READ = 120.0  # s; 190 MB take 10 s

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,11 +11,9 @@ from viscofric.errors import DataFileError
 from viscofric.readers.topography.scan import Asked, Scan, name_of
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.source import Source
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Positions belong to the same row of the grid up to this part of the distance of rows.
 _SAME = 0.05
@@ -96,7 +94,7 @@ def _grid(source: Source, points: Array) -> Scan:
     return Scan(heights, (dx, dy if ny > 1 else dx), told)
 
 
-def _rows(source: Source, positions: Array, axis: str) -> tuple[NDArray[np.int64], float, int]:
+def _rows(source: Source, positions: Array, axis: str) -> tuple[Integers, float, int]:
     """Return the row of each position, the distance of rows and how many there are."""
     values = np.sort(positions)
     extent = float(values[-1] - values[0])

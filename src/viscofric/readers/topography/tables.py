@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,11 +17,9 @@ from viscofric.readers.topography.scan import Asked, Scan, name_of
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.readers.source import Source
 
-    Array: TypeAlias = NDArray[np.float64]
 
 NUMPY = b"\x93NUMPY"
 _BLANKS = re.compile(r"\s+")

@@ -11,11 +11,8 @@ from viscofric.errors import InputError
 from viscofric.units import to_si_array
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantities
-
-    Array = NDArray[np.float64]
 
 
 def checked_columns(

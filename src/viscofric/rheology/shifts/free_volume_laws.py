@@ -12,11 +12,8 @@ from viscofric.rheology.shifts.parametric_law import ParametricLaw
 from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantity
-
-    Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -17,11 +17,8 @@ from viscofric.units import celsius, positive
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantity
-
-    Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

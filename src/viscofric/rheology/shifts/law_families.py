@@ -21,9 +21,8 @@ from viscofric.rheology.shifts.laws import (
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: Kinds of law as `ShiftFactors.law` takes them.
 LAWS = ("wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")

@@ -12,11 +12,9 @@ from viscofric.rheology.shifts.law_families import LAWS, TITLES, Family, family_
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.shifts.laws import WLF, ParametricLaw
 
-    Array = NDArray[np.float64]
 
 #: Rounding of tabulated values; keeps exact tables from dividing by zero.
 SMALLEST_ERROR = 1e-7  # decades

@@ -15,11 +15,9 @@ from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
 from viscofric.units import CELSIUS_ZERO, celsius, kelvin_hint, positive, to_si_array
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.units import Quantity
 
-    Array = NDArray[np.float64]
 
 #: A law is asked no farther than this beyond the hottest temperature that it was fitted on.  WLF and Arrhenius
 #: laws fitted to the same hundred kelvin (C2 of 90 to 130 K) part by 0.3 to 1.2 decades over the next fifty; and WLF
@@ -242,11 +240,11 @@ class ParametricLaw(ShiftLaw):
         limit = end + float(np.interp(LARGEST_UNCERTAINTY, doubt[first - 1 : first + 1], steps[first - 1 : first + 1]))
         return Reach(limit, f"its 95 % uncertainty beyond its data grows to {LARGEST_UNCERTAINTY:g} decades there")
 
-    def _outside(self, kelvin: Array) -> NDArray[np.bool_]:
+    def _outside(self, kelvin: Array) -> Mask:
         if self.fitted_range is None:
             return super()._outside(kelvin)
         low, high = self.fitted_range
-        outside: NDArray[np.bool_] = (kelvin < low * (1 - SAME_TEMPERATURE)) | (kelvin > high * (1 + SAME_TEMPERATURE))
+        outside: Mask = (kelvin < low * (1 - SAME_TEMPERATURE)) | (kelvin > high * (1 + SAME_TEMPERATURE))
         return outside
 
     def _refuse(self, kelvin: Array) -> None:

@@ -21,12 +21,10 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
     from viscofric.units import Quantities, Quantity
 
-    Array = NDArray[np.float64]
 
 #: Two temperatures closer than this are the same one, to rounding of °C.
 _SAME_TEMPERATURE = 1e-9  # relative

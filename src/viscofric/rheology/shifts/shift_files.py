@@ -24,11 +24,8 @@ from viscofric.units import celsius, positive
 if TYPE_CHECKING:
     from os import PathLike
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantity
-
-    Array = NDArray[np.float64]
 
 
 def read_shift_factors(

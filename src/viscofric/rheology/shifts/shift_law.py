@@ -12,11 +12,9 @@ from viscofric.errors import InputError
 from viscofric.units import kelvin_hint, to_si_in_shape
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.units import Quantity
 
-    Array = NDArray[np.float64]
     #: One temperature, or many: plain numbers in kelvin, or text with a unit.
     Temperatures: TypeAlias = "Array | list[float] | list[str] | tuple[float, ...] | tuple[str, ...]"
 
@@ -123,7 +121,7 @@ class ShiftLaw(ABC):
     @overload
     def extrapolates(self, temperature: Quantity) -> bool: ...
     @overload
-    def extrapolates(self, temperature: Temperatures) -> NDArray[np.bool_]: ...
+    def extrapolates(self, temperature: Temperatures) -> Mask: ...
     def extrapolates(self, temperature: Any) -> Any:
         """Say whether the law rests on extrapolation at a temperature.
 
@@ -141,7 +139,7 @@ class ShiftLaw(ABC):
         outside = self._outside(in_kelvin(temperature))
         return bool(outside) if np.ndim(outside) == 0 else outside
 
-    def _outside(self, kelvin: Array) -> NDArray[np.bool_]:
+    def _outside(self, kelvin: Array) -> Mask:
         return np.zeros(np.shape(kelvin), dtype=bool)
 
 

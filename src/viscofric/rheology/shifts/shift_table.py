@@ -18,9 +18,8 @@ from viscofric.units import CELSIUS_ZERO
 if TYPE_CHECKING:
     from os import PathLike
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: Heading without blanks and marks -> what one unit of the column is in log10 α; None for α itself.
 _SHIFTS: dict[str, float | None] = {

@@ -13,11 +13,8 @@ from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantity
-
-    Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

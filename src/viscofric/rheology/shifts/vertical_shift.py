@@ -15,11 +15,9 @@ from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.units import Quantities, Quantity
 
-    Array = NDArray[np.float64]
 
 #: Volume expansivity of a pure-gum vulcanizate of natural rubber at 25 °C, 1/K.
 NATURAL_RUBBER_EXPANSION = 6.6e-4

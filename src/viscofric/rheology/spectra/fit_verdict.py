@@ -16,12 +16,10 @@ from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.data import MasterCurve
     from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
 
-    Array = NDArray[np.float64]
 
 #: An end of the master curve is a plateau if the modulus is within this of its limit …
 PLATEAU = 0.05

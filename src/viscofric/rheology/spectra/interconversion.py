@@ -44,9 +44,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Indices
 
-    Array = NDArray[np.float64]
 
 #: A distance is bracketed within e^±700 of its pole at worst: so many halvings leave no bit of its logarithm open.
 _HALVINGS = 64
@@ -100,7 +99,7 @@ def reciprocal_modes(level: float, strengths: Array, positions: Array) -> tuple[
     return own / zeros * product / level, zeros * scale
 
 
-def _zeros(residues: Array, poles: Array) -> tuple[NDArray[np.intp], Array]:
+def _zeros(residues: Array, poles: Array) -> tuple[Indices, Array]:
     """Solve 1 = Σ residues/(x − poles); return for each zero its nearest pole and its signed distance to it."""
     count = len(poles)
     left = np.arange(count)
@@ -126,29 +125,27 @@ def _zeros(residues: Array, poles: Array) -> tuple[NDArray[np.intp], Array]:
     return nearest, side * np.exp(log_distance)
 
 
-def _parts(
-    residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, distance: Array
-) -> tuple[Array, Array, Array]:
+def _parts(residues: Array, poles: Array, nearest: Indices, side: Array, distance: Array) -> tuple[Array, Array, Array]:
     """Return the terms of poles left and right of each point (both positive), and x − pole."""
     away = (poles[nearest][:, None] - poles[None, :]) + (side * distance)[:, None]
     terms = residues[None, :] / away
     return np.sum(np.maximum(terms, 0.0), axis=1), 1.0 - np.sum(np.minimum(terms, 0.0), axis=1), away
 
 
-def _imbalance(residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, distance: Array) -> Array:
+def _imbalance(residues: Array, poles: Array, nearest: Indices, side: Array, distance: Array) -> Array:
     """Logarithm of what the poles on the left pull over what level and poles on the right do: falls with x."""
     below, above, _ = _parts(residues, poles, nearest, side, distance)
     return np.asarray(np.log(below) - np.log(above))
 
 
-def _closest(residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, farthest: Array) -> Array:
+def _closest(residues: Array, poles: Array, nearest: Indices, side: Array, farthest: Array) -> Array:
     """Return a distance that is surely below that of the zero."""
     below, above, _ = _parts(residues, poles, nearest, side, farthest)
     # Going nearer to the pole only weakens the other side of the balance.
     return np.asarray(np.minimum(residues[nearest] / np.where(side > 0.0, above, below), farthest) * 0.5)
 
 
-def _newton_step(residues: Array, poles: Array, nearest: NDArray[np.intp], side: Array, distance: Array) -> Array:
+def _newton_step(residues: Array, poles: Array, nearest: Indices, side: Array, distance: Array) -> Array:
     """Return the Newton step of ln(distance) for the logarithm of the imbalance."""
     below, above, away = _parts(residues, poles, nearest, side, distance)
     change = residues[None, :] / away * (distance[:, None] / away)  # −side · d(term)/d ln(distance)

@@ -11,10 +11,8 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, ComplexArray
 
-    Array = NDArray[np.float64]
-    Complex = NDArray[np.complex128]
 
 #: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out is not told from
 #: a plateau, nor from the flow of a liquid: its compliance could grow without bound.
@@ -44,7 +42,7 @@ class ModulusMisfit:
         E' + iE'', Pa.
     """
 
-    def __init__(self, angular_frequency: Array, measured: Complex) -> None:
+    def __init__(self, angular_frequency: Array, measured: ComplexArray) -> None:
         self.angular_frequency = angular_frequency
         self.measured = measured
         self.target = np.concatenate([np.log(measured.real), np.log(measured.imag)])
@@ -56,22 +54,22 @@ class ModulusMisfit:
         edge = math.log(EDGE)
         return -math.log(self.angular_frequency[-1]) - edge, edge - math.log(self.angular_frequency[0])
 
-    def relaxed(self, tau: Array) -> Complex:
+    def relaxed(self, tau: Array) -> ComplexArray:
         """Return 1/(1 + iωτ), the compliance of modes of strength one, (N, n)."""
         return np.asarray(1.0 / (1.0 + 1j * np.outer(self.angular_frequency, tau)))
 
-    def columns(self, tau: Array) -> Complex:
+    def columns(self, tau: Array) -> ComplexArray:
         """Return the compliance of a glass and of modes, each of strength one, (N, 1 + n)."""
         return np.concatenate([np.ones((len(self.measured), 1), dtype=complex), self.relaxed(tau)], axis=1)
 
-    def residual(self, compliance: Complex) -> Array:
+    def residual(self, compliance: ComplexArray) -> Array:
         """Return ln E' and ln E'' measured less computed, (2N,); infinite where there is no logarithm."""
         modulus = 1.0 / compliance
         if not np.all((modulus.imag > 0.0) & (modulus.real > 0.0)):  # no mode at all
             return np.full(len(self.target), np.inf)
         return np.asarray(self.target - np.concatenate([np.log(modulus.real), np.log(modulus.imag)]))
 
-    def jacobian(self, compliance: Complex, change: Complex) -> Array:
+    def jacobian(self, compliance: ComplexArray, change: ComplexArray) -> Array:
         """Return the change of ln E' and ln E'', (2N, m), for changes of the compliance, (N, m)."""
         modulus = 1.0 / compliance
         moved = -(modulus**2)[:, None] * change

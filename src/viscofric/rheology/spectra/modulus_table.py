@@ -15,10 +15,10 @@ from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array = NDArray[np.float64]
-    Complex = NDArray[np.complex128]
+    from viscofric.arrays import Array, ComplexArray
+
 
 #: What a table says beyond its ends.
 Extrapolation: TypeAlias = Literal["refuse", "plateau"]
@@ -162,7 +162,7 @@ class ModulusTable(FrequencyResponse):
             PchipInterpolator(log_omega, np.log(self.loss_modulus_values)),
         )
 
-    def complex_modulus(self, angular_frequency: ArrayLike) -> Complex:
+    def complex_modulus(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s, any sign).
 
         Raises
@@ -186,7 +186,7 @@ class ModulusTable(FrequencyResponse):
         loss = loss * np.where(omega < low, omega / low, high / np.maximum(omega, high))
         return np.asarray(storage + 1j * np.sign(signed) * loss)
 
-    def compliance(self, angular_frequency: ArrayLike) -> Complex:
+    def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
         return np.asarray(1.0 / self.complex_modulus(angular_frequency))
 

@@ -10,12 +10,9 @@ import numpy as np
 from viscofric.rheology.spectra.modulus_misfit import Modes
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 
-    Array = NDArray[np.float64]
-    Complex = NDArray[np.complex128]
 
 ITERATIONS = 30
 CONVERGED = 1e-6  # relative fall of the misfit
@@ -56,7 +53,7 @@ def nonnegative_modes(
     return Modes(max(float(strengths[0]), misfit.least_glass), strengths[1:], tau)
 
 
-def _relative_start(columns: Complex, measured: Complex) -> Array:
+def _relative_start(columns: ComplexArray, measured: ComplexArray) -> Array:
     """Minimise Σ |S/S_measured − 1|²."""
     from scipy.optimize import nnls
 
@@ -68,7 +65,7 @@ def _relative_start(columns: Complex, measured: Complex) -> Array:
     return np.asarray(strengths / scale)
 
 
-def _refined(misfit: ModulusMisfit, columns: Complex, strengths: Array, converged: float) -> Array:
+def _refined(misfit: ModulusMisfit, columns: ComplexArray, strengths: Array, converged: float) -> Array:
     """Minimise Σ (ln E'/E'_measured)² + (ln E''/E''_measured)² by non-negative Gauss–Newton steps."""
     from scipy.optimize import nnls
 

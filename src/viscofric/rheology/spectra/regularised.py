@@ -9,9 +9,8 @@ import numpy as np
 from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit, descend
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: Strengths that are tried, from too strong to too weak; each fit starts from the one before.
 STRENGTHS = np.geomspace(1.0, 1e-5, 26)

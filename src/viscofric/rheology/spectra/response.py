@@ -13,21 +13,20 @@ from viscofric.errors import InputError
 from viscofric.units import positive
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Array = NDArray[np.float64]
-    Complex = NDArray[np.complex128]
+    from viscofric.arrays import Array, ComplexArray
 
 
 class FrequencyResponse(ABC):
     """A linear viscoelastic solid or liquid at one temperature, known by E(ω) (convention e^{+iωt})."""
 
     @abstractmethod
-    def complex_modulus(self, angular_frequency: ArrayLike) -> Complex:
+    def complex_modulus(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
 
     @abstractmethod
-    def compliance(self, angular_frequency: ArrayLike) -> Complex:
+    def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
 
     def storage_modulus(self, angular_frequency: ArrayLike) -> Array:

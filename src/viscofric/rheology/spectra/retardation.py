@@ -20,12 +20,11 @@ from viscofric.rheology.spectra.response import (
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.units import Quantity
 
-    Array = NDArray[np.float64]
-    Complex = NDArray[np.complex128]
 
 #: How exactly 1/E_inf + ΣC must meet 1/E0, relative to 1/E0.
 BALANCE = 1e-6
@@ -200,7 +199,7 @@ class RetardationSpectrum(FrequencyResponse):
         ends = f"E0 = {shown_modulus(self.E0)}, E_inf = {shown_modulus(self.E_inf)}"
         return f"RetardationSpectrum({ends}, {len(self)} modes)"
 
-    def compliance(self, angular_frequency: ArrayLike) -> Complex:
+    def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
         omega = numbers(angular_frequency, "angular_frequency")
         # Mode by mode: a grid of a million frequencies would not fit into memory forty times.
@@ -209,7 +208,7 @@ class RetardationSpectrum(FrequencyResponse):
             total += compliance / (1.0 + 1j * omega * time)
         return total
 
-    def complex_modulus(self, angular_frequency: ArrayLike) -> Complex:
+    def complex_modulus(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
         return np.asarray(1.0 / self.compliance(angular_frequency))
 
@@ -313,7 +312,7 @@ class RelaxationSpectrum(FrequencyResponse):
         """Glass modulus E0 + ΣE, Pa."""
         return self.E0 + float(np.sum(self.E))
 
-    def complex_modulus(self, angular_frequency: ArrayLike) -> Complex:
+    def complex_modulus(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
         omega = numbers(angular_frequency, "angular_frequency")
         total = np.full(omega.shape, self.E0, dtype=complex)
@@ -321,7 +320,7 @@ class RelaxationSpectrum(FrequencyResponse):
             total += modulus * (1j * omega * time) / (1.0 + 1j * omega * time)
         return total
 
-    def compliance(self, angular_frequency: ArrayLike) -> Complex:
+    def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign).
 
         Raises

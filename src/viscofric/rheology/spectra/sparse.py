@@ -11,11 +11,9 @@ from viscofric.rheology.spectra.modulus_misfit import Modes, descend
 from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 
-    Array = NDArray[np.float64]
 
 ITERATIONS = 40
 CONVERGED = 1e-4  # relative fall of the sum of squares

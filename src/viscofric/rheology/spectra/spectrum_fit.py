@@ -19,11 +19,8 @@ from viscofric.threads import one_blas_thread
 from viscofric.units import positive
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from viscofric.rheology.superposition.result import Superposition
 
-    Array = NDArray[np.float64]
 
 Method: TypeAlias = Literal["non-negative", "regularised", "sparse"]
 METHODS = ("non-negative", "regularised", "sparse")

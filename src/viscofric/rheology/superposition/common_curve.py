@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: A knot for every so many points, but not closer than so many decades: spectra have no sharper features.
 POINTS_PER_KNOT = 5

@@ -20,13 +20,11 @@ from viscofric.rheology.superposition.shift_problem import ShiftProblem
 from viscofric.rheology.superposition.step_profiles import StepProfiles
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.superposition.common_curve import Smoother
     from viscofric.rheology.superposition.gauge import Gauge
     from viscofric.rheology.superposition.overlap import Join, LogSweep
 
-    Array = NDArray[np.float64]
 
 OFFSET_PASSES = 3  # each with the curves smoothed anew beside the offsets that were found
 LARGEST_STEP = 0.3  # decades, in one iteration

@@ -18,15 +18,13 @@ from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDis
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.data import Isotherm, MasterCurve
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.overlap import OverlapQuality
 
     Verdict = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
-    Array = NDArray[np.float64]
 
 #: Two sweeps of one sample agree no better than this, noise apart: the moduli of one analyser, clamp and sample
 #: repeat to about 5 %.  Distances of neighbouring isotherms (rms): an acrylic 0.016 (a median of 0.002, one

@@ -16,11 +16,9 @@ from viscofric.units import positive, to_si
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.shifts.laws import ShiftLaw
 
-    Array = NDArray[np.float64]
 
 #: A temperature is that of an isotherm if it is so much of the way, or less, to the next one.
 NEAR = 0.25

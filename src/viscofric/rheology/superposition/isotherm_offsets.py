@@ -16,11 +16,9 @@ import numpy as np
 from viscofric.rheology.superposition.plateau import continued
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.superposition.gauge import Gauge
 
-    Array = NDArray[np.float64]
 
 #: Standard deviations that are tried, decades, 0.1 to 25 % …
 SIZES = np.logspace(-3.4, -1.0, 13)

@@ -16,12 +16,10 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.data import Isotherm
     from viscofric.rheology.shifts.laws import ShiftLaw
 
-    Array = NDArray[np.float64]
 
 #: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
 LARGEST_MISFIT = 0.15

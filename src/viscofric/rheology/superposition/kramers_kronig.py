@@ -10,11 +10,9 @@ import numpy as np
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.data import MasterCurve
 
-    Array = NDArray[np.float64]
 
 #: Points are averaged in so many bins per decade: the relations need no more, and noise averages out.
 BINS = 8
@@ -77,7 +75,7 @@ class KramersKronig:
     loss_deviation: Array
     local_deviation: Array
     truncation: Array
-    judged: NDArray[np.bool_]
+    judged: Mask
     rms_storage: float
     rms_loss: float
     loss_scale: float

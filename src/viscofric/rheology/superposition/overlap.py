@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.data import Isotherm
 
-    Array = NDArray[np.float64]
 
 #: Sweeps are slid along each other in steps of this many decades …
 STEP = 0.02
@@ -60,9 +58,9 @@ class LogSweep:
         """Interpolate log moduli linearly in log frequency; returns the shape of `frequency` and (2,)."""
         return np.stack([np.interp(frequency, self.frequency, column) for column in self.moduli.T], axis=-1)
 
-    def covers(self, frequency: Array) -> NDArray[np.bool_]:
+    def covers(self, frequency: Array) -> Mask:
         """Say which frequencies lie within the sweep."""
-        inside: NDArray[np.bool_] = (frequency >= self.frequency[0]) & (frequency <= self.frequency[-1])
+        inside: Mask = (frequency >= self.frequency[0]) & (frequency <= self.frequency[-1])
         return inside
 
 

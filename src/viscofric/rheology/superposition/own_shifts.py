@@ -17,11 +17,9 @@ from viscofric.rheology.superposition.overlap import SMALLEST_FAILURE, join, joi
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.superposition.overlap import LogSweep
 
-    Array = NDArray[np.float64]
 
 #: Neighbours that miss each other by so many times what shifts of their own leave were not shifted by right factors.
 #: Factors fitted to real sweeps (an acrylic, an adhesive, a foam, an EVA that melts) come to 1.0 to 1.2, WLF laws

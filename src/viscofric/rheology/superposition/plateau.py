@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices
     from viscofric.rheology.superposition.gauge import Gauge
 
-    Array = NDArray[np.float64]
 
 #: An isotherm tells a shift if the squared slope of the curves is so many times what noise makes of it.  Noise alone
 #: gives 0.3 to 9, sweeps that tell a step to 0.1 decades 20 and more.
@@ -96,7 +94,7 @@ def continued_covariance(covariance: Array, gauge: Gauge, first: int, last: int)
     return np.asarray(fitted + change @ spread @ change.T)
 
 
-def _ends(size: int, first: int, last: int) -> list[tuple[int, int, NDArray[np.intp]]]:
+def _ends(size: int, first: int, last: int) -> list[tuple[int, int, Indices]]:
     """Return for each end with a plateau: its last fitted isotherm, the one that the trend is from, and the plateau."""
     hot = last - 1, last - 1 - TREND_STEPS, np.arange(last, size)
     cold = first, first + TREND_STEPS, np.arange(first - 1, -1, -1)

@@ -12,17 +12,13 @@ from viscofric.rheology.superposition.joined_isotherms import shown
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.data import Isotherm, MasterCurve
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
     from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
     from viscofric.rheology.superposition.overlap import OverlapQuality
-
-    Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

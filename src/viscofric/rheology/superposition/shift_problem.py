@@ -14,12 +14,10 @@ from viscofric.rheology.superposition.overlap import failures
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Mask
     from viscofric.rheology.superposition.gauge import Gauge
     from viscofric.rheology.superposition.overlap import Join, LogSweep
 
-    Array = NDArray[np.float64]
 
 #: Where the data leave a step open it stays near the trend of its neighbours: the rate of change with 1/T, in
 #: decades per typical step, changes from step to step by about so much …
@@ -40,7 +38,7 @@ class Piece:
     frequency: Array
     moduli: Array
     weights: Array
-    starts: NDArray[np.intp]
+    starts: Indices
 
     @classmethod
     def of(cls, sweeps: list[LogSweep], first: int, last: int) -> Piece:
@@ -58,7 +56,7 @@ class Piece:
         )
 
     @property
-    def same(self) -> NDArray[np.bool_]:
+    def same(self) -> Mask:
         """Whether each point and the next belong to one isotherm."""
         return np.asarray(self.isotherm[1:] == self.isotherm[:-1])
 
@@ -309,7 +307,7 @@ def _derivatives(
     return State(curves.cost, moves @ gradient, normal, curvature, score, freedom)
 
 
-def _inflation(residual: Array, same: NDArray[np.bool_]) -> float:
+def _inflation(residual: Array, same: Mask) -> float:
     """Return how much less points tell whose residuals are alike."""
     squares = float(residual @ residual)
     alike = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0

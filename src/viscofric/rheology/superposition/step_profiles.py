@@ -19,13 +19,11 @@ from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, R
 from viscofric.rheology.superposition.overlap import LEVEL_95, allowed_half_width, steps_that_overlap
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.superposition.common_curve import Smoother
     from viscofric.rheology.superposition.overlap import LogSweep
     from viscofric.rheology.superposition.shift_problem import Piece, ShiftProblem
 
-    Array = NDArray[np.float64]
 
 #: A profile is followed from so many standard errors on, in distances that double, until it is excluded …
 NEAR = 3.0

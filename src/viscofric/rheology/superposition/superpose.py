@@ -35,12 +35,9 @@ from viscofric.units import celsius, checked_poisson_ratio, kelvin_hint, positiv
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.rheology.superposition.common_shifts import CommonShifts
     from viscofric.units import Quantity
-
-    Array = NDArray[np.float64]
 
 
 #: Weight of the other model, with a free vertical shift or without one, where isotherms drift.

@@ -17,11 +17,9 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.data import Isotherm
 
-    Array = NDArray[np.float64]
 
 #: An isotherm of two or three decades has this much curvature, if it has points enough to tell it from noise.
 _DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)

@@ -17,11 +17,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from viscofric.arrays import Array
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit
     from viscofric.units import Quantity
-
-    Array = NDArray[np.float64]
 
 
 class Band(NamedTuple):

@@ -12,11 +12,8 @@ from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-    Array = NDArray[np.float64]
 
 #: Refits begin at the answer but for the noise, and need not find it closer than that noise.
 CONVERGED = 1e-3

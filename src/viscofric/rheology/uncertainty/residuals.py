@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Integers
 
-    Array = NDArray[np.float64]
-    Integers = NDArray[np.int64]
 
 #: Isotherms are told apart in scatter only with so many points; fewer say nothing of their own.
 LEAST_POINTS = 3

@@ -26,13 +26,10 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.data import MasterCurve
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 
-    Array = NDArray[np.float64]
-    Integers = NDArray[np.int64]
 
 FEWEST_SAMPLES = 20
 #: What a spectrum tells of its master curve agrees with it to this, relative; files round.

@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Integers
 
-    Array = NDArray[np.float64]
-    Integers = NDArray[np.int64]
 
 #: Residuals are averaged over so many neighbours along an isotherm: noise is averaged out, a misfit is not.
 NEIGHBOURS = 5

@@ -15,9 +15,7 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Mask
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
     from viscofric.contact.periodic.solution import PeriodicSolution
@@ -78,7 +76,7 @@ class Case(ABC):
     #: Whether contacts that differ in temperature and speed make the friction master curve of a study.
     HAS_MASTER_CURVE: ClassVar[bool]
     #: Which columns of its nodes, the first of them friction, are interpolated by their logarithms.
-    LOGARITHMIC: ClassVar[NDArray[np.bool_]]
+    LOGARITHMIC: ClassVar[Mask]
 
     @property
     @abstractmethod

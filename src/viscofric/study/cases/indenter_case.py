@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -31,8 +31,7 @@ from viscofric.study.solving import Task, solve_indenter
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Mask
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.layers import Layer
@@ -42,7 +41,6 @@ if TYPE_CHECKING:
     from viscofric.study.planning.curve import Curve, Interval
     from viscofric.study.planning.stencils import Interpolated
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
 _LOW_SLOPE = 0.01
@@ -81,7 +79,7 @@ class IndenterCase(Case):
 
     FREQUENCIES: ClassVar[str] = "the contact's frequency v/a lies"
     HAS_MASTER_CURVE: ClassVar[bool] = True
-    LOGARITHMIC: ClassVar[NDArray[np.bool_]] = LOGARITHMIC
+    LOGARITHMIC: ClassVar[Mask] = LOGARITHMIC
 
     @property
     def alike(self) -> tuple[object, ...]:

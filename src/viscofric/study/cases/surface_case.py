@@ -24,8 +24,7 @@ from viscofric.study.surface_source import surface_of
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Mask
     from viscofric.contact.layers import Layer
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -82,7 +81,7 @@ class SurfaceCase(Case):
 
     FREQUENCIES: ClassVar[str] = "some frequencies 2πv/λ of the surface's wavelengths lie"
     HAS_MASTER_CURVE: ClassVar[bool] = False
-    LOGARITHMIC: ClassVar[NDArray[np.bool_]] = _LOGARITHMIC
+    LOGARITHMIC: ClassVar[Mask] = _LOGARITHMIC
 
     @property
     def alike(self) -> tuple[object, ...]:

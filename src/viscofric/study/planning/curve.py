@@ -8,7 +8,7 @@ whole waves only, so that neither time nor order matters.
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,10 +19,8 @@ from viscofric.study.planning.stencils import Interpolated, Stencil, interpolate
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Indices, Integers, Mask
 
-    Array: TypeAlias = NDArray[np.float64]
-    Rows: TypeAlias = NDArray[np.intp]
 
 #: Length in s of the smallest interval there can be; others are multiples by powers of two.
 STEP = 1.0 / 32.0
@@ -48,7 +46,7 @@ class Interval(NamedTuple):
 
     low: int
     high: int
-    cases: Rows
+    cases: Indices
 
     @property
     def middle(self) -> int:
@@ -79,7 +77,7 @@ class Curve:
         Those between whose nodes the others lie.
     """
 
-    def __init__(self, places: Array, accuracy: float, logarithmic: NDArray[np.bool_] = LOGARITHMIC) -> None:
+    def __init__(self, places: Array, accuracy: float, logarithmic: Mask = LOGARITHMIC) -> None:
         self._places, self._accuracy, self._logarithmic = places, accuracy, logarithmic
         self._nodes: dict[int, Node] = {}
         self._failed: set[int] = set()
@@ -139,7 +137,7 @@ class Curve:
             self._reopen()
         self.wanted = tuple(one.middle for one in self._open)
 
-    def _refine(self, one: Interval, missed: Rows) -> None:
+    def _refine(self, one: Interval, missed: Indices) -> None:
         """Have an interval halved for those of its cases that are not known well enough, or these solved alone."""
         if len(missed) <= _FEW or one.high - one.low < 2:
             self._leave_alone(missed)
@@ -194,7 +192,7 @@ class Curve:
         """Return a node that was solved."""
         return self._nodes[place]
 
-    def _leave_alone(self, cases: Rows) -> None:
+    def _leave_alone(self, cases: Indices) -> None:
         self.alone += cases.tolist()
 
     def _halves(self, one: Interval) -> list[Interval]:
@@ -231,6 +229,6 @@ class Curve:
         return SHARE * self._accuracy * max(abs(friction), FRICTION_FLOOR)
 
 
-def _runs(numbers: NDArray[np.int64]) -> list[list[int]]:
+def _runs(numbers: Integers) -> list[list[int]]:
     """Part ascending whole numbers where some are left out."""
     return [run.tolist() for run in np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)]

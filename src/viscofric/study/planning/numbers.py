@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.scale import Scale
     from viscofric.study.record import Record
 
-    Array: TypeAlias = NDArray[np.float64]
 
 # Name, that of its error (none is told of the centre of pressure, which is the friction's), and whether it is
 # interpolated by its logarithm: front and rear may change their sign.

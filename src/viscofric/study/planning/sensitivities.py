@@ -6,7 +6,7 @@ Without units, g is a function of vτ over the length of the contact that change
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self, TypeAlias
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -17,14 +17,11 @@ from viscofric.study.planning.stencils import weights
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.free.scale import Scale
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Place
     from viscofric.study.record import Record
-
-    Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array, Mask
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Nodes that a polynomial goes through, and on either side of its interval.
 MOST, BESIDE = 6, 3
@@ -108,7 +107,7 @@ class Interpolated(NamedTuple):
 
 
 def interpolate(
-    chosen: Stencil, step: float, places: Array, values: Array, errors: Array, logarithmic: NDArray[np.bool_]
+    chosen: Stencil, step: float, places: Array, values: Array, errors: Array, logarithmic: Mask
 ) -> Interpolated:
     """Interpolate several quantities at once.
 

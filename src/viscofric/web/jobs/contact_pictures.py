@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy.ndimage import uniform_filter
@@ -12,8 +12,7 @@ from viscofric.contact.fields.trail import surface_displacement
 from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
     from viscofric.study.cases.case import Case
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from viscofric.study.run_file import Study
     from viscofric.study.study_rubber import StudyRubber
 
-    Array: TypeAlias = NDArray[np.float64]
 
 #: Points of a map along its longer edge, and of a profile, at most.
 MOST_CELLS, MOST_POINTS = 110, 400

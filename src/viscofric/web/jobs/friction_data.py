@@ -12,13 +12,11 @@ from viscofric.report.results import nearest, nominal_temperatures
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.report.friction_data import Predicted
     from viscofric.report.table import Table
 
-    Array = NDArray[np.float64]
 
 _MEASURED = (
     "load",

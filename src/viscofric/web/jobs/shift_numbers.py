@@ -16,15 +16,13 @@ from viscofric.web.jobs.context import plain
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Mask
     from viscofric.rheology.shifts.law_comparison import LawRow
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.result import Superposition
     from viscofric.study.rubber import Rubber
 
-    Array = NDArray[np.float64]
 
 #: Points of a line that a law is drawn with.
 _LINE = 101
@@ -177,7 +175,7 @@ def line_of(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
     }
 
 
-def answered(law: ShiftLaw, temperatures: Array) -> NDArray[np.bool_]:
+def answered(law: ShiftLaw, temperatures: Array) -> Mask:
     """Say where a law answers, with some room to its pole."""
     if isinstance(law, ShiftFactors):
         low, high = float(law.temperatures[0]), float(law.temperatures[-1])

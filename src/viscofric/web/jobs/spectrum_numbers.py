@@ -11,14 +11,12 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.data import MasterCurve
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.study.rubber import Rubber
 
-    Array = NDArray[np.float64]
 
 #: Lines go so far beyond the measured frequencies, as a factor.
 _BEYOND = 10.0
@@ -92,7 +90,7 @@ def frequencies(rubber: Rubber) -> Array:
     return np.concatenate([[low], np.geomspace(low, high, count)[1:-1], [high]])
 
 
-def moduli(complex_modulus: NDArray[np.complex128], angular_frequency: Array) -> dict[str, Any]:
+def moduli(complex_modulus: ComplexArray, angular_frequency: Array) -> dict[str, Any]:
     """Return moduli and loss tangent over frequency."""
     return {
         "angular_frequency": plain(angular_frequency),

@@ -28,13 +28,11 @@ from viscofric.units import CELSIUS_ZERO, celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Mask
     from viscofric.data import Deformation
     from viscofric.readers.dma.instruments.eplexor_master import ShiftList
     from viscofric.readers.source import Source
 
-    Array = NDArray[np.float64]
     Rows = Sequence[Sequence[Any]]
 
 NAME = "Netzsch Eplexor workbook"
@@ -195,7 +193,7 @@ def _bound(unit: str) -> str:
     return "absolute zero" if unit == "K" else "zero"
 
 
-def _passed_over(sheet: _Sheet, complete: NDArray[np.bool_]) -> list[Note]:
+def _passed_over(sheet: _Sheet, complete: Mask) -> list[Note]:
     missing = [place.rsplit(", ", 1)[1] for place, kept in zip(sheet.places, complete, strict=True) if not kept]
     if not missing:
         return []
@@ -224,7 +222,7 @@ def _isotherms(
     shifts: ShiftList | None,
     programmed: Array | None,
     temperature: Array,
-) -> NDArray[np.intp]:
+) -> Indices:
     lacking = "sheet 'Shiftlist'" if shifts is None else "range of frequencies in sheet 'Data header'"
     if shifts is None or programmed is None:
         raise DataFileError(
@@ -236,7 +234,7 @@ def _isotherms(
     return isotherm_of_each_row(frequency, usable, shifts.log10_shifts, programmed, path, places)
 
 
-def _taken_apart(shifts: ShiftList, step: NDArray[np.intp]) -> list[Note]:
+def _taken_apart(shifts: ShiftList, step: Indices) -> list[Note]:
     found = np.unique(step)
     still = shifts.measured_reference
     at = "" if still is None else f" at {celsius(still):z.1f} °C"

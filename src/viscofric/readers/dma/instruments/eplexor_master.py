@@ -20,9 +20,8 @@ from viscofric.units import CELSIUS_ZERO, celsius, conversion
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
     Rows = Sequence[Sequence[Any]]
 
 SHIFT_LIST = "Shiftlist"

@@ -13,11 +13,9 @@ from viscofric.readers.dma.instruments.eplexor_master import AS_IT_IS, SHIFT_LIS
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Indices, Mask
     from viscofric.readers.dma.instruments.eplexor_master import Rows
 
-    Array = NDArray[np.float64]
 
 HEADER = "Data header"
 
@@ -59,7 +57,7 @@ def programmed_frequencies(tables: Mapping[str, Rows]) -> Array | None:
 
 def isotherm_of_each_row(
     frequency: Array, time: Array | None, shifts: Array, programmed: Array, path: str, places: Sequence[str]
-) -> NDArray[np.intp]:
+) -> Indices:
     """Find the isotherm that each row of a master curve was measured in.
 
     A row belongs to the isotherm whose shift takes its frequency back to one of the programme.  Where two shifts
@@ -106,16 +104,14 @@ def isotherm_of_each_row(
             f"{places[first]}: no shift of the list takes {frequency[first]:.6g} Hz back to a frequency of the "
             f"programme, so that the master curve cannot be taken apart; {AS_IT_IS}.",
         )
-    chosen: NDArray[np.intp] = np.argmax(fits, axis=1)
+    chosen: Indices = np.argmax(fits, axis=1)
     for row in np.flatnonzero(count > 1):
         chosen[row] = _next_in_time(int(row), time, fits[row], chosen, count == 1, path, places)
     _insist_on_one_row_each(chosen, place[np.arange(chosen.size), chosen], fits, path)
     return chosen
 
 
-def _insist_on_one_row_each(
-    chosen: NDArray[np.intp], place: NDArray[np.intp], fits: NDArray[np.bool_], path: str
-) -> None:
+def _insist_on_one_row_each(chosen: Indices, place: Indices, fits: Mask, path: str) -> None:
     """Refuse isotherms that lost all their rows to others, or took such of others.
 
     Both happen where shifts lie whole steps of the programme apart, so that all rows of an isotherm fit another too.
@@ -131,9 +127,9 @@ def _insist_on_one_row_each(
 def _next_in_time(
     row: int,
     time: Array | None,
-    candidates: NDArray[np.bool_],
-    chosen: NDArray[np.intp],
-    settled: NDArray[np.bool_],
+    candidates: Mask,
+    chosen: Indices,
+    settled: Mask,
     path: str,
     places: Sequence[str],
 ) -> int:

@@ -20,12 +20,10 @@ from viscofric.readers.dma.readings import Readings
 from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.data import Deformation
     from viscofric.readers.source import Source
 
-    Array = NDArray[np.float64]
 
 NAME = "Mettler-Toledo DMA text"
 

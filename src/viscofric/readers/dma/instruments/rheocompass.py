@@ -26,11 +26,9 @@ from viscofric.readers.dma.readings import Readings
 from viscofric.readers.printed import STRAIN_FACTORS, to_rad_per_second, unit_conversion
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.readers.source import Source
 
-    Array = NDArray[np.float64]
     #: Line and cells of points.
     Rows = list[tuple[int, tuple[str, ...]]]
 

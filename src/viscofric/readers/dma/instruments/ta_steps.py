@@ -9,10 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    import numpy as np
-    from numpy.typing import NDArray
+    from viscofric.arrays import Array
 
-    Array = NDArray[np.float64]
 
 #: What a column holds -> its names, in small letters.
 ROLES = {

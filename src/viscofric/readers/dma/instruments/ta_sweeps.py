@@ -21,12 +21,9 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.readers.dma.instruments.ta_steps import Signal, Step
     from viscofric.readers.source import Source
-
-    Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,8 +27,7 @@ from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.readers.dma.readings import Readings
     from viscofric.readers.source import Source
 
@@ -193,7 +192,7 @@ def _step_of_records(title: str, names: list[str], units: list[str], data: bytes
     return Step(title, signals, tuple(f"record {number}" for number in range(1, len(records) + 1)), False)
 
 
-def _note_records_behind(records: NDArray[np.float64], end: int, notes: list[str]) -> None:
+def _note_records_behind(records: Array, end: int, notes: list[str]) -> None:
     """Say it where what follows the record that ends the data goes on in time like data."""
     time = records[:, 0]
     last = time[end - 1] if end else 0.0

@@ -25,13 +25,11 @@ from viscofric.readers.printed import PRINTED_FREQUENCY, to_rad_per_second, unit
 from viscofric.readers.table import MISSING
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.readers.dma.deformation import Said
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
 
-    Array = NDArray[np.float64]
 
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
 _MODULI = ("storage modulus", "loss modulus", "complex modulus")

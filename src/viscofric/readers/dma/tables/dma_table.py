@@ -23,12 +23,10 @@ from viscofric.readers.dma.tables.dma_columns import (
 from viscofric.readers.printed import STRAIN_FACTORS
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.source import Source
     from viscofric.readers.table import Column, Table
 
-    Array = NDArray[np.float64]
 
 #: No sweep of an instrument spans as many decades of frequency as master curves do.
 WIDEST_SWEEP = 7.0  # decades
@@ -200,7 +198,7 @@ def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     return np.where(values >= 0.0, values, np.nan)
 
 
-def _step(table: Table) -> NDArray[np.int64] | None:
+def _step(table: Table) -> Integers | None:
     """Return the numbers of steps, None where no one column holds whole numbers for them."""
     found = [p for p, column in enumerate(table.columns) if column.name.lower() in STEP]
     if len(found) != 1:

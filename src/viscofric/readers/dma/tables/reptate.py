@@ -20,11 +20,9 @@ from viscofric.readers.table import heading
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.source import Source
 
-    Array = NDArray[np.float64]
 
 NAME = "RepTate text (.osc, .tts)"
 _PARAMETERS = re.compile(r"\s*(?:[\w ]+=[^;=]*;)+(?:[\w ]+=[^;=]*)?\s*")
@@ -54,7 +52,7 @@ class RepTateColumns:
 
     parameters: dict[str, str]
     is_master_curve: bool
-    lines: NDArray[np.int64]
+    lines: Integers
     angular_frequency: Array
     storage_modulus: Array
     loss_modulus: Array

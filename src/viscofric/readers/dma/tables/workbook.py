@@ -24,8 +24,7 @@ from viscofric.readers.printed import decimal_comma
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from viscofric.arrays import Array
     from viscofric.readers.dma.tables.layout import NumberedRow
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
@@ -238,7 +237,7 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
     if any(part.deformation not in (None, saying.deformation) for part in parts):
         raise DataFileError(source.path, f"the sheets {', '.join(map(repr, names))} differ in E and G; part them.")
 
-    def all_of(column: str) -> NDArray[np.float64]:
+    def all_of(column: str) -> Array:
         return np.concatenate([getattr(part, column) for part in parts])
 
     nothing = [np.full(len(part), np.nan) for part in parts]
