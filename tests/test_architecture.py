@@ -43,6 +43,7 @@ ROOMS = {
         "processes",
         "serving",
         "lazy",
+        "arrays",
     ),
     "readers": ("readers",),
     "rheology": ("rheology",),

@@ -76,13 +76,14 @@ def setting(field: str, label: str, value: str = "") -> Remedy:
     label : str
         Of the page's field.
     value : str
-        What to give, where one is proposed.
+        What to give, where one is proposed; text in quotes.
     """
     table, _, key = field.partition(".")
+    typed = f"'{value}'" if " " in value and "'" not in value else value
     option = f"--{key.replace('_', '-')}"
     return Remedy(
         f"{key} = {value}" if value else f"{key}=",
-        f"{option} '{value}'" if value else option,
+        f"{option} {typed}" if value else option,
         (f"{key} = {value}" if value else key) + f" under [{table}]",
         f"“{label}”: {value}" if value else f"“{label}”",
         field,

@@ -138,7 +138,7 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
     tab.page.set_input_files(_DROP, bare)
     unit = tab.page.get_by_label("Unit of the moduli")
     unit.wait_for()
-    tab.until("document.querySelector('#step-sweeps').textContent.includes('say under “Data” which unit it is')")
+    tab.until("document.querySelector('#step-sweeps').textContent.includes('or give it by “Unit of the moduli”')")
     unit.fill("Pa")
     unit.press("Tab")
     drawn(tab, "isotherms-storage", 3)
