@@ -99,7 +99,7 @@ def test_killed_server_leaves_no_process(tmp_path: Path) -> None:
     check_kills(tmp_path, times=1, seed=SERVER_FIRST)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_kills_at_random_leave_no_process(tmp_path: Path) -> None:
     """As many as VISCOFRIC_KILLS says; twenty take half a minute on a machine with nothing else to do."""
     check_kills(tmp_path, times=int(os.environ.get("VISCOFRIC_KILLS", "4")), seed=20261122)

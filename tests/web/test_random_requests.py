@@ -42,7 +42,7 @@ def ask_at_random(server: Server, cases: int) -> Counter[int]:
     return asked
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_five_hundred_random_requests_are_answered(server: Server) -> None:
     asked = ask_at_random(server, CASES)
     assert asked.total() >= 500

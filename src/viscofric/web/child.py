@@ -24,9 +24,8 @@ from viscofric.errors import ViscofricError, brief
 from viscofric.serving import at_most, limit_memory
 from viscofric.web.cache_folder import look_after
 from viscofric.web.jobs import WARM
-from viscofric.web.jobs.context import Context, plain
+from viscofric.web.jobs.context import Context, beside_field, plain
 from viscofric.web.study_files import check_confined
-from viscofric.web.study_text import beside_field
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -43,12 +43,6 @@ class DocumentError(StudyError):
         return type(self), (self.mistakes,), self.__dict__
 
 
-def beside_field(problem: Note) -> dict[str, str]:
-    """Return what the page writes beside the field that a problem is about."""
-    words = Note(problem.code, problem.text, remedy=problem.remedy).words("page")
-    return {"field": problem.where, "message": words[:1].upper() + words[1:]}
-
-
 def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
     """Write a document as a run file, and check it as one.
 

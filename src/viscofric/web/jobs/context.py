@@ -10,11 +10,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import ViscofricError
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from viscofric.notes import Note
 
 _BETWEEN_TOLD = 0.05  # s, of progress: a browser shows no more
 _EXACT = 22  # powers of ten up to this one are exact as floats
@@ -32,6 +31,12 @@ class JobError(ViscofricError):
 
     def __init__(self, message: str | Note, field: str | None = None) -> None:
         super().__init__(message, field=field)
+
+
+def beside_field(problem: Note) -> dict[str, str]:
+    """Return what the page writes beside the field that a problem is about."""
+    words = Note(problem.code, problem.text, remedy=problem.remedy).words("page")
+    return {"field": problem.where, "message": words[:1].upper() + words[1:]}
 
 
 def plain(value: Any, digits: int | None = 6) -> Any:

@@ -8,8 +8,9 @@ from pydantic import BaseModel, ConfigDict
 
 from viscofric.errors import ViscofricError
 from viscofric.notes import Note
+from viscofric.web.jobs.context import beside_field
 from viscofric.web.jobs.export_files import archive, missing_files, offered
-from viscofric.web.study_text import RUN_FILE, DocumentError, beside_field, study_of, study_text
+from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
 
 if TYPE_CHECKING:
     from viscofric.study.run_file import Study
