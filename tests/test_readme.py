@@ -146,6 +146,12 @@ def check_study(block: Block, folder: Path) -> None:
     load_study(path)
 
 
+def as_case(page: Path) -> Any:
+    """Return a page as a test's case: those of the site, which take a minute, are tests of their own step."""
+    name = page.relative_to(ROOT).as_posix()
+    return pytest.param(page, id=name, marks=[pytest.mark.apart] if name.startswith("docs/") else [])
+
+
 @pytest.fixture
 def drawn_apart() -> Iterator[None]:
     """Leave matplotlib as it was: pages set its look and leave figures open, as readers do."""
@@ -156,7 +162,7 @@ def drawn_apart() -> Iterator[None]:
 
 @pytest.mark.usefixtures("drawn_apart")
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("page", PAGES, ids=[path.relative_to(ROOT).as_posix() for path in PAGES])
+@pytest.mark.parametrize("page", map(as_case, PAGES))
 def test_what_the_page_shows_works(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")

@@ -41,6 +41,7 @@ def test_the_prediction_meets_the_friction_that_it_was_planted_with(agreement: d
     assert "Over 20 points the predicted friction is" in agreement["sentences"][0]
     assert agreement["key"][0]["name"] == "Prediction less measurement"
     assert [row[0] for row in agreement["table"]["rows"]] == ["30 °C", "90 °C"]
+    assert {word for points in agreement["points"] for word in points["remark"]} == {""}  # none is doubtful
 
 
 def test_predicted_lines_run_through_all_measured_speeds(agreement: dict[str, Any]) -> None:

@@ -32,7 +32,7 @@ TABLE = ClusterTable.model_validate(
 )
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.timeout(600)  # Dask starts several processes
 def test_worker_killed_amid_a_study_changes_no_bit(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from viscofric.study.running import Event
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.skipif(sys.platform == "win32", reason="no groups of processes to interrupt")
 def test_interrupt_of_all_processes_ends_them_with_one_sentence(tmp_path: Path) -> None:
     study, folder = tmp_path / "study.toml", tmp_path / "results"

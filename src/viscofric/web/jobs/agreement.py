@@ -182,5 +182,5 @@ def _points(tree: xarray.DataTree) -> list[dict[str, Any]]:
         upper=values(points, "predicted_upper"),
         difference=np.divide(found, measured, out=np.full(found.shape, np.nan), where=measured > 0.0) - 1.0,
         reduced_speed=values(points, "reduced_speed"),
-        remark=np.array(remarks(tree, points), dtype=object),
+        remark=np.array(["; ".join(words) for words in remarks(tree, points)], dtype=object),
     )
