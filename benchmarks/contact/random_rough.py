@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import measuring
@@ -21,6 +21,9 @@ import problems  # noqa: F401  (where the tests' surfaces are found)
 
 import viscofric as vf
 from contact.made_surfaces import self_affine
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 COLUMNS = (
     ("contacts", "contacts", "d"),
@@ -34,9 +37,24 @@ COLUMNS = (
 )
 
 
-def contact(random: np.random.Generator, seed: int) -> tuple[vf.Material, vf.PeriodicSurface, dict[str, Any]]:
-    """Draw a rubber, a surface, and how one slides over the other."""
-    points, modes = int(random.choice([64, 96, 128, 192, 256])), int(random.integers(1, 25))
+class Contact(NamedTuple):
+    """A rubber, a surface and its shortest wave in points, and how one slides over the other."""
+
+    material: vf.Material
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    shortest: float
+    motion: dict[str, Any]
+
+    @property
+    def surface(self) -> vf.PeriodicSurface:
+        """The surface of its heights."""
+        return vf.PeriodicSurface(self.heights, self.spacing)
+
+
+def draw(random: np.random.Generator, seed: int, sizes: Sequence[int] = (64, 96, 128, 192, 256)) -> Contact:
+    """Draw a contact on a surface with one of some numbers of points along each axis."""
+    points, modes = int(random.choice(sizes)), int(random.integers(1, 25))
     ratio = 10.0 ** random.uniform(0.3, 4.0)
     tau = 10.0 ** np.sort(random.uniform(-5.0, 2.0, modes))
     shares = random.dirichlet(np.ones(modes))
@@ -50,7 +68,7 @@ def contact(random: np.random.Generator, seed: int) -> tuple[vf.Material, vf.Per
         "direction": (np.cos(angle), np.sin(angle)),
         "layer": vf.Layer(thickness=10.0 ** random.uniform(-2.0, 0.0)) if random.random() < 0.2 else None,
     }
-    return rubber, vf.PeriodicSurface(z, (1.0 / points, random.choice([1.0, 0.7]) / points)), motion
+    return Contact(rubber, z, (1.0 / points, random.choice([1.0, 0.7]) / points), shortest, motion)
 
 
 def measure(contacts: int, seed: int) -> dict[str, Any]:
@@ -58,9 +76,10 @@ def measure(contacts: int, seed: int) -> dict[str, Any]:
     random = np.random.default_rng(seed)
     ffts, failed, spent = [], 0, 0.0
     for number in range(contacts):
-        rubber, surface, motion = contact(random, number)
+        drawn = draw(random, number)
+        material, surface, motion = drawn.material, drawn.surface, drawn.motion
         try:
-            solution, seconds = measuring.cpu_seconds(lambda: vf.solve_periodic(rubber, surface, **motion))  # noqa: B023
+            solution, seconds = measuring.cpu_seconds(lambda: vf.solve_periodic(material, surface, **motion))  # noqa: B023
         except vf.ConvergenceError:
             failed += 1
             continue

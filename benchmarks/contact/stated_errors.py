@@ -29,9 +29,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import measuring
 import numpy as np
 import problems  # noqa: F401  (where the tests' surfaces are found)
+import random_rough
 
 import viscofric as vf
-from contact.made_surfaces import refined, self_affine
+from contact.made_surfaces import refined
 from viscofric.contact.free.scale import Scale
 
 POISSON_RATIO, E0, RADIUS = 0.5, 1e6, 10e-3
@@ -101,22 +102,13 @@ def draw(number: int, accuracy: tuple[float, float] = (1e-3, 1e-2)) -> Case:
 
 def draw_periodic(number: int) -> Case:
     """Return one of the random rough contacts."""
-    rng = np.random.default_rng([2, number])
-    points, modes, ratio = int(rng.choice([64, 96])), int(rng.integers(1, 25)), 10.0 ** rng.uniform(0.3, 4.0)
-    tau, share = 10.0 ** np.sort(rng.uniform(-5.0, 2.0, modes)), rng.dirichlet(np.ones(modes))
-    material = vf.Material(vf.RetardationSpectrum(1.0, ratio, share * (1.0 - 1.0 / ratio), tau), poisson_ratio=0.5)
-    hurst, shortest = rng.uniform(0.3, 1.0), float(rng.choice([3.0, 4.0, 8.0, 16.0]))
-    z = self_affine(points, seed=number, hurst=hurst, points_per_shortest_wave=shortest)
-    angle = rng.choice([0.0, 0.0, rng.uniform(0.0, 2.0 * np.pi)])
-    motion: dict[str, Any] = {
-        "speed": 10.0 ** rng.uniform(-2.0, 4.0),
-        "pressure": 10.0 ** rng.uniform(-3.0, 1.0),
-        "direction": (np.cos(angle), np.sin(angle)),
-        "layer": vf.Layer(thickness=10.0 ** rng.uniform(-2.0, 0.0)) if rng.random() < 0.2 else None,
-    }
-    spacing = np.array([1.0, rng.choice([1.0, 0.7])]) / points
-    name = f"{number}: {points}² points, {shortest:.0f} in a wave, E∞/E0 = {ratio:.3g}, p = {motion['pressure']:.2g} E0"
-    return Case(name, material, (z, spacing), motion)
+    drawn = random_rough.draw(np.random.default_rng([2, number]), number, (64, 96))
+    spectrum, pressure = drawn.material.modes_at(None), drawn.motion["pressure"]
+    name = (
+        f"{number}: {len(drawn.heights)}² points, {drawn.shortest:.0f} in a wave, "
+        f"E∞/E0 = {spectrum.E_inf / spectrum.E0:.3g}, p = {pressure:.2g} E0"
+    )
+    return Case(name, drawn.material, (drawn.heights, np.array(drawn.spacing)), drawn.motion)
 
 
 def solve_both_periodic(case: Case) -> tuple[vf.PeriodicSolution, vf.PeriodicSolution]:

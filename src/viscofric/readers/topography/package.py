@@ -53,7 +53,6 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
     """
     insist_on_size(source.data, source.path)
     _insist_on_small_workbook(source)
-    why = ""
     if find_spec("SurfaceTopography") is None:
         why = "SurfaceTopography is not installed: pip install 'viscofric[surfaces]'"
         raise DataFileError(source.path, _BY_PACKAGE.format(why=why))

@@ -91,7 +91,7 @@ class Case(ABC):
     @property
     @abstractmethod
     def cost(self) -> str:
-        """What it is in `viscofric.study.planning.estimates`, which knows what such contacts take."""
+        """Its kind in the estimates of computing time; see `viscofric.study.planning.estimates`."""
 
     @property
     def points(self) -> int:
@@ -115,7 +115,7 @@ class Case(ABC):
 
     @abstractmethod
     def reach(self, record: Record) -> float:
-        """Return by what of several contacts with warnings the largest is told."""
+        """Return the number by which contacts with a warning are ranked; that of the largest is reported."""
 
     @abstractmethod
     def task(
@@ -138,7 +138,7 @@ class Case(ABC):
     def solution(
         self, rubbers: Rubbers, accuracy: float, most_points: int | None = None
     ) -> ContactSolution | PeriodicSolution:
-        """Solve it, and return all that was found instead of what is kept of it.
+        """Solve it, and return the whole solution, of which `record` keeps a part.
 
         Parameters
         ----------

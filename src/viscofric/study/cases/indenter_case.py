@@ -93,7 +93,7 @@ class IndenterCase(Case):
 
     @property
     def cost(self) -> str:
-        """What it is in the estimates of what contacts take."""
+        """Its kind in the estimates of computing time."""
         if self.layer is not None:
             return "layer"
         match self.indenter:
@@ -125,7 +125,7 @@ class IndenterCase(Case):
         return Task(solve_indenter, rubber | contact | kept | {"sensitive": sensitive}, label)
 
     def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> ContactSolution:
-        """Solve it, and return all that was found instead of what is kept of it; see `solve_steady`."""
+        """Solve it, and return the whole solution; see `solve_steady`."""
         rubber = Material(rubbers.modes(self), poisson_ratio=rubbers.of(self).poisson_ratio)
         return solve_steady(rubber, **self._contact(accuracy))
 

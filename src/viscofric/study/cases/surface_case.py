@@ -95,7 +95,7 @@ class SurfaceCase(Case):
 
     @property
     def cost(self) -> str:
-        """What it is in the estimates of what contacts take."""
+        """Its kind in the estimates of computing time."""
         return "surface"
 
     @property
@@ -127,7 +127,7 @@ class SurfaceCase(Case):
         return Task(solve_surface, rubber | self._contact | kept, label)
 
     def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> PeriodicSolution:
-        """Solve it, and return all that was found instead of what is kept of it; see `solve_periodic`.
+        """Solve it, and return the whole solution; see `solve_periodic`.
 
         Parameters
         ----------
