@@ -43,6 +43,7 @@ ROOMS = {
         "processes",
         "serving",
         "lazy",
+        "datasets",
         "arrays",
     ),
     "readers": ("readers",),

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 import pytest
 
+from viscofric.datasets import plain
 from viscofric.errors import DataFileError, StudyError
 from viscofric.study.run_file import TABLES, Study
-from viscofric.web.jobs.context import Context, plain
+from viscofric.web.jobs.context import Context
 from viscofric.web.study_files import FILE_KEYS, check_confined, opened_study
 
 if TYPE_CHECKING:

@@ -20,11 +20,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from viscofric.datasets import plain
 from viscofric.errors import ViscofricError, brief
 from viscofric.serving import at_most, limit_memory
 from viscofric.web.cache_folder import look_after
 from viscofric.web.jobs import WARM
-from viscofric.web.jobs.context import Context, beside_field, plain
+from viscofric.web.jobs.context import Context, beside_field
 from viscofric.web.study_files import check_confined
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import plain
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
-from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
     from viscofric.rheology.superposition.consistency import Diagram, SuperpositionCheck

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from viscofric.datasets import plain
 from viscofric.web.jobs.contact_pictures import Asked, around, outline, pressure_map, profile, shown, surface_profile
-from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
     from viscofric.contact.periodic.solution import PeriodicSolution

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from viscofric.contact.fields.trail import surface_displacement
-from viscofric.web.jobs.context import plain
+from viscofric.datasets import plain
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

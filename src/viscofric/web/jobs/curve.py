@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict
 
+from viscofric.datasets import plain
 from viscofric.notes import note_of
 from viscofric.study.assumptions import assumption_checks
 from viscofric.study.contacts import Contacts, doubts
@@ -16,7 +17,7 @@ from viscofric.study.running import Serial, run_plan
 from viscofric.study.store import CaseStore
 from viscofric.study.surface_words import surface_notes
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
-from viscofric.web.jobs.context import JobError, plain
+from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.curve_numbers import columns, master_curve
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import plain
 from viscofric.study.record import Failure
 from viscofric.study.study_rubber import band_columns
-from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
+from viscofric.datasets import plain
 from viscofric.rheology.superposition.overlap import LogSweep, join_at
 from viscofric.study.quantities import kelvin
-from viscofric.web.jobs.context import JobError, plain
+from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import made_rubber
 
 if TYPE_CHECKING:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import plain
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import LEVEL_95, ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
-from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import plain
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.web.jobs.context import plain
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, ComplexArray

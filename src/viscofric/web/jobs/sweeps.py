@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
+from viscofric.datasets import plain
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
-from viscofric.web.jobs.context import Context, JobError, plain
+from viscofric.web.jobs.context import Context, JobError
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, without_folder
 
 if TYPE_CHECKING:

@@ -1,0 +1,135 @@
+"""Results as labelled data sets, each number with its unit and its name, and values as JSON can hold them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Above this power of ten, powers of ten are not exact floats.
+_EXACT = 22
+
+
+def dataset(
+    dimension: str | tuple[str, ...],
+    columns: Mapping[str, tuple[Any, str, str] | None],
+    *,
+    coordinates: Mapping[str, tuple[Any, str, str]] | None = None,
+    attributes: Mapping[str, Any] | None = None,
+) -> xarray.Dataset:
+    """Return columns along one dimension (or several) as a data set with units and long names.
+
+    Parameters
+    ----------
+    dimension : str or tuple of str
+    columns : mapping
+        Name → (values, unit, long name); an entry that is None is left out.
+    coordinates : mapping, optional
+        The same for coordinates, along `dimension` or, under a dimension's own name, along that dimension.
+    attributes : mapping, optional
+        Values that are None are left out.
+    """
+    import numpy as np
+    import xarray
+
+    dimensions = (dimension,) if isinstance(dimension, str) else dimension
+
+    def variable(name: str, entry: tuple[Any, str, str]) -> Any:
+        values, unit, long_name = entry
+        along = (name,) if name in dimensions else dimensions
+        return along, np.asarray(values), {"units": unit, "long_name": long_name}
+
+    return xarray.Dataset(
+        {name: variable(name, entry) for name, entry in columns.items() if entry is not None},
+        {name: variable(name, entry) for name, entry in (coordinates or {}).items()},
+        {name: value for name, value in (attributes or {}).items() if value is not None},
+    )
+
+
+def record(data: xarray.Dataset, digits: int | None = None) -> dict[str, Any]:
+    """Return a data set as JSON can hold it: its attributes, each variable as a list, and ``units`` by name.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+    digits : int, optional
+        Significant digits of floats; None: all.  What is not finite becomes None.
+    """
+    columns = {str(name): plain(variable.values, digits) for name, variable in data.variables.items()}
+    units = {str(name): variable.attrs["units"] for name, variable in data.variables.items() if variable.attrs}
+    return {str(name): plain(value, digits) for name, value in data.attrs.items()} | columns | {"units": units}
+
+
+def plain(value: Any, digits: int | None = 6) -> Any:
+    """Return a value as JSON can hold it.
+
+    Parameters
+    ----------
+    value : object
+        Of dicts, lists, tuples, NumPy arrays and scalars, numbers, text, truth values, None, paths.
+    digits : int, optional
+        Significant digits of floats; None: all.
+
+    Returns
+    -------
+    object
+        Dicts, lists, int, float, str, bool and None; what is not finite is None.
+    """
+    if value is None or isinstance(value, (str, bool, int)):
+        return value
+    if isinstance(value, float):
+        return _rounded(value, digits)
+    if isinstance(value, Mapping):
+        return {str(key): plain(entry, digits) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        if value and all(type(entry) is float for entry in value):
+            import numpy as np
+
+            return _of_array(np.array(value), digits)
+        return [plain(entry, digits) for entry in value]
+    if hasattr(value, "__array__"):
+        import numpy as np
+
+        return _of_array(np.asarray(value), digits)
+    if isinstance(value, (set, frozenset)):
+        return [plain(entry, digits) for entry in sorted(value)]
+    return str(value)
+
+
+def _rounded(value: float, digits: int | None) -> float | None:
+    if not math.isfinite(value):
+        return None
+    return float(value) if digits is None else float(f"{value:.{digits}g}")
+
+
+def _of_array(values: Any, digits: int | None) -> Any:
+    import numpy as np
+
+    if values.dtype.kind != "f":
+        return plain(values.tolist(), digits)
+    values = values.astype(float)
+    finite = np.isfinite(values)
+    if digits is not None:
+        values = _significant(np.where(finite, values, 0.0), digits)
+    if finite.all():
+        return values.tolist()
+    shown: Any = np.array(values, dtype=object)
+    shown[~finite] = None
+    return shown.tolist()
+
+
+def _significant(values: Any, digits: int) -> Any:
+    """Round to significant digits, so that the shortest way of writing the results has no more."""
+    import numpy as np
+
+    size = np.abs(values)
+    power = digits - 1 - np.floor(np.log10(np.where(size > 0.0, size, 1.0)))
+    if np.any(np.abs(power) > _EXACT):
+        return np.vectorize(partial(_rounded, digits=digits), otypes=[float])(values)
+    # multiplied and divided by exact powers only: 123457 / 1e-3 would not be 123457000
+    up, down = 10.0 ** np.maximum(power, 0.0), 10.0 ** np.maximum(-power, 0.0)
+    return np.round(values * up / down) / up * down
