@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on, numbers, sentences, text
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array, ComplexArray, Integers
 
 
@@ -174,6 +177,32 @@ class IsothermalSweeps:
         note = f"Shear moduli turned into tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
         return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
 
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points along the dimension ``reading``, isotherm by isotherm.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``temperature`` (K), ``angular_frequency`` (rad/s), ``storage_modulus`` and ``loss_modulus`` (Pa), and
+            ``strain_amplitude`` if it was recorded; the attributes are ``deformation``, ``source`` and ``format``.
+        """
+        amplitudes = [
+            np.full(len(one), np.nan) if one.strain_amplitude is None else one.strain_amplitude
+            for one in self.isotherms
+        ]
+        recorded = any(one.strain_amplitude is not None for one in self.isotherms)
+        return dataset(
+            "reading",
+            _modulus_columns(
+                np.repeat(self.temperatures, [len(one) for one in self.isotherms]),
+                _joined([one.angular_frequency for one in self.isotherms]),
+                _joined([one.storage_modulus for one in self.isotherms]),
+                _joined([one.loss_modulus for one in self.isotherms]),
+            )
+            | {"strain_amplitude": (_joined(amplitudes), "1", "strain amplitude") if recorded else None},
+            attributes={"deformation": self.deformation, "source": self.source, "format": self.format},
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class MasterCurve:
@@ -228,3 +257,33 @@ class MasterCurve:
     def loss_tangent(self) -> Array:
         """E''/E'."""
         return np.asarray(self.loss_modulus / self.storage_modulus)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points along the dimension ``reading``.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``temperature`` (K), ``angular_frequency`` (rad/s), ``storage_modulus`` and ``loss_modulus`` (Pa); the
+            attribute ``reference_temperature`` (K).
+        """
+        return dataset(
+            "reading",
+            _modulus_columns(self.temperature, self.angular_frequency, self.storage_modulus, self.loss_modulus),
+            attributes={"reference_temperature": self.reference},
+        )
+
+
+def _joined(columns: list[Array]) -> Array:
+    return np.concatenate([np.empty(0), *columns])
+
+
+def _modulus_columns(
+    temperature: Array, angular_frequency: Array, storage_modulus: Array, loss_modulus: Array
+) -> dict[str, tuple[Array, str, str] | None]:
+    return {
+        "temperature": (temperature, "K", "temperature"),
+        "angular_frequency": (angular_frequency, "rad/s", "angular frequency"),
+        "storage_modulus": (storage_modulus, "Pa", "storage modulus"),
+        "loss_modulus": (loss_modulus, "Pa", "loss modulus"),
+    }

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on, sentences, text
 from viscofric.data import picked, read_only, whole_numbers
+from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, Remedy, setting
 from viscofric.units import celsius
@@ -17,6 +18,7 @@ from viscofric.units import celsius
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, Integers, Mask
@@ -59,6 +61,20 @@ class TractionStep:
         means = f"{self.load:.4g} N, {celsius(self.temperature):z.1f} °C, {1e3 * self.speed:.4g} mm/s"
         return f"{what}: {self.readings} readings at {means}, slip {100 * self.slip_ratio:.3g} %"
 
+
+#: Column of `TractionRuns` -> unit, long name.
+_COLUMNS = {
+    "disc_speed": ("m/s", "signed surface velocity of the disc"),
+    "ball_speed": ("m/s", "signed surface velocity of the ball"),
+    "traction_force": ("N", "signed traction force, zero reading included"),
+    "load": ("N", "normal load"),
+    "temperature": ("K", "temperature"),
+    "replicate": ("1", "number of the repetition"),
+    "zero_force": ("N", "reading of the force cell without traction"),
+    "time": ("s", "time since the first reading"),
+    "step": ("1", "number of the step"),
+    "track_radius": ("m", "radius of the ball's track on the disc"),
+}
 
 #: No rubber has a friction coefficient above this; what is larger was read in another unit, or is damaged.
 LARGEST_FRICTION = 10.0
@@ -210,6 +226,22 @@ class TractionRuns:
         }
         note = Note("readings-selected", f"{chosen.size} of {len(self)} readings are selected.")
         return replace(self, **columns, notes=(*self.notes, note))
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the readings along the dimension ``reading``.
+
+        Returns
+        -------
+        xarray.Dataset
+            The columns of the runs under the same names, in the same units; those that were not recorded are left out.
+            The attribute is ``source``.
+        """
+        columns = {name: (getattr(self, name), *meaning) for name, meaning in _COLUMNS.items()}
+        return dataset(
+            "reading",
+            {name: None if entry[0] is None else entry for name, entry in columns.items()},
+            attributes={"source": self.source},
+        )
 
     def _in_steps(self, name: str, wanted: int | Sequence[int]) -> Mask:
         """Tell which readings belong to some steps, all of which there must be."""
