@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 
 from readers.samples.workbook import write as write_workbook
+from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.master_curves import read_master_curve
+from viscofric.readers.dma.read import read_dma
+from viscofric.study.tables import write_master_curve
 
 ROWS = ["1e-3,5,0.5", "1e3,9,0.7", "1,6,0.9"]
 
@@ -68,8 +71,29 @@ def test_a_master_curve_of_reptate_holds_for_its_own_temperature(tmp_path):
     assert curve.angular_frequency == pytest.approx([0.1, 1.0])
     assert curve.storage_modulus == pytest.approx([3e3, 6e3])  # 3 G
     assert curve.temperature == pytest.approx([238.15, 238.15])
-    with pytest.raises(DataFileError, match="holds for -35 °C, as its first line says, not for 25 °C"):
+    with pytest.raises(DataFileError, check=lambda error: error.code == "other-reference"):
         read_master_curve(path, "25 degC")
+
+
+def test_a_master_curve_that_a_fit_has_written_is_read_again(tmp_path):
+    curve = MasterCurve([1e-3, 1.0, 1e3], [5e6, 6e6, 9e6], [0.5e6, 0.9e6, 0.7e6], [333.15, 303.15, 253.15], 303.15)
+    path = write_master_curve(curve, tmp_path / "master_curve.csv")
+    again = read_master_curve(path, "30 degC")
+    for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
+        assert getattr(again, name) == pytest.approx(getattr(curve, name), rel=1e-9)
+    with pytest.raises(DataFileError, check=lambda error: error.code == "other-reference"):
+        read_master_curve(path, "25 degC")
+    with pytest.raises(DataFileError, check=lambda error: error.code == "master-curve"):
+        read_dma(path, temperature="30 degC")
+
+
+def test_reduced_frequencies_count_before_measured_ones(tmp_path):
+    lines = ["reduced frequency (Hz),frequency (Hz),T (°C),E' (MPa),E'' (MPa)", "1,10,40,5,0.5", "20,10,20,6,0.6"]
+    path = write(tmp_path, *lines)
+    assert read_master_curve(path, "30 degC").angular_frequency == pytest.approx(2 * math.pi * np.array([1.0, 20.0]))
+    assert read_dma(write(tmp_path, lines[0], "1,10,40,5,0.5", "2,20,40,6,0.6")).isotherms[0].angular_frequency == (
+        pytest.approx(2 * math.pi * np.array([10.0, 20.0]))
+    )
 
 
 @pytest.mark.parametrize(("row", "says"), [("1,0,1", "line 5: the storage modulus"), ("1,5,", "line 5: the loss mod")])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import delimited, dma_columns, reptate, workbook
 from viscofric.readers.printed import unit_conversion
 from viscofric.readers.source import Source
-from viscofric.units import celsius, checked_poisson_ratio, positive
+from viscofric.units import celsius, checked_poisson_ratio, conversion, positive
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -24,6 +25,14 @@ if TYPE_CHECKING:
     from viscofric.data import Deformation
     from viscofric.readers.table import Table
     from viscofric.units import Quantity
+
+#: Reference temperatures are printed with few digits.
+_SAME_REFERENCE = 0.01  # K
+_REMARKS = 20  # lines
+#: As `viscofric material fit` writes it above a master curve.
+_REFERENCE = re.compile(
+    r"\s*#\s*reference temperature:?\s*(?P<number>[+-]?\d+(\.\d*)?)\s*(?P<unit>degC|°C|K|degF)\s*$", re.IGNORECASE
+)
 
 
 def read_master_curve(
@@ -39,8 +48,8 @@ def read_master_curve(
     Parameters
     ----------
     path : str or path
-        Text table or workbook with frequency, storage and loss modulus and their units, as for `read_dma`, or a
-        .tts file of RepTate.
+        Text table or workbook with (reduced) frequency, storage and loss modulus and their units, as for `read_dma`,
+        such as the ``master_curve.csv`` that ``viscofric material fit`` writes, or a .tts file of RepTate.
     reference : float, str or quantity
         Temperature that the curve holds for, K if a plain number.
     deformation : {"tension", "shear"}, optional
@@ -54,13 +63,13 @@ def read_master_curve(
     -------
     MasterCurve
         Tensile, in SI units, ascending in frequency.  Its `temperature`, that of the isotherm that each point comes
-        from, is `reference` for all points where the file has no column for it.
+        from (a column "isotherm" or "temperature"), is `reference` for all points without such a column.
 
     Raises
     ------
     DataFileError
         If the file cannot be read, columns contradict each other, a value is missing or not above zero, nobody says
-        whether the moduli are tensile or shear, or the file tells another reference temperature.
+        whether the moduli are tensile or shear, or the file states another reference temperature.
     InputError
         If an argument is wrong.
 
@@ -85,7 +94,8 @@ def read_master_curve(
         frequency, storage, loss, temperature = _of_reptate(source, kelvin)
     else:
         table = _table(source)
-        said, _ = dma_columns.deformation(table, dma_columns.find_columns(table))
+        said, _ = dma_columns.deformation(table, dma_columns.find_columns(table, master_curve=True))
+        _insist_on_reference(source, _stated_reference(source), kelvin)
         frequency, storage, loss, temperature = _of_table(table, source, kelvin)
     kind = _kind(source, said, deformation)
     factor = 1.0 if kind == "tension" else 2.0 * (1.0 + ratio)
@@ -109,7 +119,7 @@ def _table(source: Source) -> Table:
 
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
-    places = dma_columns.find_columns(table)
+    places = dma_columns.find_columns(table, master_curve=True)
     doubts: list[str] = []
     frequency = dma_columns.angular_frequency(table, places, doubts)
     if doubts:  # a master curve carries no notes
@@ -131,14 +141,27 @@ def _of_reptate(source: Source, reference: float) -> tuple[Array, Array, Array, 
     if not found.is_master_curve:
         problem = "is a sweep at one temperature (RepTate .osc), no master curve"
         raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
-    told = float(found.temperature[0])
-    if np.isfinite(told) and abs(told - reference) > 0.01:  # K; the file gives few digits
-        problem = f"holds for {celsius(told):.4g} °C, as its first line says, not for {celsius(reference):.4g} °C."
-        raise DataFileError(source.path, problem)
+    _insist_on_reference(source, float(found.temperature[0]), reference)
     columns = (found.angular_frequency, found.storage_modulus, found.loss_modulus)
     named = dict(zip(("frequency", "storage modulus", "loss modulus"), columns, strict=True))
     _insist_on_positive(source.path, found.lines, named)
     return *columns, np.full(len(columns[0]), reference)
+
+
+def _stated_reference(source: Source) -> float:
+    """Return the reference temperature that a remark of a text table states, K, NaN without one."""
+    for line in (source.text or "").splitlines()[:_REMARKS]:
+        found = _REFERENCE.match(line)
+        if found:
+            factor, offset = conversion(found["unit"], "K", "reference temperature")
+            return factor * float(found["number"]) + offset
+    return float("nan")
+
+
+def _insist_on_reference(source: Source, stated: float, reference: float) -> None:
+    if np.isfinite(stated) and abs(stated - reference) > _SAME_REFERENCE:
+        problem = f"its first line gives the reference temperature {celsius(stated):.4g} °C, not "
+        raise DataFileError(source.path, f"{problem}{celsius(reference):.4g} °C.", code="other-reference")
 
 
 def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> None:

@@ -29,6 +29,13 @@ ANGULAR_FREQUENCY = frozenset(
     | {"frequenza angolare", "frequência angular", "hoekfrequentie", "vinkelfrekvens", "częstość kątowa"}
     | {"угловая частота", "角频率", "角周波数"}
 )
+#: Of a master curve: shifted to its reference temperature.
+REDUCED_FREQUENCY = frozenset({"reduced frequency", "red. frequency", "shifted frequency", "reduzierte frequenz"})
+REDUCED_ANGULAR_FREQUENCY = frozenset(
+    {"reduced angular frequency", "red. ang. frequency", "shifted angular frequency", "reduzierte kreisfrequenz"}
+)
+#: Of a master curve: the isotherm that each point was measured in.
+ISOTHERM = frozenset({"isotherm", "isotherm temperature", "temperature of the isotherm", "isotherme"})
 STORAGE_MODULUS = frozenset(
     {"E'", "G'", "e'", "g'", "e stor", "g stor", "e storage", "g storage", "estor", "gstor"}
     | {sort + name for sort in _SORTS for name in ("storage", "storage modulus", "storage mod.")}
@@ -71,6 +78,8 @@ QUANTITIES = {
     "set temperature": SET_TEMPERATURE,
     "angular frequency": ANGULAR_FREQUENCY,
     "frequency": FREQUENCY,
+    "reduced angular frequency": REDUCED_ANGULAR_FREQUENCY,
+    "reduced frequency": REDUCED_FREQUENCY,
     "storage modulus": STORAGE_MODULUS,
     "loss modulus": LOSS_MODULUS,
     "complex modulus": COMPLEX_MODULUS,

@@ -14,8 +14,11 @@ from viscofric.readers.dma.names import (
     ANGULAR_FREQUENCY,
     COMPLEX_MODULUS,
     FREQUENCY,
+    ISOTHERM,
     LOSS_MODULUS,
     LOSS_TANGENT,
+    REDUCED_ANGULAR_FREQUENCY,
+    REDUCED_FREQUENCY,
     SET_TEMPERATURE,
     STORAGE_MODULUS,
     TEMPERATURE,
@@ -35,25 +38,26 @@ _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the modul
 _MODULI = ("storage modulus", "loss modulus", "complex modulus")
 
 
-def find_columns(table: Table) -> dict[str, int]:
-    """Return the places of the columns by what they hold, or say which are missing and what there is.
+def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
+    """Return the places of the columns by quantity.
+
+    Reduced frequencies count before measured ones in a master curve; `is_reduced` tells which of the two was found.
 
     Raises
     ------
     DataFileError
         If there is no frequency, or the columns do not give both moduli.
     """
-    angular = table.find(ANGULAR_FREQUENCY, "angular frequency")
     found = {
         "temperature": table.find(TEMPERATURE, "temperature"),
-        "frequency": table.find(FREQUENCY, "frequency") if angular is None else angular,
+        "frequency": _frequency_place(table, master_curve=master_curve),
         "storage modulus": table.find(STORAGE_MODULUS, "storage modulus"),
         "loss modulus": table.find(LOSS_MODULUS, "loss modulus"),
         "complex modulus": table.find(COMPLEX_MODULUS, "complex modulus"),
         "tan delta": table.find(LOSS_TANGENT, "tan delta"),
     }
     if found["temperature"] is None:
-        found["temperature"] = table.find(SET_TEMPERATURE, "set temperature")
+        found["temperature"] = table.find(ISOTHERM if master_curve else SET_TEMPERATURE, "temperature")
     places = {what: place for what, place in found.items() if place is not None}
     tangent = places.get("tan delta")
     if tangent is not None and table.columns[tangent].unit not in ("", "1"):  # a tangent has no unit
@@ -72,10 +76,25 @@ def find_columns(table: Table) -> dict[str, int]:
     return places
 
 
+def _frequency_place(table: Table, *, master_curve: bool) -> int | None:
+    measured = (ANGULAR_FREQUENCY, "angular frequency"), (FREQUENCY, "frequency")
+    reduced = (REDUCED_ANGULAR_FREQUENCY, "reduced angular frequency"), (REDUCED_FREQUENCY, "reduced frequency")
+    for names, what in (*reduced, *measured) if master_curve else (*measured, *reduced):
+        place = table.find(names, what)
+        if place is not None:
+            return place
+    return None
+
+
+def is_reduced(table: Table, places: dict[str, int]) -> bool:
+    """Return whether the frequencies are reduced ones, those of a master curve."""
+    return "reduced" in (quantity(table.columns[places["frequency"]].name) or "")
+
+
 def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) -> Array:
     """Return rad/s, NaN where a cell is missing; adds a note where the unit follows from the name only."""
     place = places["frequency"]
-    if not table.columns[place].unit and quantity(table.columns[place].name) == "angular frequency":
+    if not table.columns[place].unit and _is_angular(table, place):
         shown = table.columns[place].heading
         notes.append(
             Note(
@@ -87,10 +106,14 @@ def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) ->
     return _in_rad_per_second(table, place)
 
 
+def _is_angular(table: Table, place: int) -> bool:
+    return "angular" in (quantity(table.columns[place].name) or "")
+
+
 def _in_rad_per_second(table: Table, place: int) -> Array:
     """Return rad/s, or raise `DataFileError` where the unit tells neither hertz nor rad/s."""
     column = table.columns[place]
-    named_angular = quantity(column.name) == "angular frequency"
+    named_angular = _is_angular(table, place)
     factor = to_rad_per_second(column.unit, angular=named_angular)
     if factor is not None:
         return factor * table.numbers_or_missing(place)
@@ -102,7 +125,7 @@ def _in_rad_per_second(table: Table, place: int) -> Array:
 def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array) -> None:
     """Raise `DataFileError` where a second column of frequency contradicts the first."""
     used, other = places["frequency"], table.find(FREQUENCY, "frequency")
-    if other is None or other == used:
+    if other is None or other == used or is_reduced(table, places):
         return
     apart = np.abs(_in_rad_per_second(table, other) - angular) > PRINTED_FREQUENCY * np.abs(angular)
     if np.any(apart):

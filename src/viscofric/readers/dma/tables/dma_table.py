@@ -17,6 +17,7 @@ from viscofric.readers.dma.tables.dma_columns import (
     deformation,
     find_columns,
     insist_on_one_frequency,
+    is_reduced,
     moduli,
     unit_is_asked,
 )
@@ -56,6 +57,9 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
         moduli are called tensile and shear at once.
     """
     places = find_columns(table)
+    if is_reduced(table, places):
+        problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
+        raise DataFileError(table.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
     notes: list[str] = []
     frequency = angular_frequency(table, places, notes)
     insist_on_one_frequency(table, places, frequency)

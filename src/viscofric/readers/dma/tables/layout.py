@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 #: A table that begins further down is none that a person or an instrument wrote.
 DEEPEST_HEADER = 300
 _MODULI = {"storage modulus", "loss modulus", "complex modulus"}
-_FREQUENCIES = {"frequency", "angular frequency"}
+_FREQUENCIES = {"frequency", "angular frequency", "reduced frequency", "reduced angular frequency"}
 
 
 def header_row(rows: Sequence[NumberedRow]) -> int | None:
