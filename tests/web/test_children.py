@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from viscofric.web import child_process
 from viscofric.web import children as module
 from viscofric.web.children import Children
 from viscofric.web.jobs import Kind
@@ -35,7 +34,7 @@ def odd_jobs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setitem(module.KINDS, "narrow", Kind("web.odd_jobs", memory=1024 * MB))
     # without what contacts need, which takes most of a second to load
     cold = "from viscofric.web.child import main; main({parent}, warm=())"
-    monkeypatch.setattr(child_process, "_PROGRAM", cold)
+    monkeypatch.setattr(module, "_PROGRAM", cold)
     (tmp_path / "a" / "downloads").mkdir(parents=True)
 
 

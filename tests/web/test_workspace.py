@@ -16,7 +16,7 @@ import pytest
 
 from viscofric.errors import InputError
 from viscofric.web import workspace as module
-from viscofric.web.cache_folder import make_room
+from viscofric.web.child import make_room
 from viscofric.web.workspace import Workspace, Workspaces, checked_name, remove_stale
 from web.own_loop import run_apart
 

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+import gzip
+import hashlib
 import json
-from typing import TYPE_CHECKING, Annotated, Any
+import mimetypes
+from contextlib import aclosing
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from fastapi import Depends, FastAPI, Header, HTTPException, Query, Request, Response
 from fastapi import Path as InAddress
@@ -16,16 +22,17 @@ from starlette.exceptions import HTTPException as StarletteHTTPException
 from viscofric import __version__
 from viscofric.errors import InputError
 from viscofric.web.access import Access, Door
-from viscofric.web.job_stream import NDJSON, JobStream
 from viscofric.web.jobs import KINDS
 from viscofric.web.limits import LARGEST_STUDY, Limits
-from viscofric.web.static_files import static_file
 from viscofric.web.workspace import KEY, LARGEST_UPLOAD, Workspace, Workspaces, checked_name
 
 if TYPE_CHECKING:
-    from starlette.types import ASGIApp
+    from collections.abc import AsyncIterator
+
+    from starlette.types import ASGIApp, Receive, Scope, Send
 
     from viscofric.web.children import Children
+
 
 _EXAMPLE = ("dma.csv", "mtm.csv")
 _KIND = Annotated[str, InAddress(min_length=1, max_length=1_000, json_schema_extra={"enum": [*KINDS]})]
@@ -230,3 +237,94 @@ def _jobs(api: FastAPI, children: Children) -> None:
             raise HTTPException(404, f"There is no job {kind}; there are {', '.join(KINDS)}.")
         lines = children.run(kind, job.study, job.options, workspace.folder)
         return JobStream(workspace.while_at_work(lines))
+
+
+ROOT = Path(__file__).parent / "static"
+_PACKED = {".html", ".css", ".js", ".svg", ".json", ".txt"}
+_TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html", ".svg": "image/svg+xml"}
+_WORTH_PACKING = 1_000  # bytes
+
+
+class StaticFile(NamedTuple):
+    """A file of the page.
+
+    Parameters
+    ----------
+    content, packed : bytes
+        As it is, and by gzip; the latter empty where it is not worth it.
+    media_type : str
+    tag : str
+        Hash of the content.
+    """
+
+    content: bytes
+    packed: bytes
+    media_type: str
+    tag: str
+
+
+_known: dict[tuple[Path, int, int], StaticFile] = {}
+
+
+def static_file(name: str) -> StaticFile | None:
+    """Return a file by its place below the folder ``static``; None if there is none of that name.
+
+    Only names that a listing of the folder gives are found, so that none leads out of it.
+    """
+    path = _listing().get(name)
+    if path is None:
+        return None
+    status = path.stat()
+    key = (path, status.st_mtime_ns, status.st_size)
+    if key not in _known:
+        content = path.read_bytes()
+        packs = path.suffix in _PACKED and len(content) >= _WORTH_PACKING
+        media_type = _TYPES.get(path.suffix) or mimetypes.guess_type(path.name)[0] or "application/octet-stream"
+        if media_type.startswith("text/"):
+            media_type += "; charset=utf-8"
+        tag = f'"{hashlib.sha256(content).hexdigest()[:24]}"'
+        _known[key] = StaticFile(content, gzip.compress(content, 6) if packs else b"", media_type, tag)
+    return _known[key]
+
+
+def _listing() -> dict[str, Path]:
+    return {path.relative_to(ROOT).as_posix(): path for path in ROOT.rglob("*") if path.is_file()}
+
+
+NDJSON = "application/x-ndjson"
+
+
+class JobStream(Response):
+    """What is told of a job, a line each, for as long as somebody listens."""
+
+    media_type = NDJSON
+
+    def __init__(self, lines: AsyncIterator[bytes]) -> None:
+        super().__init__()
+        del self.headers["content-length"]
+        self.headers["cache-control"] = "no-store"
+        self._lines = lines
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Send the lines; stop the job as soon as the other end is gone."""
+        await send({"type": "http.response.start", "status": 200, "headers": self.raw_headers})
+        tasks = [asyncio.create_task(self._send_all(send)), asyncio.create_task(_gone(receive))]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+        if not tasks[0].cancelled() and (error := tasks[0].exception()) is not None and not isinstance(error, OSError):
+            raise error
+
+    async def _send_all(self, send: Send) -> None:
+        async with aclosing(self._lines) as lines:  # type: ignore[type-var]
+            async for line in lines:
+                await send({"type": "http.response.body", "body": line, "more_body": True})
+        await send({"type": "http.response.body", "body": b""})
+
+
+async def _gone(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass

@@ -15,6 +15,7 @@ import queue
 import signal
 import sys
 import threading
+import time
 import traceback
 from importlib import import_module
 from pathlib import Path
@@ -23,7 +24,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from viscofric.datasets import plain
 from viscofric.errors import ViscofricError, brief
 from viscofric.serving import at_most, limit_memory
-from viscofric.web.cache_folder import look_after
 from viscofric.web.jobs import WARM
 from viscofric.web.jobs.context import Context, beside_field
 from viscofric.web.study_files import check_confined
@@ -31,6 +31,7 @@ from viscofric.web.study_files import check_confined
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from types import TracebackType
+
 
 #: What is sent at once may have this many bytes: a browser is not to be handed more.
 LARGEST_MESSAGE = 48_000_000
@@ -229,3 +230,56 @@ def end_all() -> None:
     if sys.platform != "win32" and os.getpgrp() == os.getpid():
         os.killpg(os.getpgrp(), signal.SIGKILL)
     os._exit(1)
+
+
+_MOST_BYTES = 300_000_000  # of a workspace
+_YOUNG = 600.0  # s; what is younger may be of a job at work
+_BETWEEN_LOOKS = 60.0  # s; jobs follow each other quickly while somebody moves a slider
+_KINDS = (".pickle", ".json", ".npz")
+
+_looked: dict[Path, float] = {}
+
+
+def look_after(cache: Path) -> None:
+    """Make room where nobody has looked for a while."""
+    now = time.monotonic()
+    if now - _looked.get(cache, -_BETWEEN_LOOKS) >= _BETWEEN_LOOKS:
+        _looked[cache] = now
+        make_room(cache)
+
+
+def make_room(cache: Path, most: int = _MOST_BYTES, young: float = _YOUNG) -> None:
+    """Remove the oldest rubbers and solved contacts where there are too many; later jobs make them anew.
+
+    Parameters
+    ----------
+    cache : Path
+        Of a workspace.
+    most : int
+        Bytes that may stay.
+    young : float
+        What was written so many seconds ago or less stays.
+    """
+    stays, before = 0, time.time() - young
+    files = [entry for folder in _folders(cache) for entry in _kept_files(folder)]
+    for modified, size, path in sorted(files, reverse=True):
+        stays += size
+        if stays > most and modified < before:
+            with contextlib.suppress(OSError):
+                path.unlink()
+
+
+def _folders(cache: Path) -> list[Path]:
+    """Return the folders of rubbers and of contacts, those of whole studies too."""
+    return [cache, *(folder for folder in cache.glob("*cases")), *cache.glob("study/*.results/cases")]
+
+
+def _kept_files(folder: Path) -> list[tuple[float, int, Path]]:
+    found = []
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.name.endswith(_KINDS):
+                with contextlib.suppress(OSError):
+                    status = entry.stat()
+                    found.append((status.st_mtime, status.st_size, folder / entry.name))
+    return found

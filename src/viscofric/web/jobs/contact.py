@@ -8,8 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.study.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
-from viscofric.web.jobs.contact_fields import told
-from viscofric.web.jobs.contact_pictures import Asked
+from viscofric.web.jobs.contact_pictures import Asked, told
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
@@ -56,7 +55,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        As of `viscofric.web.jobs.contact_fields.told`.  A sharp answer has the numbers of a study that solves the case
+        As of `contact_pictures.told`.  A sharp answer has the numbers of a study that solves the case
         by itself.
 
     Raises

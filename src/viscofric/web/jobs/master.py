@@ -66,8 +66,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     from viscofric.errors import SuperpositionError
     from viscofric.web.jobs.friction_data import texts
-    from viscofric.web.jobs.friction_input import friction_curves
-    from viscofric.web.jobs.friction_tables import indenter_of
+    from viscofric.web.jobs.friction_input import friction_curves, indenter_of
     from viscofric.web.jobs.rubbers import made_rubber
 
     curves = friction_curves(study, context)

@@ -51,8 +51,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         If [measurement] is wrong, or a file cannot be read.
     """
     from viscofric.web.jobs.friction_data import measured_points, pairs, texts
-    from viscofric.web.jobs.friction_input import measured
-    from viscofric.web.jobs.friction_tables import table_of_files
+    from viscofric.web.jobs.friction_input import measured, table_of_files
 
     table = table_of_files(study, context, options.files) if options.files else study.get("measurement")
     context.progress(0, 1, "Reading the files")
