@@ -22,8 +22,8 @@ from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_im
 from viscofric.files import LARGEST_TABLE, insist_on_size, parse_toml
 from viscofric.notes import codes
 from viscofric.processes import LimitedProcess
-from viscofric.readers.height_table import read_heights
 from viscofric.readers.topography import package
+from viscofric.readers.topography.tables import read_heights
 from viscofric.rheology.cards.card_files import LARGEST_CARD
 from viscofric.study.store import CaseStore, Damaged, _sealed
 

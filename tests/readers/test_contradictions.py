@@ -14,7 +14,7 @@ from readers.samples.workbook import write as write_workbook
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers import read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
-from viscofric.readers.printed import decimal_comma, to_rad_per_second, unit_conversion
+from viscofric.readers.source import decimal_comma, to_rad_per_second, unit_conversion
 
 FREQUENCIES = (0.1, 0.316, 1.0, 3.16, 10.0, 31.6)  # Hz
 HEADER = "T (degC),f (Hz),E' (MPa),E'' (MPa)"

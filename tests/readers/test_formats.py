@@ -12,7 +12,7 @@ from readers.samples import SAMPLES
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, moduli
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers import read_dma
-from viscofric.readers.dma.formats import FORMATS, format_of
+from viscofric.readers.dma.read import FORMATS, format_of
 from viscofric.readers.source import Source
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers.height_table import read_heights
+from viscofric.readers.topography.tables import read_heights
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -16,7 +16,7 @@ from readers.samples import SAMPLES
 from readers.samples.workbook import write as write_workbook
 from viscofric.errors import LONGEST_SENTENCE, DataFileError
 from viscofric.readers import read_dma
-from viscofric.readers.dma.formats import FORMATS
+from viscofric.readers.dma.read import FORMATS
 
 #: Processor time of one damaged file of a few kilobytes, s; whole ones take some milliseconds, a workbook 40 ms
 #: in a process of its own.  The time of the processor does not count what else the machine is doing.
@@ -87,7 +87,7 @@ def test_a_whole_file_is_read(tmp_path, name):
 
 
 def test_every_format_has_a_sample(tmp_path):
-    from viscofric.readers.dma.formats import format_of
+    from viscofric.readers.dma.read import format_of
     from viscofric.readers.source import Source
 
     seen = set()

@@ -124,7 +124,7 @@ def _simple(shape: str, text: str) -> NamedIndenter:
 def _mapped(shape: str, asked: dict[str, Any]) -> NamedIndenter:
     from viscofric.contact.indenters.height_map import HeightMap, Profile
     from viscofric.errors import InputError
-    from viscofric.readers.height_table import read_heights
+    from viscofric.readers.topography.tables import read_heights
 
     path: Path = asked[shape]
     if asked["spacing"] is None:

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import math
+import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from viscofric.arguments import insist_on
 from viscofric.errors import DataFileError
 from viscofric.files import decoded
+from viscofric.units import conversion
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,3 +62,90 @@ def _marked(data: bytes) -> bytes:
         if len(data) > 20 and 0 not in letters and zeros.count(0) > 0.8 * len(zeros):
             return mark + data[: len(data) - len(data) % 2]
     return data
+
+
+COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
+_LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+#: What a unit multiplies by at most, so that a damaged number shows before that.
+LARGEST_FACTOR = 1e12
+#: Hz and rad/s of one row, both printed with two digits or so, agree within this (relative).
+PRINTED_FREQUENCY = 0.05
+
+_PRESSURE = re.compile(r"([kKMG])[pP]a")
+_PREFIXES = {"m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6}
+
+
+#: What a strain amplitude is multiplied by to become a fraction.
+STRAIN_FACTORS = {"%": 0.01, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0, "µm/µm": 1.0}
+
+
+def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
+    """Return whether a comma stands for the decimal point.
+
+    Parameters
+    ----------
+    path : str
+        Named in errors.
+    cells : iterable of (str, int or None)
+        Numbers as printed, each with its row.
+
+    Raises
+    ------
+    DataFileError
+        If every comma is followed by three digits, as in ``33,468``: it may part thousands as well.
+    """
+    commas = [(cell.strip(), row) for cell, row in cells if COMMA_NUMBER.fullmatch(cell)]
+    if commas and all(_LIKE_THOUSANDS.fullmatch(cell) for cell, _ in commas):
+        cell, row = commas[0]
+        as_decimal, as_thousands = cell.replace(",", "."), cell.replace(",", "")
+        problem = f"{cell!r} may be {as_decimal} or {as_thousands}, since every comma stands before three digits; "
+        raise DataFileError(path, problem + "write decimals with a point, and no thousands marks.", row)
+    return bool(commas)
+
+
+def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
+    """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, for plain powers (``N/mm2``) too.
+
+    Parameters
+    ----------
+    text : str
+        As printed.  ``Mpa`` is MPa: no capital M stands for a thousandth.
+    unit : str
+        The SI unit wanted.
+    name : str
+        What it is the unit of, for the error message.
+
+    Raises
+    ------
+    InputError
+        If the text is not a unit of the right dimension.
+    """
+    insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
+    plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
+    pressure = _PRESSURE.fullmatch(plain)
+    if pressure:
+        plain = pressure[1].replace("K", "k") + "Pa"
+    return conversion(plain, unit, name)
+
+
+def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
+    """Return what turns a frequency as printed into rad/s, None where the unit does not tell it.
+
+    pint holds the radian for a pure number, so hertz and rad/s are told apart here.  A frequency in 1/s may be
+    either; an angular frequency in 1/s is in rad/s.
+
+    Parameters
+    ----------
+    unit : str
+        As printed.
+    angular : bool
+        Whether the name is that of an angular frequency.
+    """
+    plain = unit.replace(" ", "")
+    if re.fullmatch(r"rad(/s|/sec|s\^?-1|·s⁻¹|s⁻¹|\*s\^-1)", plain):
+        return 1.0
+    if re.fullmatch(r"1/s|s\^?-1|s⁻¹", plain):
+        return 1.0 if angular else None
+    if re.fullmatch(r"[mkM]?Hz", plain, re.IGNORECASE) and not angular:
+        return 2.0 * math.pi * (_PREFIXES[plain[0]] if len(plain) == 3 else 1.0)
+    return None

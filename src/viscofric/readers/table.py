@@ -14,7 +14,7 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
 from viscofric.notes import Remedy
 from viscofric.readers.dma.names import quantity
-from viscofric.readers.printed import decimal_comma, unit_conversion
+from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence

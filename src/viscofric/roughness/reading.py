@@ -9,9 +9,9 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path
 from viscofric.notes import Note
-from viscofric.readers.height_table import checked_heights
 from viscofric.readers.topography.read import read_scan
 from viscofric.readers.topography.scan import Asked
+from viscofric.readers.topography.tables import checked_heights
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, to_si, two_lengths
 

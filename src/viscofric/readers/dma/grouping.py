@@ -13,7 +13,7 @@ from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices
-    from viscofric.readers.dma.points import Points
+    from viscofric.readers.dma.readings import Points
 
 
 #: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.

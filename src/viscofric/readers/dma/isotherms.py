@@ -11,19 +11,17 @@ import numpy as np
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, short_notes
 from viscofric.notes import Note, note_of
-from viscofric.readers.dma.amplitudes import insist_on_one_amplitude
+from viscofric.readers.dma.checks import usable
 from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
-from viscofric.readers.dma.points import Sorted, at, joined, listed
-from viscofric.readers.dma.sweep_checks import notes_on
-from viscofric.readers.dma.usable import usable
+from viscofric.readers.dma.readings import Sorted, at, joined, listed
+from viscofric.readers.dma.sweep_checks import insist_on_one_amplitude, notes_on
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Indices
     from viscofric.data import Deformation
-    from viscofric.readers.dma.points import Points
-    from viscofric.readers.dma.readings import Readings
+    from viscofric.readers.dma.readings import Points, Readings
 
 
 #: Frequencies closer than this (relative) are the same one, printed or measured twice.

@@ -10,12 +10,11 @@ import numpy as np
 from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
-from viscofric.readers.dma.deformation import NOT_SAID
-from viscofric.readers.dma.formats import format_of
+from viscofric.readers.dma.names import NOT_SAID
+from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
-from viscofric.readers.dma.tables import delimited, dma_columns, reptate, workbook
-from viscofric.readers.printed import unit_conversion
-from viscofric.readers.source import Source
+from viscofric.readers.dma.tables import delimited, dma_table, reptate, workbook
+from viscofric.readers.source import Source, unit_conversion
 from viscofric.units import celsius, checked_poisson_ratio, conversion, positive
 
 if TYPE_CHECKING:
@@ -94,7 +93,7 @@ def read_master_curve(
         frequency, storage, loss, temperature = _of_reptate(source, kelvin)
     else:
         table = _table(source)
-        said, _ = dma_columns.deformation(table, dma_columns.find_columns(table, master_curve=True))
+        said, _ = dma_table.deformation(table, dma_table.find_columns(table, master_curve=True))
         _insist_on_reference(source, _stated_reference(source), kelvin)
         frequency, storage, loss, temperature = _of_table(table, source, kelvin)
     kind = _kind(source, said, deformation)
@@ -119,14 +118,14 @@ def _table(source: Source) -> Table:
 
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
-    places = dma_columns.find_columns(table, master_curve=True)
+    places = dma_table.find_columns(table, master_curve=True)
     doubts: list[str] = []
-    frequency = dma_columns.angular_frequency(table, places, doubts)
+    frequency = dma_table.angular_frequency(table, places, doubts)
     if doubts:  # a master curve carries no notes
         heading = table.columns[places["frequency"]].heading
         raise DataFileError(table.path, f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.")
-    dma_columns.insist_on_one_frequency(table, places, frequency)
-    storage, loss = dma_columns.moduli(table, places, source, [])
+    dma_table.insist_on_one_frequency(table, places, frequency)
+    storage, loss = dma_table.moduli(table, places, source, [])
     temperature = np.full(len(frequency), reference)
     if "temperature" in places:
         factor, offset = table.conversion(table.columns[places["temperature"]], "K")

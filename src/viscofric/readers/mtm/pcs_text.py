@@ -10,12 +10,10 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.mtm.pcs_doubts import notes
-from viscofric.readers.mtm.pcs_rows import SIGNALS, rows_of
-from viscofric.readers.mtm.pcs_steps import number_of, parse
-from viscofric.readers.mtm.pcs_times import start_times
+from viscofric.readers.mtm.pcs_rows import SIGNALS, notes, rows_of
+from viscofric.readers.mtm.pcs_steps import number_of, parse, start_times
 from viscofric.readers.mtm.readings import TractionReadings
-from viscofric.readers.printed import unit_conversion
+from viscofric.readers.source import unit_conversion
 from viscofric.readers.table import heading
 from viscofric.traction import TractionStep
 from viscofric.units import celsius

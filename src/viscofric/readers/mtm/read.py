@@ -13,7 +13,7 @@ from viscofric.errors import DataFileError, InputError, check_choice, short_note
 from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.notes import Note, note_of
-from viscofric.readers.mtm import formats
+from viscofric.readers.mtm import delimited, pcs_text
 from viscofric.readers.source import Source
 from viscofric.traction import TractionRuns, TractionStep, notes_on_friction
 
@@ -23,6 +23,30 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, Integers
     from viscofric.readers.mtm.readings import Thermometer, TractionReadings
+
+
+def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:
+    """Return the readings of a file.
+
+    Raises
+    ------
+    DataFileError
+        If the file is empty or binary, or cannot be read as what it is.
+    """
+    if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
+        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.")
+    if pcs_text.recognises(source):
+        return pcs_text.read(source, thermometer)
+    if source.text is None:
+        what = f"what can be read: {pcs_text.NAME} and {delimited.NAME}"
+        raise DataFileError(source.path, f"is a binary file of no known kind; {what}.")
+    return delimited.read(source)
+
+
+def format_name(source: Source) -> str:
+    """Return what a file is taken for, in words."""
+    return pcs_text.NAME if pcs_text.recognises(source) else delimited.NAME
+
 
 _MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature")
 
@@ -93,7 +117,7 @@ def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> 
     for place, path in enumerate(files):
         if any(Path(path).resolve() == Path(other).resolve() for other in files[:place] if "\0" not in path + other):
             raise DataFileError(path, "is given twice; name each file once.")
-    parts = [formats.read(Source(path, read_bytes(path)), thermometer) for path in files]
+    parts = [read_file(Source(path, read_bytes(path)), thermometer) for path in files]
     for place, part in enumerate(parts):
         for other in parts[:place]:
             if part.same_as(other):

@@ -154,7 +154,7 @@ def _scan(source: Source, reader: Any, asked: Asked) -> Scan:
 def _line(source: Source, measured: Any, heights: Array, factor: float, told: str) -> Scan:
     from dataclasses import replace
 
-    from viscofric.readers.topography.points import scan_of_points
+    from viscofric.readers.topography.scan import scan_of_points
 
     if measured.is_uniform:
         step = factor * float(measured.pixel_size[0])

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from viscofric.errors import DataFileError
+
 if TYPE_CHECKING:
-    from viscofric.arrays import Array
+    from viscofric.arrays import Array, Integers
     from viscofric.readers.source import Source
 
 
@@ -64,3 +69,106 @@ class Scan:
 def name_of(source: Source) -> str:
     """Return the name of a file without its folder, as histories show it."""
     return Path(source.path).name
+
+
+#: Positions belong to the same row of the grid up to this part of the distance of rows.
+_SAME = 0.05
+#: Positions of a line scan are even up to this part of their distance; others are interpolated.
+_EVEN = 0.02
+#: A grid with fewer of its points than this is no grid.
+_LEAST_FILLED = 0.25
+
+
+def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]) -> Scan:
+    """Put points onto their grid.
+
+    Parameters
+    ----------
+    source : Source
+    points : (n, 2) or (n, 3) array
+        x and z, or x, y and z, m; z is NaN where there is no reading.
+    asked : Asked
+    lines : list of int
+        Line of the file of each point, for errors.
+
+    Raises
+    ------
+    DataFileError
+        If a spacing is given, a position is missing, or the positions are no grid.
+    """
+    if asked.spacing is not None:
+        raise DataFileError(source.path, "holds the positions of its points; leave the spacing out.")
+    bad = np.flatnonzero(~np.all(np.isfinite(points[:, :-1]), axis=1))
+    if bad.size:
+        raise DataFileError(source.path, "a position has no number; only heights may be missing.", lines[int(bad[0])])
+    if asked.missing is not None:
+        points = points.copy()
+        points[points[:, -1] == asked.missing, -1] = math.nan
+    if len(points) < 2:
+        raise DataFileError(source.path, "holds one point only; a line or a grid of them is wanted.")
+    return _line(source, points) if points.shape[1] == 2 else _grid(source, points)
+
+
+def _line(source: Source, points: Array) -> Scan:
+    x, z = points[np.argsort(points[:, 0], kind="stable")].T
+    told = f"read from {name_of(source)} (line scan)"
+    steps = np.diff(x)
+    if not np.all(steps > 0.0):
+        raise DataFileError(source.path, f"two points lie at the same position, x = {x[:-1][steps <= 0.0][0]:.6g} m.")
+    mean = float(np.ptp(x)) / (len(x) - 1)
+    if float(np.abs(x - x[0] - mean * np.arange(len(x))).max()) <= _EVEN * mean:
+        return Scan(z[:, None], (mean, mean), told)
+    # As fine as the points lie where they are densest for the most part: nothing is lost.
+    step = float(np.quantile(steps, 0.25))
+    count = int(np.ptp(x) / step) + 1
+    if count > 100 * len(x):
+        raise DataFileError(source.path, "its positions are too uneven to be put onto a grid.")
+    even = x[0] + (np.ptp(x) / (count - 1)) * np.arange(count)
+    heights = np.interp(even, x, z)
+    note = f"{len(x)} uneven positions interpolated linearly onto {count} even ones"
+    return Scan(heights[:, None], (float(np.ptp(x)) / (count - 1),) * 2, told, notes=(note,))
+
+
+def _grid(source: Source, points: Array) -> Scan:
+    (i, dx, nx), (j, dy, ny) = (_rows(source, points[:, axis], "xy"[axis]) for axis in (0, 1))
+    if nx * ny > len(points) / _LEAST_FILLED:
+        raise DataFileError(
+            source.path,
+            f"its {len(points)} points are no grid: their x and y would make one of {nx} × {ny}; a matrix of heights "
+            "needs spacing='5 um', for instance.",
+        )
+    heights = np.full((nx, ny), math.nan)
+    heights[i, j] = points[:, 2]
+    taken = np.zeros((nx, ny), dtype=int)
+    np.add.at(taken, (i, j), 1)
+    if taken.max() > 1:
+        where = np.argwhere(taken > 1)[0]
+        raise DataFileError(source.path, f"two points lie at the same position, column {where[0]}, row {where[1]}.")
+    told = f"read from {name_of(source)} (x, y, z)"
+    if nx == 1:
+        return Scan(heights.T, (dy, dy), told, notes=("a line along y, taken as one along x",))
+    return Scan(heights, (dx, dy if ny > 1 else dx), told)
+
+
+def _rows(source: Source, positions: Array, axis: str) -> tuple[Integers, float, int]:
+    """Return the row of each position, the distance of rows and how many there are."""
+    values = np.sort(positions)
+    extent = float(values[-1] - values[0])
+    if extent == 0.0:
+        return np.zeros(len(positions), dtype=np.int64), 0.0, 1
+    gaps = np.diff(values)
+    # Jitter within a row is far smaller than the distance of rows: the largest jump in the sizes of gaps parts them.
+    step = float(gaps[gaps > 0.3 * gaps.max()].min())
+    found = (positions - values[0]) / step
+    for _ in range(3):  # the distance of rows from all of them, not from two neighbours
+        rows = np.rint(found)
+        if rows.max() < 1:
+            break
+        step = float(np.polyfit(rows, positions - values[0], 1)[0])
+        start = float(np.mean(positions - step * rows))
+        found = (positions - start) / step
+    rows = np.rint(found)
+    rows -= rows.min()
+    if float(np.abs(found - np.rint(found)).max()) > _SAME:
+        raise DataFileError(source.path, f"the {axis} of its points are not evenly spaced; a grid of points is wanted.")
+    return rows.astype(np.int64), step, int(rows.max()) + 1

@@ -139,10 +139,10 @@ def _separated(runs: TractionRuns, table: MeasurementTable) -> FrictionCurves:
 
 def _kinds(paths: Sequence[Path]) -> str:
     from viscofric.files import read_bytes
-    from viscofric.readers.mtm import formats
+    from viscofric.readers.mtm.read import format_name
     from viscofric.readers.source import Source
 
-    return "; ".join(dict.fromkeys(formats.name_of(Source(str(path), read_bytes(path))) for path in paths))
+    return "; ".join(dict.fromkeys(format_name(Source(str(path), read_bytes(path))) for path in paths))
 
 
 def _named(curves: FrictionCurves, folders: Folders) -> FrictionCurves:

@@ -13,16 +13,17 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note
-from viscofric.readers.dma.agreement import insist_on_agreement
+from viscofric.readers.dma.checks import insist_on_agreement
 from viscofric.readers.dma.instruments.eplexor_master import (
     AS_IT_IS,
     insist_on_sense,
+    isotherm_of_each_row,
+    programmed_frequencies,
     shift_list,
 )
-from viscofric.readers.dma.instruments.eplexor_rows import isotherm_of_each_row, programmed_frequencies
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.workbook import sheet_names, sheets
-from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma, unit_conversion
+from viscofric.readers.source import LARGEST_FACTOR, decimal_comma, unit_conversion
 from viscofric.units import CELSIUS_ZERO, celsius
 
 if TYPE_CHECKING:

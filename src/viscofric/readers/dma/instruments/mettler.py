@@ -15,9 +15,9 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note
-from viscofric.readers.dma.agreement import insist_on_agreement
+from viscofric.readers.dma.checks import insist_on_agreement
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma, unit_conversion
+from viscofric.readers.source import LARGEST_FACTOR, decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

@@ -14,7 +14,6 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note
 from viscofric.readers.dma import names
-from viscofric.readers.dma.deformation import said_by_columns, tools_in
 from viscofric.readers.dma.instruments.rheocompass_intervals import (
     Decimals,
     Interval,
@@ -22,8 +21,9 @@ from viscofric.readers.dma.instruments.rheocompass_intervals import (
     head,
     intervals,
 )
+from viscofric.readers.dma.names import said_by_columns, tools_in
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.printed import STRAIN_FACTORS, to_rad_per_second, unit_conversion
+from viscofric.readers.source import STRAIN_FACTORS, to_rad_per_second, unit_conversion
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.readers.dma import names
-from viscofric.readers.printed import LARGEST_FACTOR, decimal_comma
+from viscofric.readers.source import LARGEST_FACTOR, decimal_comma
 
 if TYPE_CHECKING:
     from viscofric.readers.source import Source

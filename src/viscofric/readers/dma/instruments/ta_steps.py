@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.readers.source import COMMA_NUMBER, decimal_comma
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -106,3 +112,96 @@ def roles(names: Sequence[str]) -> dict[str, int]:
             if pattern.fullmatch(plain):
                 places.setdefault(role, place)
     return places
+
+
+_NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\s*")
+
+
+@dataclass
+class Table:
+    """One step as printed.
+
+    Parameters
+    ----------
+    name : str
+        Of the step.
+    names, units : list of str
+        Of the columns; there may be more of the one than of the other.
+    rows : list of (int, list of str)
+        Line of the file, counted from 1, and cells; a row may be shorter than the list of names.
+    """
+
+    name: str
+    names: list[str] = field(default_factory=list)
+    units: list[str] = field(default_factory=list)
+    rows: list[tuple[int, list[str]]] = field(default_factory=list)
+
+
+def steps_of(path: str, tables: Sequence[Table], also: Mapping[str, str] | None = None) -> list[Step]:
+    """Turn tables of text into steps of numbers.
+
+    Parameters
+    ----------
+    path : str
+        The file, for errors.
+    tables : sequence of Table
+        All of the file, so that one decimal mark holds for all.
+    also : dict, optional
+        Roles of further names of columns, as `viscofric.readers.dma.instruments.ta_steps.roles` does not know them.
+
+    Raises
+    ------
+    DataFileError
+        If a row has more cells than its table has columns, or decimals are written in two ways.
+    """
+    found = []
+    for table in tables:
+        places = roles([(also or {}).get(name.strip().lower(), name) for name in table.names])
+        if "storage modulus" in places:
+            _insist_on_columns(path, table)
+        found.append((table, places))
+    comma = _decimal_comma(path, found)
+    return [_step(table, places, comma) for table, places in found]
+
+
+def _insist_on_columns(path: str, table: Table) -> None:
+    """Refuse rows that are longer than their header: columns and names no longer belong together."""
+    columns = max(len(table.names), len(table.units))
+    for line, cells in table.rows:
+        if len(cells) > columns and any(cell.strip() for cell in cells[columns:]):
+            problem = f"the row has {len(cells)} cells where step {table.name!r} names {columns} columns."
+            raise DataFileError(path, problem, line)
+
+
+def _decimal_comma(path: str, found: Sequence[tuple[Table, dict[str, int]]]) -> bool:
+    numbers = [
+        (cells[place], line)
+        for table, places in found
+        for line, cells in table.rows
+        for place in places.values()
+        if place < len(cells)
+    ]
+    comma = next((line for cell, line in numbers if COMMA_NUMBER.fullmatch(cell)), None)
+    point = next((line for cell, line in numbers if "." in cell), None)
+    if comma and point:
+        problem = f"decimals have a comma here and a point in line {point}; write all of them in one way."
+        raise DataFileError(path, problem, comma)
+    return decimal_comma(path, numbers)
+
+
+def _step(table: Table, places: Mapping[str, int], comma: bool) -> Step:
+    signals = {}
+    for role, place in places.items():
+        values = np.array([_number(cells[place] if place < len(cells) else "", comma) for _, cells in table.rows])
+        unit = table.units[place].strip() if place < len(table.units) else ""
+        signals[role] = Signal(table.names[place].strip(), unit, values.astype(float))
+    return Step(table.name, signals, tuple(f"line {line}" for line, _ in table.rows))
+
+
+def _number(cell: str, comma: bool) -> float:
+    """Return a finite number, or NaN; ``inf``, ``nan`` and ``1_000`` are no numbers of an instrument."""
+    plain = cell.replace("−", "-")
+    if comma:
+        plain = plain.replace(",", ".")
+    number = float(plain) if _NUMBER.fullmatch(plain) else math.nan
+    return number if math.isfinite(number) else math.nan

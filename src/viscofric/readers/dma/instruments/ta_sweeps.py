@@ -11,11 +11,11 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, setting
-from viscofric.readers.dma.agreement import insist_on_agreement
-from viscofric.readers.dma.deformation import said_by_columns
+from viscofric.readers.dma.checks import insist_on_agreement
 from viscofric.readers.dma.instruments.ta_steps import ROLES, roles
+from viscofric.readers.dma.names import said_by_columns
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.printed import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
+from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def readings_of(
     steps : sequence of Step
         All of them, in the order of the file.
     tools : pairs of str
-        What the header says of the tool; see `viscofric.readers.dma.deformation.tool_says`.
+        What the header says of the tool; see `viscofric.readers.dma.names.tool_says`.
     notes : sequence of str
         What was doubtful before.
 

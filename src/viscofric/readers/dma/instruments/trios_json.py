@@ -62,7 +62,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all frequency sweeps of an export; see `viscofric.readers.dma.formats.Format`.
+    """Read all frequency sweeps of an export; see `viscofric.readers.dma.read.Format`.
 
     Raises
     ------

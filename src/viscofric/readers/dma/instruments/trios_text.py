@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
+from viscofric.readers.dma.instruments.ta_steps import Table, steps_of
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all frequency sweeps of an export; see `viscofric.readers.dma.formats.Format`.
+    """Read all frequency sweeps of an export; see `viscofric.readers.dma.read.Format`.
 
     Raises
     ------

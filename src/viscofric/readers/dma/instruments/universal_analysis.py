@@ -20,8 +20,7 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.files import decoded
 from viscofric.notes import Note
-from viscofric.readers.dma.instruments.ta_cells import Table, steps_of
-from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
+from viscofric.readers.dma.instruments.ta_steps import Signal, Step, Table, roles, steps_of
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
 
 if TYPE_CHECKING:
@@ -52,7 +51,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all points of a file that oscillate; see `viscofric.readers.dma.formats.Format`.
+    """Read all points of a file that oscillate; see `viscofric.readers.dma.read.Format`.
 
     Raises
     ------

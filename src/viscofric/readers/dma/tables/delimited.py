@@ -8,23 +8,131 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma.deformation import tools_in
+from viscofric.notes import Remedy
+from viscofric.readers.dma.names import quantity, tools_in
 from viscofric.readers.dma.tables.dma_table import read_points
-from viscofric.readers.dma.tables.layout import (
-    DEEPEST_HEADER,
-    header_row,
-    insist_on_moduli,
-    is_number,
-    quantities,
-    table_under,
-)
-from viscofric.readers.table import split_cells, text_lines
+from viscofric.readers.table import Column, Table, heading, make_table, split_cells, text_lines
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    #: Cells of one row, with its number in the file.
+    NumberedRow = tuple[int, Sequence[str]]
     from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.dma.tables.layout import NumberedRow
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
+
+
+#: A table that begins further down is none that a person or an instrument wrote.
+DEEPEST_HEADER = 300
+_MODULI = {"storage modulus", "loss modulus", "complex modulus"}
+_FREQUENCIES = {"frequency", "angular frequency", "reduced frequency", "reduced angular frequency"}
+
+
+def header_row(rows: Sequence[NumberedRow]) -> int | None:
+    """Return which row names the columns of a DMA table, None if no row does.
+
+    It is the first that names a frequency and a modulus; without such a row, the first that names two
+    quantities of `viscofric.readers.dma.names`, or a traction: that a column is missing is said later.
+    """
+    second_best = None
+    for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
+        found = quantities(cells)
+        if found & _MODULI and found & _FREQUENCIES:
+            return place
+        if second_best is None and (len(found) > 1 or any("traction" in cell.lower() for cell in cells[1:])):
+            second_best = place
+    return second_best
+
+
+def insist_on_moduli(path: str, cells: Sequence[str]) -> None:
+    """Raise `DataFileError` if a header is that of traction runs."""
+    if not quantities(cells) & _MODULI and any("traction" in cell.lower() for cell in cells):
+        raise DataFileError(
+            path,
+            "this is a table of traction runs, not of DMA sweeps",
+            code="traction-runs",
+            remedy=Remedy(
+                "; use read_mtm, or name it as mtm under [measurement] of a run file.",
+                "; viscofric measure reads it, and as mtm under [measurement] a run file.",
+                "; name it as mtm under [measurement].",
+                "; drop it under “Measurement”.",
+                "material.dma",
+            ),
+        )
+
+
+def quantities(cells: Sequence[str]) -> set[str]:
+    """Return what the cells of one row name, in the words of `viscofric.readers.dma.names.QUANTITIES`."""
+    found = (quantity(heading(cell).name) for cell in cells if 0 < len(cell) < 100)
+    return {what for what in found if what is not None}
+
+
+def table_under(path: str, rows: Sequence[NumberedRow], header: int, *, comma_is_free: bool = True) -> Table:
+    """Return the table under a header.
+
+    Parameters
+    ----------
+    path : str
+        Named in errors.
+    rows : list of (int, list of str)
+        All rows that are not blank, each with its number in the file.
+    header : int
+        Which of them is the header, see `header_row`.
+    comma_is_free : bool
+        Whether a comma may stand for the decimal point.
+
+    Raises
+    ------
+    DataFileError
+        If rows of numbers stand above the header, there is none below it, or one is not as long as the header.
+    """
+    _insist_on_text(path, rows[:header])
+    names = list(rows[header][1])
+    while names and not names[-1].strip():
+        names.pop()
+    columns = tuple(heading(cell) for cell in names)
+    body = list(rows[header + 1 :])
+    if body and _is_row_of_units(columns, body[0][1]):
+        units = body.pop(0)[1]
+        columns = tuple(
+            column if column.unit else replace(column, unit=_unit(cell))
+            for column, cell in zip(columns, [*units, *[""] * len(columns)], strict=False)
+        )
+    repeated = [list(rows[header][1])]  # tables put one below the other repeat their header
+    table = make_table(
+        path, columns, [row for row in body if list(row[1]) not in repeated], comma_is_free=comma_is_free
+    )
+    return replace(table, tools=tuple(tools_in(cells for _, cells in rows[:header])))
+
+
+def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
+    for number, cells in above:
+        if sum(is_number(cell) for cell in cells) > 2:
+            raise DataFileError(path, "a row of numbers stands above the header; put the header first.", number)
+
+
+def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
+    """Return whether a row under headings without units gives them."""
+    known = [place for place, column in enumerate(columns) if quantity(column.name)]
+    if any(columns[place].unit for place in known) or any(is_number(cell) for cell in cells):
+        return False
+    return len(cells) <= len(columns) + 1 and any(_unit(cells[place]) for place in known if place < len(cells))
+
+
+def _unit(cell: str) -> str:
+    plain = cell.strip().strip("[]()").strip()
+    return "" if plain in ("-", "–", "1") else plain
+
+
+def is_number(cell: str) -> bool:
+    """Return whether a cell is a number, with a decimal point or comma."""
+    try:
+        float(cell.strip().replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
 
 NAME = "text table (columns separated by commas, semicolons, tabs or blanks)"
 _DELIMITERS = "\t;,"
@@ -33,7 +141,7 @@ _BLANKS = "blanks"
 
 
 def recognises(source: Source) -> bool:
-    """Return whether a line of the text names columns of a DMA table; see `viscofric.readers.dma.tables.layout`."""
+    """Return whether a line of the text names columns of a DMA table; see `viscofric.readers.dma.tables.delimited`."""
     return source.text is not None and _delimiter(text_lines(source.text)) is not None
 
 

@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma.deformation import deformation_of
-from viscofric.readers.dma.names import quantity
+from viscofric.readers.dma.names import deformation_of, quantity
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
-from viscofric.readers.printed import to_rad_per_second, unit_conversion
+from viscofric.readers.source import to_rad_per_second, unit_conversion
 from viscofric.readers.table import heading
 from viscofric.units import CELSIUS_ZERO
 

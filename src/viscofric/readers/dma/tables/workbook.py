@@ -16,16 +16,16 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.files import insist_on_size
 from viscofric.notes import Note
-from viscofric.readers.dma.deformation import tools_in
+from viscofric.readers.dma.names import tools_in
 from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.tables.delimited import DEEPEST_HEADER, header_row, quantities, table_under
 from viscofric.readers.dma.tables.dma_table import read_points
-from viscofric.readers.dma.tables.layout import DEEPEST_HEADER, header_row, quantities, table_under
-from viscofric.readers.printed import decimal_comma
+from viscofric.readers.source import decimal_comma
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.readers.dma.tables.layout import NumberedRow
+    from viscofric.readers.dma.tables.delimited import NumberedRow
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
 

@@ -9,11 +9,12 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.units import celsius
+from viscofric.units import CELSIUS_ZERO, celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Mask
-    from viscofric.readers.dma.points import Points
+    from viscofric.readers.dma.readings import Points
+    from viscofric.readers.table import Table
 
 
 #: A thousand times diamond.
@@ -110,3 +111,101 @@ def _span(points: Points, rows: Indices) -> str:
 def _capital(text: str) -> str:
     """Begin a sentence, but leave the names of files as they are."""
     return text[0].upper() + text[1:] if text.startswith(("line ", "row ", "point ", "sheet ")) else text
+
+
+#: Both printed with two digits or so agree within this (relative),
+PRINTED = 0.05
+#: and a small tan δ within the last of its two decimals.
+LAST_DECIMAL = 0.01
+
+
+def insist_on_agreement(
+    path: str, storage: Array, loss: Array, tangent: Array | None = None, absolute: Array | None = None
+) -> None:
+    """Raise `DataFileError` where most of the printed tan δ or |E*| do not follow from E' and E''.
+
+    Single points may differ: noise about zero, numbers of few digits.
+
+    Parameters
+    ----------
+    path : str
+        Named in errors.
+    storage, loss : (n,) array
+        Of one unit, NaN where missing.
+    tangent, absolute : (n,) array, optional
+        tan δ, and |E*| in the same unit.
+    """
+    used = (storage > 0.0) & (loss > 0.0)
+    for printed, name, formula, slack, follows in (
+        (tangent, "tan δ", "loss over storage modulus", LAST_DECIMAL, loss[used] / storage[used]),
+        (absolute, "|E*|", "√(E'² + E''²)", 0.0, np.hypot(storage[used], loss[used])),
+    ):
+        if printed is None:
+            continue
+        told = printed[used]
+        known = told > 0.0
+        apart = np.abs(told[known] - follows[known]) > PRINTED * follows[known] + slack
+        if 2 * np.count_nonzero(apart) > apart.size:
+            first = int(np.argmax(apart))
+            problem = f"the {name} of {np.count_nonzero(apart)} of {apart.size} points is not {formula}, first "
+            problem += f"{told[known][first]:.4g} where they give {follows[known][first]:.4g}; are columns swapped, or "
+            raise DataFileError(path, problem + "is a unit wrong?")
+
+
+#: Sweeps of a rubber, printed in kelvin, lie within this.
+LIKE_KELVIN = (200.0, 400.0)
+#: No rubber is swept below this many kelvin.
+COLDEST = 150.0
+#: From the thinnest gel to ten times diamond.
+PLAUSIBLE_MODULUS = (1.0, 1e13)  # Pa
+
+
+def doubts(table: Table, places: dict[str, int], temperature: Array, storage_modulus: Array) -> list[str]:
+    """Say what looks like a wrong unit; nothing is changed.
+
+    Parameters
+    ----------
+    table : Table
+        The file.
+    places : dict
+        Its columns by what they hold; temperature and moduli are looked at.
+    temperature : (n,) array
+        As the heading says it, K; NaN where there is none.
+    storage_modulus : (n,) array
+        As the heading says it, Pa; NaN where there is none.
+    """
+    notes = _of_temperature(table, places["temperature"], temperature) if "temperature" in places else []
+    solid = (storage_modulus >= PLAUSIBLE_MODULUS[0]) & (storage_modulus <= PLAUSIBLE_MODULUS[1])
+    # what is not above zero is noise of the instrument, told elsewhere
+    outside = ~solid & (storage_modulus > 0.0)
+    if np.any(outside):
+        row = int(np.argmax(outside))
+        place = next(places[m] for m in ("storage modulus", "loss modulus", "complex modulus") if m in places)
+        notes.append(
+            Note(
+                "implausible-modulus",
+                f"A storage modulus of {storage_modulus[row]:.3g} Pa (line {table.lines[row]}) is not one of a solid; "
+                f"the unit in column {table.columns[place].heading!r} is probably wrong.",
+            )
+        )
+    return notes
+
+
+def _of_temperature(table: Table, place: int, temperature: Array) -> list[str]:
+    known = np.isfinite(temperature)
+    if not known.any():
+        return []
+    printed, heading = table.numbers_or_missing(place)[known], table.columns[place].heading
+    low, high = float(printed.min()), float(printed.max())
+    span = f"The temperatures in column {heading!r} run from {low:g} to {high:g}"
+    in_celsius = np.allclose(temperature[known] - printed, CELSIUS_ZERO, rtol=0.0, atol=1e-6)
+    in_kelvin = np.allclose(temperature[known], printed, rtol=1e-9, atol=0.0)
+    if in_celsius and low >= LIKE_KELVIN[0] and high <= LIKE_KELVIN[1]:
+        return [
+            Note("implausible-temperature", f"{span} and look like kelvin; they were read as °C, as the heading says.")
+        ]
+    if in_kelvin and high < COLDEST:
+        return [
+            Note("implausible-temperature", f"{span} and look like °C; they were read as kelvin, as the heading says.")
+        ]
+    return []
