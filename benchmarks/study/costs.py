@@ -21,7 +21,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.planning import plan_cases
+from viscofric.study.planning.plan import plan_cases
 from viscofric.study.solving import Task, solve
 
 COLUMNS = (

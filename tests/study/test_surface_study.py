@@ -12,7 +12,7 @@ import viscofric as vf
 from viscofric.study import open_results, run_study
 from viscofric.study.cases.surface_case import SurfaceCase
 from viscofric.study.checking import check_study
-from viscofric.study.planning import plan_cases
+from viscofric.study.planning.plan import plan_cases
 from viscofric.study.record import Failure, Record
 from viscofric.study.run_file import parse_study
 from viscofric.study.solving import solve

@@ -20,7 +20,9 @@ from viscofric.study.results import StudyResults, beyond_accuracy, input_hashes,
 from viscofric.study.results_file import save_results
 from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.run_file import parse_study, read_study_text
-from viscofric.study.running import Event, choose_executor, run_plan, silent, study_folder
+from viscofric.study.running import Event, choose_executor, silent
+from viscofric.study.running.folder import study_folder
+from viscofric.study.running.running import run_plan
 from viscofric.study.setting import setting
 from viscofric.study.study_rubber import StudyRubber, all_within, band_columns
 from viscofric.study.surface_words import surface_notes, uncertainty_of

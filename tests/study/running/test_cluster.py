@@ -10,8 +10,10 @@ import pytest
 
 from study.running.tasks import TwoWaves
 from viscofric.errors import InputError
-from viscofric.study.running import Event, Serial, choose_executor, run_plan
+from viscofric.study.running import Event, choose_executor
 from viscofric.study.running.cluster import BatchJobs, Dask
+from viscofric.study.running.executors import Serial
+from viscofric.study.running.running import run_plan
 from viscofric.study.settings_tables import ClusterTable
 from viscofric.study.store import CaseStore
 

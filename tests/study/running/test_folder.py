@@ -14,8 +14,7 @@ import pytest
 
 from viscofric.errors import DataFileError, StudyError
 from viscofric.study.record import Failure
-from viscofric.study.running import study_folder
-from viscofric.study.running.folder import _holder_is_alive
+from viscofric.study.running.folder import _holder_is_alive, study_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 
 HOLD = """
 import sys, pathlib
-from viscofric.study.running import study_folder
+from viscofric.study.running.folder import study_folder
 with study_folder(pathlib.Path(sys.argv[1]), True):
     print("held", flush=True)
     sys.stdin.read()

@@ -11,8 +11,10 @@ import pytest
 from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
 from viscofric.study.record import Failure, Record
-from viscofric.study.running import Event, Processes, Serial, run_plan
+from viscofric.study.running import Event
 from viscofric.study.running import task as doing
+from viscofric.study.running.executors import Processes, Serial
+from viscofric.study.running.running import run_plan
 from viscofric.study.solving import solve
 from viscofric.study.store import CaseStore, Damaged
 

@@ -60,7 +60,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     from viscofric.report.friction_checks import CIRCULAR
     from viscofric.study.execution import tree_of
-    from viscofric.study.running import Serial, run_plan
+    from viscofric.study.running.executors import Serial
+    from viscofric.study.running.running import run_plan
     from viscofric.study.store import CaseStore
     from viscofric.web.jobs.friction_data import texts
     from viscofric.web.jobs.friction_input import friction_curves

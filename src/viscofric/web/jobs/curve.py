@@ -14,7 +14,8 @@ from viscofric.notes import note_of
 from viscofric.study.assumptions import assumption_checks
 from viscofric.study.contacts import Contacts, doubts
 from viscofric.study.record import Failure
-from viscofric.study.running import Serial, run_plan
+from viscofric.study.running.executors import Serial
+from viscofric.study.running.running import run_plan
 from viscofric.study.store import CaseStore
 from viscofric.study.study_rubber import band_columns
 from viscofric.study.surface_words import surface_notes
