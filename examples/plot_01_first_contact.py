@@ -14,7 +14,7 @@ ball's axis, and this lever arm causes the friction force.
 import matplotlib.pyplot as plt
 
 import viscofric as vf
-from viscofric.report.contact_figures import plot_pressure_map, plot_pressure_profile, plot_surface_profile
+from viscofric.report.figures.contact import plot_pressure_map, plot_pressure_profile, plot_surface_profile
 
 rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 ball = vf.Ball(radius="10 mm")

@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.house_style import sequential_looks
+from viscofric.report.figures.style import sequential_looks
 
 rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="1 ms")
 ball = vf.Ball(radius="10 mm")

@@ -15,7 +15,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.contact.reference import hunter_line
-from viscofric.report.house_style import BLUE, VERMILION
+from viscofric.report.figures.style import BLUE, VERMILION
 
 E0, E_inf, tau = "1 MPa", "10 MPa", "1 ms"
 radius, load = "10 mm", "1 N/mm"

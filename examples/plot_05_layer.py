@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.house_style import BLUE, GREEN, GREY
+from viscofric.report.figures.style import BLUE, GREEN, GREY
 
 rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 ball = vf.Ball(radius="10 mm")

@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.house_style import looks
+from viscofric.report.figures.style import looks
 
 rubber = vf.synthetic_fluoroelastomer()
 frequency = np.geomspace(1e-4, 1e12, 400)  # rad/s

@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.house_style import mark_synthetic, temperature_bar
+from viscofric.report.figures.style import mark_synthetic, temperature_bar
 
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 print(sweeps.format, len(sweeps), "isotherms")

@@ -17,7 +17,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.house_style import mark_synthetic
+from viscofric.report.figures.style import mark_synthetic
 
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 fit = vf.superpose(sweeps, reference="30 degC")

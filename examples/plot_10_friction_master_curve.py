@@ -18,7 +18,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.house_style import mark_synthetic
+from viscofric.report.figures.style import mark_synthetic
 
 example = files("viscofric") / "example"
 measured = vf.separate(vf.read_mtm(example / "mtm.csv"))

@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.house_style import BLUE, VERMILION
+from viscofric.report.figures.style import BLUE, VERMILION
 
 rubber = vf.synthetic_fluoroelastomer()
 ball = vf.Ball(radius="20 mm")

@@ -15,7 +15,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.house_style import mark_synthetic
+from viscofric.report.figures.style import mark_synthetic
 
 rubber = vf.synthetic_fluoroelastomer()
 exact = vf.predict_friction(

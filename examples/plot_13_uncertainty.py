@@ -18,7 +18,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.house_style import BLUE, GREY, VERMILION, mark_synthetic
+from viscofric.report.figures.style import BLUE, GREY, VERMILION, mark_synthetic
 
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 few = vf.IsothermalSweeps(tuple(one for one in sweeps.isotherms if 290.0 < one.temperature < 400.0), "tension")

@@ -15,7 +15,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.house_style import mark_synthetic
+from viscofric.report.figures.style import mark_synthetic
 
 planted = vf.synthetic_fluoroelastomer()
 ball = vf.Ball(radius="15 mm")

@@ -13,7 +13,7 @@ own frequency, short waves at high ones, and contributes to friction.
 import matplotlib.pyplot as plt
 
 import viscofric as vf
-from viscofric.report.surface_figures import plot_contact_map, plot_friction_by_wavelength, plot_topography
+from viscofric.report.figures.rough import plot_contact_map, plot_friction_by_wavelength, plot_topography
 
 rubber = vf.synthetic_fluoroelastomer()
 track = vf.self_affine(0.8, shape=(128, 128), spacing="8 um", shortest="64 um", rolloff="250 um", rms_slope=0.2, seed=7)

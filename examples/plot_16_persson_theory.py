@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.surface_figures import plot_rough_friction
+from viscofric.report.figures.rough import plot_rough_friction
 
 rubber = vf.synthetic_fluoroelastomer()
 waves = {"shortest": "64 um", "rolloff": "250 um", "rms_slope": 0.2}

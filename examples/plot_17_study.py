@@ -18,7 +18,7 @@ from tempfile import TemporaryDirectory
 import matplotlib.pyplot as plt
 
 import viscofric as vf
-from viscofric.report.house_style import looks
+from viscofric.report.figures.style import looks
 
 RUN_FILE = """
 title = "Two balls under two loads"

@@ -12,8 +12,8 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.house_style import new_figure
-from viscofric.report.pictures import save_picture
+from viscofric.report.figures.saving import save_picture
+from viscofric.report.figures.style import new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

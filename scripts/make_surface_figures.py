@@ -10,15 +10,15 @@ from pathlib import Path
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.house_style import new_figure
-from viscofric.report.pictures import save_picture
-from viscofric.report.surface_figures import (
+from viscofric.report.figures.rough import (
     plot_friction_by_cut_off,
     plot_friction_by_wavelength,
     plot_power_spectra,
     plot_rough_friction,
     rough_contact_figure,
 )
+from viscofric.report.figures.saving import save_picture
+from viscofric.report.figures.style import new_figure
 
 FIGURES = Path(__file__).resolve().parent.parent / "docs" / "figures"
 POINTS, SPACING, SHORTEST = 256, 4e-6, 32e-6

@@ -344,10 +344,10 @@ FOREIGN_TEXT = (
     "viscofric.study.workbook",
     "viscofric.study.quantities",
     "viscofric.study.surface_steps",
-    "viscofric.report.dark",
+    "viscofric.report.figures.saving",
     "viscofric.report.html",
-    "viscofric.report.numbers",  # true minus signs
-    "viscofric.report.question",  # no line breaks before units
+    "viscofric.report.texts.numbers",  # true minus signs
+    "viscofric.report.texts.study",  # no line breaks before units
     "viscofric.web.access",
     "viscofric.web.study_text",
     "viscofric.web.workspace",

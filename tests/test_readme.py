@@ -19,7 +19,7 @@ import pytest
 from click.testing import CliRunner
 
 from viscofric.cli import main
-from viscofric.report import drawing
+from viscofric.report.figures import saving
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -130,7 +130,7 @@ def run_command(words: list[str], folder: Path) -> str:
 
 def draw_less(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave the images of reports out, most of the time of a quick study: tests of the report look at them."""
-    monkeypatch.setattr(drawing, "_image", lambda figure, form: form.encode())
+    monkeypatch.setattr(saving, "_encoded", lambda figure, form: form.encode())
 
 
 def check_study(block: Block, folder: Path) -> None:

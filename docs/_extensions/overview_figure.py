@@ -8,10 +8,10 @@ from page_parts import SOURCE, digest, is_made_of, made_of, write
 from verification_pages import drawn
 
 import viscofric
-from viscofric.report.contact_figures import plot_pressure_map
-from viscofric.report.friction_figures import plot_friction_curves
-from viscofric.report.house_style import STYLE, mark_synthetic, new_figure
-from viscofric.report.rubber_figures import plot_master_curve
+from viscofric.report.figures.contact import plot_pressure_map
+from viscofric.report.figures.friction import plot_friction_curves
+from viscofric.report.figures.rubber import plot_master_curve
+from viscofric.report.figures.style import STYLE, mark_synthetic, new_figure
 
 _DEPENDS_ON = ("contact", "example", "friction", "readers", "report", "rheology")
 _ACCURACY = 1e-2

@@ -9,8 +9,8 @@ import matplotlib
 import numpy as np
 from page_parts import digest, is_made_of, made_of, table, write
 
-from viscofric.report.house_style import STYLE, new_figure
-from viscofric.report.verification_figures import plot_errors, plot_hunter, plot_orders, plot_windows
+from viscofric.report.figures.style import STYLE, new_figure
+from viscofric.report.figures.verification import plot_errors, plot_hunter, plot_orders, plot_windows
 from viscofric.verification import CHECKS, Comparison, Outcome, run_checks
 from viscofric.verification.line import ACCURACY, MEMORY_LENGTHS, MODULUS_RATIOS, hunter
 from viscofric.verification.model_problems import SLOPE

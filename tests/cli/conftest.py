@@ -17,5 +17,5 @@ def unrendered() -> Iterator[None]:
     Tests of the report look at the images, and the commands of README.md write them.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("viscofric.report.drawing._image", lambda figure, form: form.encode())
+        patch.setattr("viscofric.report.figures.saving._encoded", lambda figure, form: form.encode())
         yield

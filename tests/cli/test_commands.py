@@ -311,7 +311,7 @@ def test_signals_end_a_run_with_one_sentence(tmp_path: Path, sent: signal.Signal
     assert "Aborted" not in errors
 
 
-@pytest.mark.parametrize("place", ["viscofric.cli.report", "viscofric.report.drawing"])
+@pytest.mark.parametrize("place", ["viscofric.cli.report", "viscofric.report.figures.study"])
 def test_interruption_while_modules_load_is_one_sentence(finished: Path, tmp_path: Path, place: str) -> None:
     (tmp_path / "interrupts.py").write_text(
         "import sys\n"

@@ -114,7 +114,7 @@ def test_the_size_of_a_contact_is_an_anchor_too(option: str, text: str, name: st
 def test_tables_tell_what_is_identified_and_what_not() -> None:
     from types import SimpleNamespace
 
-    from viscofric.report.identification_summary import family_lines, modulus_lines
+    from viscofric.report.texts.inverse import family_lines, modulus_lines
 
     samples = SimpleNamespace(
         modulus_band=lambda omega: SimpleNamespace(

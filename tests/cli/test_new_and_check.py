@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 from viscofric.cli import main
 from viscofric.cli.check import duration
 from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
-from viscofric.report.checks import all_checks
+from viscofric.report.texts.checks import all_checks
 from viscofric.study import open_results
 
 if TYPE_CHECKING:

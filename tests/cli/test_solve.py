@@ -18,8 +18,9 @@ from click.testing import CliRunner, Result
 import viscofric as vf
 from viscofric.cli import main
 from viscofric.contact import steady
-from viscofric.report.contact_figures import contact_figure, draw_contact
-from viscofric.report.contact_summary import UNITS
+from viscofric.report.figures.contact import contact_figure
+from viscofric.report.figures.saving import save_picture
+from viscofric.report.texts.contact import UNITS
 from viscofric.rheology.spectra.retardation import SpectrumFit
 
 RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
@@ -291,9 +292,8 @@ def test_pictures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
     done = call(*RUBBER, *BALL, "--picture", tmp_path / "a.svg")
     assert done.exit_code == 0, done.output
     assert f"picture  {tmp_path / 'a.svg'}" in done.stdout
-    draw_contact(
-        tmp_path / "b.svg", expected(), vf.Ball("10 mm"), title="Ball of radius 10 mm on standard linear solid"
-    )
+    title = "Ball of radius 10 mm on standard linear solid"
+    save_picture(tmp_path / "b.svg", lambda: contact_figure(expected(), vf.Ball("10 mm"), title), name="contact")
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
@@ -306,8 +306,8 @@ def test_pictures_of_line_contacts_have_no_map() -> None:
 
 
 def test_a_picture_turns_the_indenter_with_its_motion() -> None:
-    from viscofric.report.contact_figures import plot_surface_profile
-    from viscofric.report.house_style import new_figure
+    from viscofric.report.figures.contact import plot_surface_profile
+    from viscofric.report.figures.style import new_figure
 
     rubber, ellipsoid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms"), vf.Ellipsoid("10 mm", "30 mm")
     solution = vf.solve_steady(rubber, ellipsoid, speed="0.5 m/s", load="1 N", direction=(1, 2), accuracy=1e-2)

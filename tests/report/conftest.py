@@ -13,7 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from viscofric import report
-from viscofric.report import drawing
+from viscofric.report.figures import saving
+from viscofric.report.figures import study as drawing
 from viscofric.rheology.cards.native import plain
 from viscofric.rheology.shifts.laws import WLF
 
@@ -255,7 +256,7 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> None:
         points += [np.asarray(markers.get_offsets()) for markers in figure.findobj(PathCollection)]
         return f"{form} {texts} {[array.tolist() for array in points]}".encode()
 
-    monkeypatch.setattr(drawing, "_image", words)
+    monkeypatch.setattr(saving, "_encoded", words)
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from viscofric.report.checks import all_checks
+from viscofric.report.texts.checks import all_checks
 
 if TYPE_CHECKING:
     from collections.abc import Callable

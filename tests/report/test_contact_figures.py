@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.report.contact_figures import contact_figure
+from viscofric.report.figures.contact import contact_figure
 
 
 @pytest.mark.parametrize("degrees", [0.0, 30.0, 90.0, 200.0])

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from viscofric.report.dark import adaptive
+from viscofric.report.figures.saving import adaptive
 
 
 def drawn(colour: str) -> bytes:

@@ -10,10 +10,8 @@ import pytest
 
 from viscofric.notes import Note, records
 from viscofric.report.captions import captions
-from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
-from viscofric.report.question import what_was_asked
-from viscofric.report.tables import detail_tables
-from viscofric.report.words import key_numbers
+from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
+from viscofric.report.texts.study import key_numbers, what_was_asked
 
 if TYPE_CHECKING:
     from collections.abc import Callable

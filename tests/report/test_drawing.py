@@ -12,7 +12,8 @@ import pytest
 
 from viscofric import report
 from viscofric.errors import DataFileError
-from viscofric.report import drawing
+from viscofric.report.figures import saving
+from viscofric.report.figures import study as drawing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -81,7 +82,7 @@ def test_figures_of_synthetic_data_say_so(
         seen.append([text.get_text() for axes in figure.axes for text in axes.texts])  # type: ignore[attr-defined]
         return b""
 
-    monkeypatch.setattr(drawing, "_image", words)
+    monkeypatch.setattr(saving, "_encoded", words)
     drawing.figure_images(make_tree(data_origin=origin), ("svg",))
     assert len(seen) == len(NAMES)
     assert all(("synthetic data" in texts) == said for texts in seen)
@@ -97,7 +98,7 @@ def test_legends_of_synthetic_data_call_nothing_measured(tree: xr.DataTree, monk
         )
         return b""
 
-    monkeypatch.setattr(drawing, "_image", read)
+    monkeypatch.setattr(saving, "_encoded", read)
     drawing.figure_images(tree, ("svg",))
     assert any("synthetic ± scatter" in text for text in words)
     assert not any("measured" in text for text in words)

@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 
 import viscofric as vf
-from viscofric.report.contacts import shown_contacts, trails
-from viscofric.report.convergence_figures import convergence_figure
-from viscofric.report.field_figures import contacts_figure, trail_figure
+from viscofric.report.figures.contacts import contacts_figure, trail_figure
+from viscofric.report.figures.convergence import convergence_figure
+from viscofric.report.figures.stored_contacts import shown_contacts, trails
 from viscofric.report.sweeps import cases_of
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 
 from viscofric import report
-from viscofric.report import house_style
-from viscofric.report.figure_data import law_of
+from viscofric.report.data import law_of
+from viscofric.report.figures import style
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -147,7 +147,7 @@ def test_one_decade_of_speeds_has_readable_ticks(axes: Axes, tree: xr.DataTree) 
 def test_short_speed_ranges_have_a_few_plain_ticks(axes: Axes, low: float, high: float) -> None:
     axes.set_xscale("log")
     axes.set_xlim(low, high)
-    house_style.speed_ticks(axes.xaxis)
+    style.speed_ticks(axes.xaxis)
     ticks = labels_of_ticks(axes)
     assert 3 <= len(ticks) <= 10
     assert all(low <= float(tick) <= high for tick in ticks)
@@ -196,7 +196,7 @@ def test_isotherms_show_every_sweep(axes: Axes, tree: xr.DataTree, modulus: Any)
 
 
 def test_many_temperatures_still_differ() -> None:
-    looks = house_style.looks(26)
+    looks = style.looks(26)
     assert len({str(look) for look in looks}) == 26
 
 

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.friction_pictures import draw_friction
+from viscofric.report.figures.friction import friction_figure
+from viscofric.report.figures.saving import save_picture
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -158,7 +159,7 @@ def test_smooth_line_of_a_master_curve_bridges_no_gap(axes: Axes) -> None:
 
 def test_picture_is_the_same_bytes_every_time(tmp_path: Path) -> None:
     for name in ("a.svg", "b.svg"):
-        draw_friction(tmp_path / name, curves(coulomb=False), synthetic=True)
+        save_picture(tmp_path / name, lambda: friction_figure(curves(coulomb=False)), name="friction", synthetic=True)
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 

@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from viscofric.report import drawing
 from viscofric.report.captions import captions
-from viscofric.report.checks import all_checks
-from viscofric.report.friction_tables import agreement_table
-from viscofric.report.question import what_was_asked
-from viscofric.report.tables import detail_tables
-from viscofric.report.words import key_numbers
+from viscofric.report.figures import saving
+from viscofric.report.figures import study as drawing
+from viscofric.report.texts.checks import all_checks
+from viscofric.report.texts.friction_tables import agreement_table, detail_tables
+from viscofric.report.texts.study import key_numbers, what_was_asked
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -95,7 +94,7 @@ def test_shift_factors_of_friction_are_drawn_beside_those_that_are_known(
         drawn.update({str(container.get_label()): len(container.lines[0].get_xdata()) for container in axes.containers})
         return b""
 
-    monkeypatch.setattr(drawing, "_image", points)
+    monkeypatch.setattr(saving, "_encoded", points)
     name = "friction_shift_factors"
     monkeypatch.setattr(drawing, "FRICTION_FIGURES", {name: drawing.FRICTION_FIGURES[name]})
     monkeypatch.setattr(drawing, "RUBBER_FIGURES", {})

@@ -15,9 +15,8 @@ import pytest
 from viscofric import report
 from viscofric.errors import DataFileError
 from viscofric.report import html
-from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
 from viscofric.report.results import table as table_of
-from viscofric.report.tables import detail_tables
+from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
 
 if TYPE_CHECKING:
     from collections.abc import Callable

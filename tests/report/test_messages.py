@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from viscofric.notes import Note
-from viscofric.report.numbers import typeset
-from viscofric.report.words import grouped_failures
+from viscofric.report.texts.numbers import typeset
+from viscofric.report.texts.study import grouped_failures
 
 
 def test_only_minus_signs_become_minus_signs() -> None:

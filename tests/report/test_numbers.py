@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from viscofric.report import numbers
+from viscofric.report.texts import numbers
 
 NBSP = "\N{NO-BREAK SPACE}"
 

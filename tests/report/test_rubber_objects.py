@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 import viscofric as vf
 from viscofric.data import IsothermalSweeps
 from viscofric.errors import InputError
-from viscofric.report import consistency_figures, house_style, rubber_figures, shift_figures, spectrum_figures
-from viscofric.report.figure_data import ModulusBand, moduli_of_sweeps, modulus_band
+from viscofric.report.data import ModulusBand, moduli_of_sweeps, modulus_band
+from viscofric.report.figures import rubber, shift_factors, style, superposition
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 from viscofric.rheology.superposition.result import check_superposition
 
@@ -53,8 +53,8 @@ def spectrum(fit: vf.Superposition) -> vf.RetardationSpectrum:
 @pytest.fixture
 def axes() -> Iterator[Axes]:
     """Axes one column wide; whatever is drawn on them must draw without a warning."""
-    with matplotlib.rc_context({**house_style.STYLE, **house_style.COLUMN}):
-        figure = house_style.new_figure(85 / 25.4, 70 / 25.4)
+    with matplotlib.rc_context({**style.STYLE, **style.COLUMN}):
+        figure = style.new_figure(85 / 25.4, 70 / 25.4)
         yield figure.subplots()
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -87,7 +87,7 @@ def overlaps_data(axes: Axes) -> bool:
 
 def test_sweeps_as_read_are_drawn_in_their_own_modulus(axes: Axes) -> None:
     sweeps = made_sweeps(deformation="shear")
-    scale = rubber_figures.plot_isotherms(axes, sweeps, "loss")
+    scale = rubber.plot_isotherms(axes, sweeps, "loss")
     assert axes.get_ylabel() == "loss modulus $G''$ (MPa)"
     assert axes.get_xlabel() == r"angular frequency $\omega$ (rad/s)"
     assert len(axes.lines) == 6
@@ -97,18 +97,18 @@ def test_sweeps_as_read_are_drawn_in_their_own_modulus(axes: Axes) -> None:
 
 
 def test_isotherms_that_were_joined_are_drawn_as_tensile(axes: Axes, fit: vf.Superposition) -> None:
-    rubber_figures.plot_isotherms(axes, fit)
+    rubber.plot_isotherms(axes, fit)
     assert "$E'$" in axes.get_ylabel()
     np.testing.assert_allclose(axes.lines[0].get_ydata(), fit.isotherms[0].storage_modulus / 1e6)
 
 
-@pytest.mark.parametrize("draw", [rubber_figures.plot_isotherms, consistency_figures.plot_wicket])
+@pytest.mark.parametrize("draw", [rubber.plot_isotherms, superposition.plot_wicket])
 def test_one_isotherm_has_a_colour_bar_and_readable_axes(axes: Axes, draw: Any) -> None:
     scale = draw(axes, made_sweeps([20.0]))
     low, high = scale.get_clim()
     assert low < 20.0 < high
     assert len(axes.lines) == 1
-    house_style.temperature_bar(axes.figure, scale, [axes])
+    style.temperature_bar(axes.figure, scale, [axes])
     assert 2 <= len(labels_of(axes.xaxis)) <= 8
     assert 2 <= len(labels_of(axes.yaxis)) <= 8
 
@@ -116,10 +116,10 @@ def test_one_isotherm_has_a_colour_bar_and_readable_axes(axes: Axes, draw: Any) 
 @pytest.mark.parametrize(
     "draw",
     [
-        rubber_figures.plot_isotherms,
-        consistency_figures.plot_wicket,
-        consistency_figures.plot_cole_cole,
-        consistency_figures.plot_van_gurp_palmen,
+        rubber.plot_isotherms,
+        superposition.plot_wicket,
+        superposition.plot_cole_cole,
+        superposition.plot_van_gurp_palmen,
     ],
 )
 def test_no_isotherm_at_all_gives_empty_axes(axes: Axes, draw: Any) -> None:
@@ -131,9 +131,9 @@ def test_consistency_plots_leave_frequency_out(axes: Axes) -> None:
     sweeps = made_sweeps()
     modulus = vf.synthetic_fluoroelastomer().complex_modulus(sweeps.isotherms[3].angular_frequency, 313.15)
     for draw, x, y in (
-        (consistency_figures.plot_wicket, modulus.real / 1e6, modulus.imag / modulus.real),
-        (consistency_figures.plot_cole_cole, modulus.real / 1e6, modulus.imag / 1e6),
-        (consistency_figures.plot_van_gurp_palmen, abs(modulus) / 1e6, np.angle(modulus, deg=True)),
+        (superposition.plot_wicket, modulus.real / 1e6, modulus.imag / modulus.real),
+        (superposition.plot_cole_cole, modulus.real / 1e6, modulus.imag / 1e6),
+        (superposition.plot_van_gurp_palmen, abs(modulus) / 1e6, np.angle(modulus, deg=True)),
     ):
         axes.clear()
         draw(axes, sweeps)
@@ -149,7 +149,7 @@ def test_check_is_drawn_without_its_vertical_shift(axes: Axes) -> None:
     sweeps = made_sweeps()
     fit = vf.superpose(sweeps, REFERENCE, vertical="density")
     check = check_superposition(fit)
-    consistency_figures.plot_booij_thoone_palmen(axes, check)
+    superposition.plot_booij_thoone_palmen(axes, check)
     assert len(axes.lines) == 6
     coldest = fit.isotherms[0]
     magnitude = np.hypot(coldest.storage_modulus, coldest.loss_modulus) / fit.vertical_shift(coldest.temperature) / 1e6
@@ -160,7 +160,7 @@ def test_check_is_drawn_without_its_vertical_shift(axes: Axes) -> None:
 
 def test_causality_is_drawn_as_decades_with_the_ends_left_open(axes: Axes, fit: vf.Superposition) -> None:
     agreement = check_superposition(fit).kramers_kronig
-    consistency_figures.plot_kramers_kronig(axes, agreement)
+    superposition.plot_kramers_kronig(axes, agreement)
     inner, ends = axes.lines[:2]
     np.testing.assert_allclose(inner.get_ydata(), agreement.storage_deviation[agreement.judged])
     np.testing.assert_allclose(ends.get_xdata(), agreement.angular_frequency[~agreement.judged])
@@ -173,7 +173,7 @@ def test_causality_is_drawn_as_decades_with_the_ends_left_open(axes: Axes, fit: 
 def test_master_curve_and_spectrum_are_drawn_with_room_for_both(
     axes: Axes, fit: vf.Superposition, spectrum: vf.RetardationSpectrum
 ) -> None:
-    rubber_figures.plot_master_curve(axes, fit, spectrum)
+    rubber.plot_master_curve(axes, fit, spectrum)
     shown = {str(line.get_label()): line for line in axes.lines}
     np.testing.assert_allclose(shown["$E'$ measured"].get_ydata(), fit.master_curve.storage_modulus / 1e6)
     line = np.asarray(shown["$E''$ fitted"].get_xdata())
@@ -185,14 +185,14 @@ def test_master_curve_and_spectrum_are_drawn_with_room_for_both(
 
 
 def test_master_curve_without_a_spectrum_shows_points_only(axes: Axes, fit: vf.Superposition) -> None:
-    rubber_figures.plot_master_curve(axes, fit.master_curve)
+    rubber.plot_master_curve(axes, fit.master_curve)
     assert [str(line.get_label()) for line in axes.lines] == ["$E'$ measured", "$E''$ measured"]
 
 
 def test_band_of_moduli_is_filled_between_its_bounds(axes: Axes, fit: vf.Superposition) -> None:
     omega = np.geomspace(1.0, 100.0, 5)
     band = ModulusBand(omega, np.array([[2e6] * 5, [3e6] * 5]), np.array([[1e5] * 5, [4e5] * 5]))
-    rubber_figures.plot_master_curve(axes, fit, band=band)
+    rubber.plot_master_curve(axes, fit, band=band)
     storage, loss = bands(axes)
     assert heights_at(storage, 1.0) == pytest.approx((2.0, 3.0))
     assert heights_at(loss, 100.0) == pytest.approx((0.1, 0.4))
@@ -203,7 +203,7 @@ def test_samples_give_the_band_that_they_state(axes: Axes, fit: vf.Superposition
     from viscofric.rheology.uncertainty.sampling import sample_materials
 
     samples = sample_materials(fit, spectrum, samples=20)
-    rubber_figures.plot_master_curve(axes, fit, spectrum, band=samples)
+    rubber.plot_master_curve(axes, fit, spectrum, band=samples)
     omega = np.asarray(axes.lines[1].get_xdata())
     stated = samples.modulus_band(omega)
     storage, loss = bands(axes)
@@ -223,7 +223,7 @@ def test_band_of_other_frequencies_is_refused() -> None:
 
 
 def test_residuals_are_decades_of_measured_over_fit(axes: Axes, fit: vf.Superposition, spectrum: Any) -> None:
-    rubber_figures.plot_residuals(axes, fit, spectrum)
+    rubber.plot_residuals(axes, fit, spectrum)
     curve = fit.master_curve
     storage, loss = axes.lines[:2]
     omega = curve.angular_frequency
@@ -237,7 +237,7 @@ def test_residuals_are_decades_of_measured_over_fit(axes: Axes, fit: vf.Superpos
 
 def test_law_is_drawn_with_its_stated_uncertainty(axes: Axes, fit: vf.Superposition) -> None:
     law = fit.shift_factors.law("wlf")
-    shift_figures.plot_shift_factors(axes, fit, "wlf")
+    shift_factors.plot_shift_factors(axes, fit, "wlf")
     (line,) = [line for line in axes.lines if str(line.get_label()).startswith("WLF")]
     warm = np.asarray(line.get_xdata())
     np.testing.assert_allclose(np.log10(line.get_ydata()), law.log10(warm + 273.15), atol=1e-9)
@@ -250,7 +250,7 @@ def test_law_is_drawn_with_its_stated_uncertainty(axes: Axes, fit: vf.Superposit
 
 def test_law_that_was_typed_in_has_no_band_and_stops_before_its_pole(axes: Axes) -> None:
     factors = vf.ShiftFactors([273.15, 303.15, 333.15], [8.0, 0.0, -3.0], REFERENCE)
-    shift_figures.plot_shift_factors(axes, factors, vf.WLF(10.0, 20.0, REFERENCE))
+    shift_factors.plot_shift_factors(axes, factors, vf.WLF(10.0, 20.0, REFERENCE))
     assert not bands(axes)
     (line,) = [line for line in axes.lines if str(line.get_label()).startswith("WLF")]
     assert np.min(np.asarray(line.get_xdata())) > 10.0  # 30 °C less C2
@@ -259,7 +259,7 @@ def test_law_that_was_typed_in_has_no_band_and_stops_before_its_pole(axes: Axes)
 def test_endless_uncertainty_of_a_plateau_does_not_stretch_the_axis(axes: Axes) -> None:
     covariance = np.diag([1e6, 0.0, 1e-4])
     factors = vf.ShiftFactors([273.15, 303.15, 333.15], [3.0, 0.0, -3.0], REFERENCE, covariance)
-    shift_figures.plot_shift_factors(axes, factors)
+    shift_factors.plot_shift_factors(axes, factors)
     low, high = axes.get_ylim()
     assert 1e-5 < low < 1e-3
     assert 1e3 < high < 1e5
@@ -271,7 +271,7 @@ def test_residuals_of_laws_fall_about_zero_in_the_band_of_the_measurement(axes: 
     temperatures = np.array([283.15, 303.15, 323.15, 343.15])
     off = np.array([0.1, 0.0, -0.1, 0.2])
     factors = vf.ShiftFactors(temperatures, law.log10(temperatures) + off, REFERENCE, np.diag([0.01, 0.0, 0.01, 0.01]))
-    shift_figures.plot_law_residuals(axes, factors, [law, vf.Arrhenius("2000 kJ/mol", REFERENCE)])
+    shift_factors.plot_law_residuals(axes, factors, [law, vf.Arrhenius("2000 kJ/mol", REFERENCE)])
     wlf = next(line for line in axes.lines if line.get_label() == "WLF")
     np.testing.assert_allclose(wlf.get_ydata(), off, atol=1e-12)
     (band,) = bands(axes)
@@ -284,17 +284,17 @@ def test_law_that_fails_does_not_hide_how_the_others_do(axes: Axes) -> None:
     law = vf.WLF(10.0, 90.0, REFERENCE)
     factors = vf.ShiftFactors(temperatures, law.log10(temperatures), REFERENCE)
     laws = [law, vf.WLF(10.1, 90.0, REFERENCE), vf.Arrhenius("5 kJ/mol", REFERENCE)]
-    shift_figures.plot_law_residuals(axes, factors, laws)
+    shift_factors.plot_law_residuals(axes, factors, laws)
     assert max(np.abs(axes.get_ylim())) < 0.1
 
 
 def test_vertical_shift_is_one_at_the_reference(axes: Axes) -> None:
     factors = VerticalShiftFactors([273.15, 303.15, 333.15], [-0.02, 0.0, 0.03], REFERENCE, np.diag([1e-4, 0.0, 1e-4]))
-    shift_figures.plot_vertical_shift(axes, factors)
+    shift_factors.plot_vertical_shift(axes, factors)
     (container,) = axes.containers
     np.testing.assert_allclose(container.lines[0].get_ydata(), 10.0 ** np.array([-0.02, 0.0, 0.03]))
     axes.clear()
-    shift_figures.plot_vertical_shift(axes, DensityShift(REFERENCE, expansion=0.0), np.array([283.15, 323.15]))
+    shift_factors.plot_vertical_shift(axes, DensityShift(REFERENCE, expansion=0.0), np.array([283.15, 323.15]))
     line = axes.lines[0]
     np.testing.assert_allclose(line.get_ydata(), (np.asarray(line.get_xdata()) + 273.15) / REFERENCE)
     assert axes.get_ylabel() == "vertical shift $b_T$"
@@ -303,7 +303,7 @@ def test_vertical_shift_is_one_at_the_reference(axes: Axes) -> None:
 def test_spectrum_shows_every_mode_above_zero(axes: Axes) -> None:
     C = np.array([0.0, 2e-8, 5e-8])
     modes = vf.RetardationSpectrum(1e6, 1.0 / (1e-6 - C.sum()), C, np.array([1e-6, 1e-3, 1.0]))
-    spectrum_figures.plot_retardation_spectrum(axes, modes)
+    rubber.plot_retardation_spectrum(axes, modes)
     (points,) = axes.lines
     np.testing.assert_allclose(points.get_xdata(), [1e-3, 1.0])
     np.testing.assert_allclose(points.get_ydata(), [2e-2, 5e-2])
@@ -315,12 +315,12 @@ def test_spectrum_shows_every_mode_above_zero(axes: Axes) -> None:
 
 
 def test_spectrum_of_no_modes_gives_empty_axes(axes: Axes) -> None:
-    spectrum_figures.plot_retardation_spectrum(axes, vf.RetardationSpectrum(1e6, 1e6, [], []))
+    rubber.plot_retardation_spectrum(axes, vf.RetardationSpectrum(1e6, 1e6, [], []))
     assert not axes.lines
 
 
 def test_relaxation_modes_are_those_of_the_conversion(axes: Axes, spectrum: vf.RetardationSpectrum) -> None:
-    spectrum_figures.plot_relaxation_spectrum(axes, spectrum)
+    rubber.plot_relaxation_spectrum(axes, spectrum)
     series = spectrum.to_relaxation()
     shown = dict(zip(axes.lines[0].get_xdata(), axes.lines[0].get_ydata(), strict=True))
     for tau, E in zip(series.tau, series.E, strict=True):
@@ -330,7 +330,7 @@ def test_relaxation_modes_are_those_of_the_conversion(axes: Axes, spectrum: vf.R
 
 
 def test_modes_that_no_frequency_reached_lie_on_grey(axes: Axes, spectrum: vf.RetardationSpectrum) -> None:
-    spectrum_figures.plot_retardation_spectrum(axes, spectrum)
+    rubber.plot_retardation_spectrum(axes, spectrum)
     low, high = spectrum.fit.frequency_range
     spans = [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in axes.patches]
     assert spans
@@ -347,7 +347,7 @@ def test_log_axes_have_few_labels_on_any_range(axes: Axes, low: float, high: flo
     getattr(axes, f"set_{which}scale")("log")
     getattr(axes, f"set_{which}lim")(low, high)
     axis = getattr(axes, f"{which}axis")
-    house_style.decade_ticks(axis)
+    style.decade_ticks(axis)
     shown = labels_of(axis)
     assert 2 <= len(shown) <= 9
     boxes = [
@@ -359,8 +359,8 @@ def test_log_axes_have_few_labels_on_any_range(axes: Axes, low: float, high: flo
 
 
 def test_synthetic_mark_and_legend_above_do_not_cover_each_other(axes: Axes, fit: vf.Superposition) -> None:
-    rubber_figures.plot_master_curve(axes, fit)
-    house_style.mark_synthetic([axes])
+    rubber.plot_master_curve(axes, fit)
+    style.mark_synthetic([axes])
     axes.figure.canvas.draw()
     (mark,) = axes.texts
     assert mark.get_text() == "synthetic data"
@@ -378,8 +378,8 @@ def test_readings_keep_their_isotherms_together() -> None:
 def test_figures_of_many_panels_share_one_colour_bar() -> None:
     figure = Figure()
     panels = figure.subplots(1, 2)
-    scale = rubber_figures.plot_isotherms(panels[0], made_sweeps())
-    bar = house_style.temperature_bar(figure, scale, panels)
+    scale = rubber.plot_isotherms(panels[0], made_sweeps())
+    bar = style.temperature_bar(figure, scale, panels)
     assert bar.ax.get_ylabel() == "temperature (°C)"
     assert bar.vmin == pytest.approx(10.0)
     assert bar.vmax == pytest.approx(60.0)

@@ -9,16 +9,15 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from viscofric.report import drawing, html
+from viscofric.report import html
 from viscofric.report.captions import captions
-from viscofric.report.checks import all_checks, counted
-from viscofric.report.drawing import figure_images
-from viscofric.report.friction_checks import friction_checks
-from viscofric.report.friction_drawing import contacts, recovery_trail
-from viscofric.report.friction_tables import friction_at_a_glance
+from viscofric.report.figures import saving
+from viscofric.report.figures import study as drawing
+from viscofric.report.figures.study import contacts, figure_images, recovery_trail
 from viscofric.report.html import write_report
-from viscofric.report.question import inputs, what_was_asked
-from viscofric.report.tables import detail_tables
+from viscofric.report.texts.checks import all_checks, counted, friction_checks
+from viscofric.report.texts.friction_tables import detail_tables, friction_at_a_glance
+from viscofric.report.texts.study import inputs, what_was_asked
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,7 +58,7 @@ def make_study(
 @pytest.fixture
 def unread(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let figures be drawn, but not turned into images, and leave those of the rubber out, which others look at."""
-    monkeypatch.setattr(drawing, "_image", lambda *_: b"")
+    monkeypatch.setattr(saving, "_encoded", lambda *_: b"")
     monkeypatch.setattr(drawing, "RUBBER_FIGURES", {})
 
 
@@ -140,7 +139,7 @@ def test_what_varies_is_said(make_study: Callable[..., xr.DataTree]) -> None:
 def test_each_of_several_rubbers_has_its_figures(
     make_study: Callable[..., xr.DataTree], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(drawing, "_image", lambda *_: b"")
+    monkeypatch.setattr(saving, "_encoded", lambda *_: b"")
     tree = make_study(STUDIES["rubbers"])
     of_rubber = [name for name in tree.children if name != "prediction"]
     groups = {name: tree[name].to_dataset() for name in of_rubber}

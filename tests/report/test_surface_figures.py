@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.report import surface_figures as figures
-from viscofric.report.house_style import new_figure
-from viscofric.report.pictures import save_picture
+from viscofric.report.figures import rough as figures
+from viscofric.report.figures.saving import save_picture
+from viscofric.report.figures.style import new_figure
 
 if TYPE_CHECKING:
     from pathlib import Path

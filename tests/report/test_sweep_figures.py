@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from viscofric.report.between_temperatures import filled_in
-from viscofric.report.map_figures import map_figure, maximum_ridge, plot_friction_map
-from viscofric.report.sweep_figures import plot_sweep, sweep_figure
+from viscofric.report.figures.maps import filled_in, map_figure, maximum_ridge, plot_friction_map
+from viscofric.report.figures.sweeps import plot_sweep, sweep_figure
 from viscofric.report.sweeps import layout_of
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from viscofric.report.panels import panel_count, panel_points
+from viscofric.report.figures.sweeps import panel_count, panel_points
 from viscofric.report.sweeps import (
     axis_of,
     best_estimate,

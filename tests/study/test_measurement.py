@@ -116,7 +116,7 @@ def test_coulomb_friction_on_thin_rubber_is_warned_of(results: StudyResults) -> 
 
 
 def test_the_report_says_so(results: StudyResults) -> None:
-    from viscofric.report.checks import all_checks
+    from viscofric.report.texts.checks import all_checks
 
     told = {check.name: check.verdict for check in all_checks(results.tree)}
     assert told["Half-space"] == "look at this"

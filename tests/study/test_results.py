@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 import viscofric as vf
 from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
-from viscofric.report.words import grouped_failures
+from viscofric.report.texts.study import grouped_failures
 from viscofric.study.contacts import Solved
 from viscofric.study.places import place, place_in
 from viscofric.study.results import input_hashes

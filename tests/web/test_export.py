@@ -129,7 +129,7 @@ def test_whole_study_has_the_numbers_of_page_and_command_line_and_takes_up_where
     desk: Desk, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # figures are drawn, but not turned into images, most of the time of a quick study; tests of the report look at them
-    monkeypatch.setattr("viscofric.report.drawing._image", lambda figure, form: form.encode())
+    monkeypatch.setattr("viscofric.report.figures.saving._encoded", lambda figure, form: form.encode())
     path = unpacked(desk, tmp_path / "elsewhere")
     stored = vf.run_study(path)
     shown, asked = desk.run(curve, SWEEPS), stored.dataset

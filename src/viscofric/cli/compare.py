@@ -51,7 +51,7 @@ def command(first: Path, second: Path, tolerance: float | None, as_json: bool) -
 
 
 def _tell(first: Path, second: Path, found: ResultsComparison) -> None:
-    from viscofric.report.table import aligned
+    from viscofric.report.texts.tables import aligned
 
     click.echo(f"A  {first}\nB  {second}\n")
     only = f", {found.only_first} only in A, {found.only_second} only in B" if found.axes else ""
@@ -72,7 +72,7 @@ def _tell(first: Path, second: Path, found: ResultsComparison) -> None:
 
 
 def _row(one: VariableDifference) -> list[str]:
-    from viscofric.report.numbers import ABSENT, significant
+    from viscofric.report.texts.numbers import ABSENT, significant
     from viscofric.study.cases_in_common import shown_place
 
     mark = "" if one.equal else " *"

@@ -183,7 +183,7 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
 def _record(
     curves: FrictionCurves, rubber: NamedRubber, indenter: dict[str, Any], asked: dict[str, Any]
 ) -> dict[str, Any]:
-    from viscofric.report.friction_summary import friction_record
+    from viscofric.report.texts.friction import friction_record
 
     names = ("layer", "sliding_base", *contact_settings(asked), "load", "samples", "workers")
     told = {"material": rubber.record(None), "indenter": indenter} | {name: asked[name] for name in names}
@@ -192,8 +192,8 @@ def _record(
 
 def _tell(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     """Print a table of friction: a line for each speed, a column for each temperature."""
-    from viscofric.report.numbers import percent, significant
-    from viscofric.report.table import aligned
+    from viscofric.report.texts.numbers import percent, significant
+    from viscofric.report.texts.tables import aligned
     from viscofric.units import celsius
 
     synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""

@@ -44,8 +44,8 @@ def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
     but : iterable of str
         Checks that are left out, by their names; of several rubbers, that of each follows the name.
     """
-    from viscofric.report.checks import all_checks
-    from viscofric.report.numbers import typeset
+    from viscofric.report.texts.checks import all_checks
+    from viscofric.report.texts.numbers import typeset
 
     left_out = tuple(but)
     for check in all_checks(tree):
@@ -56,7 +56,7 @@ def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
 def tell_notes(notes: Iterable[str], reader: Reader = "shell") -> None:
     """Print notes on the data, where they do not mix with the result, in the words of a reader; see `told`."""
     from viscofric.notes import note_of
-    from viscofric.report.numbers import typeset
+    from viscofric.report.texts.numbers import typeset
 
     for note in notes:
         click.echo(f"Note: {plainly(typeset(note_of(note).words(reader)))}", err=True)

@@ -13,6 +13,7 @@ import click
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from viscofric.contact.solution import ContactSolution
     from viscofric.friction.curves import FrictionCurves
 
 PICTURES, CSV, JSON = (".png", ".svg", ".pdf"), (".csv",), (".json",)
@@ -92,8 +93,51 @@ def write_curves(
             write_friction_curves(curves, path)
         said += [] if out == DASH else [f"curves   {out}"]
     if picture is not None:
-        from viscofric.report.friction_pictures import draw_friction, draw_predicted
+        from viscofric.report.figures.friction import friction_figure, predicted_figure
+        from viscofric.report.figures.saving import save_picture
 
-        (draw_predicted if predicted else draw_friction)(picture, curves, synthetic=synthetic)
+        figure = predicted_figure if predicted else friction_figure
+        save_picture(picture, lambda: figure(curves), name="friction", synthetic=synthetic)
         said.append(f"picture  {picture}")
     return said
+
+
+def write_fields(path: Path, solution: ContactSolution) -> None:
+    """Write the fields of a contact.
+
+    Parameters
+    ----------
+    path : Path
+        Ends in ``.nc`` (netCDF) or ``.csv`` (a line for each cell: x, y, pressure, displacement).  Replaced if it
+        exists.
+    solution : ContactSolution
+
+    Raises
+    ------
+    DataFileError
+        If it cannot be written.
+    """
+    from viscofric.files import write_atomically
+
+    write_atomically(path, _table(solution) if path.suffix.lower() == ".csv" else _netcdf(path, solution))
+
+
+def _table(solution: ContactSolution) -> bytes:
+    import numpy as np
+
+    x, y = (values.ravel() for values in np.meshgrid(solution.x, solution.y, indexing="ij"))
+    columns = np.column_stack([x, y, solution.pressure.ravel(), solution.displacement.ravel()])
+    rows = [",".join(f"{number:.10g}" for number in row) for row in columns.tolist()]
+    return "\n".join(["x (m),y (m),pressure (Pa),displacement (m)", *rows, ""]).encode()
+
+
+def _netcdf(path: Path, solution: ContactSolution) -> bytes:
+    from viscofric.errors import not_written
+
+    try:
+        with TemporaryDirectory(prefix="viscofric") as folder:
+            made = Path(folder) / "fields.nc"
+            solution.to_dataset().to_netcdf(made, engine="h5netcdf")
+            return made.read_bytes()
+    except OSError as error:
+        raise not_written(path, error) from error

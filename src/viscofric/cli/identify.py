@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -90,7 +91,7 @@ def command(
         from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.cli.material.rubbers import find_rubber
         from viscofric.friction.identification.identify import identify_material
-        from viscofric.report.identification_summary import identification_record
+        from viscofric.report.texts.inverse import identification_record
 
         shape = chosen_indenter(asked)
         known = None if beside is None else find_rubber(beside)
@@ -144,8 +145,8 @@ def _prior(asked: dict[str, Any]) -> dict[str, Any]:
 
 
 def _tell(found: IdentifiedMaterial) -> None:
-    from viscofric.report.identification_summary import family_lines, modulus_lines
-    from viscofric.report.numbers import typeset
+    from viscofric.report.texts.inverse import family_lines, modulus_lines
+    from viscofric.report.texts.numbers import typeset
 
     for table in (modulus_lines(found), family_lines(found)):
         for line in table:
@@ -167,8 +168,10 @@ def _write(
         write_card(found.material, out, format="json")
         said.append(f"rubber   {out}")
     if picture is not None:
-        from viscofric.report.friction_pictures import draw_identified
+        from viscofric.report.figures.identified import identified_figure
+        from viscofric.report.figures.saving import save_picture
 
-        draw_identified(picture, found, known, synthetic=synthetic)
+        draw = partial(identified_figure, found, known)
+        save_picture(picture, draw, name="identified modulus", synthetic=synthetic)
         said.append(f"picture  {picture}")
     return said

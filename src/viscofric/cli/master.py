@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -76,7 +77,7 @@ def command(
     settings = settings_of(asked)
     with told():
         from viscofric.cli.friction_sources import friction_curves, shifts
-        from viscofric.report.shift_summary import law_of, shift_record
+        from viscofric.report.texts.inverse import law_of, shift_record
 
         curves = friction_curves(sources, settings)
         known, vertical = (None, None) if asked["known"] is None else shifts(asked["known"])
@@ -149,7 +150,7 @@ def _tell(
     why: str,
     agreement: ShiftAgreement | None,
 ) -> None:
-    from viscofric.report.shift_summary import shift_lines, shift_words
+    from viscofric.report.texts.inverse import shift_lines, shift_words
 
     for line in shift_lines(master, known):
         click.echo(line)
@@ -169,8 +170,10 @@ def _write(
         master.shift_factors.save(out)
         said.append(f"factors  {out}")
     if picture is not None:
-        from viscofric.report.friction_pictures import draw_shifted
+        from viscofric.report.figures.friction import shifted_figure
+        from viscofric.report.figures.saving import save_picture
 
-        draw_shifted(picture, master, known, synthetic=synthetic)
+        draw = partial(shifted_figure, master, known)
+        save_picture(picture, draw, name="friction master curve", synthetic=synthetic)
         said.append(f"picture  {picture}")
     return said

@@ -59,7 +59,7 @@ def command(
     settings = settings_of(asked)
     with told():
         from viscofric.cli.friction_sources import separated
-        from viscofric.report.friction_summary import friction_record
+        from viscofric.report.texts.friction import friction_record
 
         curves = separated(runs, settings)
         if as_json:
@@ -74,7 +74,7 @@ def command(
 
 
 def _tell(curves: FrictionCurves) -> None:
-    from viscofric.report.friction_summary import friction_lines, friction_table
+    from viscofric.report.texts.friction import friction_lines, friction_table
 
     for line in friction_table(curves):
         click.echo(line)

@@ -183,7 +183,7 @@ def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
     """Return what is in contact, in words: those of the indenter, the rubber, and how thick it is."""
     if layer is None:
         return f"{words} on {rubber.name}"
-    from viscofric.report.numbers import length
+    from viscofric.report.texts.numbers import length
 
     base = "bonded" if layer.bonded else "sliding on its base"
     return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"

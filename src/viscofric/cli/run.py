@@ -159,8 +159,8 @@ def _kept(output: Path) -> str:
 
 def tell(results: StudyResults, quiet: bool = False) -> None:
     """Print notes (unless it is to be quiet), warnings and failures: few of each, the report has them all."""
-    from viscofric.report.numbers import typeset
-    from viscofric.report.words import grouped_failures
+    from viscofric.report.texts.numbers import typeset
+    from viscofric.report.texts.study import grouped_failures
 
     notes = () if quiet else results.notes
     if len(notes) > _MOST_LINES:

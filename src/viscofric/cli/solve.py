@@ -6,6 +6,7 @@ import json
 import math
 import time
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,7 @@ import click
 
 from viscofric.cli.contact_options import contact_options, contact_settings, inputs_of
 from viscofric.cli.errors import told
-from viscofric.cli.files import PICTURES, check_ending, refuse_to_overwrite
+from viscofric.cli.files import PICTURES, check_ending, refuse_to_overwrite, write_fields
 from viscofric.cli.indenter_options import chosen_indenter, indenter_options
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
@@ -96,7 +97,7 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
         solution = replace(solution, warnings=(*solution.warnings, *_beyond_known(rubber, solution)))
         name = in_contact(shape.words, rubber, settings["layer"])
         if as_json:
-            from viscofric.report.contact_summary import contact_record
+            from viscofric.report.texts.contact import contact_record
 
             record = contact_record(_inputs(asked, rubber, shape, solution), solution, seconds)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
@@ -163,9 +164,8 @@ def _inputs(
 
 
 def _tell(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:
-    from viscofric.report.contact_derivatives import derivative_lines
-    from viscofric.report.contact_summary import contact_lines
-    from viscofric.report.numbers import prefixed
+    from viscofric.report.texts.contact import contact_lines, derivative_lines
+    from viscofric.report.texts.numbers import prefixed
     from viscofric.units import celsius
 
     speed = "at infinite speed" if math.isinf(solution.speed) else f"at {prefixed(solution.speed, None, 'm/s')}"
@@ -199,13 +199,13 @@ def _write(
     """Write the files that were asked for, and return what to say of them."""
     said = []
     if picture is not None:
-        from viscofric.report.contact_figures import draw_contact
+        from viscofric.report.figures.contact import contact_figure
+        from viscofric.report.figures.saving import save_picture
 
-        draw_contact(picture, solution, shape.indenter, title=name, synthetic=rubber.synthetic)
+        draw = partial(contact_figure, solution, shape.indenter, name)
+        save_picture(picture, draw, name="contact", synthetic=rubber.synthetic)
         said.append(f"picture  {picture}")
     if output is not None:
-        from viscofric.report.contact_fields import write_fields
-
         write_fields(output, solution)
         said.append(f"fields   {output}")
     return said

@@ -169,7 +169,7 @@ def _tell_verdict(outcomes: list[Outcome]) -> None:
 def _record(outcomes: list[Outcome]) -> dict[str, Any]:
     """Return everything in plain types; a number that is none is null."""
     from viscofric import __version__
-    from viscofric.report.numbers import finite
+    from viscofric.report.texts.numbers import finite
 
     return {
         "viscofric": __version__,

@@ -6,14 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.report.between_temperatures import known_shifts
-from viscofric.report.contacts import shown_contacts
-from viscofric.report.doubts import interpolated, is_extrapolated
-from viscofric.report.house_style import degrees
-from viscofric.report.map_figures import MARKED_TEMPERATURES
-from viscofric.report.numbers import typeset
-from viscofric.report.panels import panel_count
-from viscofric.report.results import group, is_rough, is_synthetic, notes, reference_temperature, rubbers
+from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
+from viscofric.report.figures.stored_contacts import shown_contacts
+from viscofric.report.figures.style import degrees
+from viscofric.report.figures.sweeps import panel_count
+from viscofric.report.results import (
+    group,
+    interpolated,
+    is_extrapolated,
+    is_rough,
+    is_synthetic,
+    notes,
+    reference_temperature,
+    rubbers,
+)
 from viscofric.report.sweeps import (
     MOST_LINES,
     MOST_PANELS,
@@ -24,6 +30,7 @@ from viscofric.report.sweeps import (
     solved_cases,
     sweep_axes,
 )
+from viscofric.report.texts.numbers import typeset
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -11,15 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.files import write_atomically
 from viscofric.report.captions import captions
-from viscofric.report.checks import all_checks, counted
-from viscofric.report.dark import adaptive
-from viscofric.report.drawing import RUBBER_FIGURES, figure_images, save_images
-from viscofric.report.friction_tables import agreement_table, friction_at_a_glance
-from viscofric.report.numbers import typeset
-from viscofric.report.question import inputs, what_was_asked
+from viscofric.report.figures.saving import adaptive
+from viscofric.report.figures.study import RUBBER_FIGURES, figure_images, save_images
 from viscofric.report.results import group, is_synthetic, notes, rubbers, sentences, table
-from viscofric.report.tables import detail_tables
-from viscofric.report.words import grouped_failures, key_numbers
+from viscofric.report.texts.checks import all_checks, counted
+from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
+from viscofric.report.texts.numbers import typeset
+from viscofric.report.texts.study import grouped_failures, inputs, key_numbers, what_was_asked
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,7 +61,7 @@ def write_report(tree: xr.DataTree, folder: str | Path, *, images: dict[str, dic
     folder : str or Path
         Where ``report.html`` goes; made if need be.  A report that is there is replaced.
     images : dict, optional
-        The figures, as `viscofric.report.drawing.figure_images` returns them; drawn here if not given.
+        The figures, as `viscofric.report.figures.study.figure_images` returns them; drawn here if not given.
 
     Returns
     -------

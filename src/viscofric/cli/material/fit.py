@@ -190,9 +190,9 @@ def _command(files: tuple[Path, ...], asked: dict[str, Any]) -> str:
 
 def _tell(results: StudyResults) -> None:
     """Print the key numbers, and what was doubtful."""
-    from viscofric.report.numbers import typeset
     from viscofric.report.results import group, number, sentences
-    from viscofric.report.words import key_numbers
+    from viscofric.report.texts.numbers import typeset
+    from viscofric.report.texts.study import key_numbers
 
     for note in results.notes:
         click.echo(f"Note: {typeset(note)}", err=True)

@@ -58,7 +58,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     StudyError, DataFileError, InputError
         If a table is wrong, or the measurement is not of a ball on a half-space.
     """
-    from viscofric.report.friction_checks import CIRCULAR
+    from viscofric.report.texts.checks import CIRCULAR
     from viscofric.study.execution import tree_of
     from viscofric.study.running.executors import Serial
     from viscofric.study.running.running import run_plan
@@ -133,12 +133,12 @@ def _contacts(asked: dict[str, Any], curves: FrictionCurves, context: Context) -
 
 
 def _told(tree: xarray.DataTree) -> dict[str, Any]:
-    from viscofric.report.friction_checks import friction_checks
-    from viscofric.report.friction_data import predicted
-    from viscofric.report.friction_tables import agreement_table
+    from viscofric.report.data import predicted
     from viscofric.report.results import group, notes, reference_temperature, sentences
     from viscofric.report.sweeps import cases_of
-    from viscofric.report.words import AGREEMENT, key_numbers
+    from viscofric.report.texts.checks import friction_checks
+    from viscofric.report.texts.friction_tables import agreement_table
+    from viscofric.report.texts.study import AGREEMENT, key_numbers
     from viscofric.web.jobs.friction_data import by_temperature, drawn_line, texts, told_table
 
     asked, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
@@ -167,8 +167,7 @@ def _points(tree: xarray.DataTree) -> list[dict[str, Any]]:
     """Return measured points beside their prediction, with what is doubtful about each."""
     import numpy as np
 
-    from viscofric.report.doubts import remarks
-    from viscofric.report.results import group, values
+    from viscofric.report.results import group, remarks, values
     from viscofric.web.jobs.friction_data import by_temperature
 
     points = group(tree, "measurement")

@@ -66,7 +66,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         As `run_study`.
     """
     from viscofric.report import write_figures_and_report
-    from viscofric.report.words import grouped_failures
+    from viscofric.report.texts.study import grouped_failures
     from viscofric.study import run_study
     from viscofric.web.jobs.friction_data import texts
 

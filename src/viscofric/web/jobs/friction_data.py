@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.report.friction_data import Predicted
-    from viscofric.report.table import Table
+    from viscofric.report.data import Predicted
+    from viscofric.report.texts.tables import Table
 
 
 _MEASURED = (
@@ -98,6 +98,6 @@ def pairs(lines: Iterable[tuple[str, str]]) -> list[dict[str, str]]:
 
 def texts(sentences: Sequence[str]) -> list[str]:
     """Return sentences ready for readers, each once."""
-    from viscofric.report.numbers import typeset
+    from viscofric.report.texts.numbers import typeset
 
     return [typeset(one.words("page")) for one in dict.fromkeys(map(note_of, sentences))]

@@ -114,7 +114,7 @@ def _of_curves(path: Path, folders: Folders) -> Measured:
 
 def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
     from viscofric.readers import read_mtm
-    from viscofric.report.runs_summary import runs_lines
+    from viscofric.report.texts.friction import runs_lines
 
     runs = read_mtm(*table.mtm)
     lines = [("files" if len(table.mtm) > 1 else "file", ", ".join(path.name for path in table.mtm))]

@@ -165,8 +165,8 @@ def _modulus(found: IdentifiedMaterial) -> dict[str, Any]:
     """Return E(ω) with its 95 % band over the frequencies that the report draws."""
     import numpy as np
 
-    from viscofric.report.figure_data import modulus_band
-    from viscofric.report.inverse_figures import drawn_frequencies
+    from viscofric.report.data import modulus_band
+    from viscofric.report.figures.identified import drawn_frequencies
 
     frequency = drawn_frequencies(found)
     modulus, band = np.asarray(found.material.complex_modulus(frequency)), modulus_band(found.samples, frequency)
@@ -188,7 +188,7 @@ def _band(band: IdentifiedBand) -> dict[str, Any]:
 
 def _factors(found: IdentifiedMaterial) -> dict[str, Any] | None:
     """Return α(T) of the identified rubber at the temperatures of the friction; None where there is one only."""
-    from viscofric.report.shift_summary import answers
+    from viscofric.report.texts.inverse import answers
 
     temperatures = found.friction.temperatures
     if found.shift_factors is None or len(temperatures) < 2:
@@ -202,7 +202,7 @@ def _known(rubber: Material, found: IdentifiedMaterial, frequency: Any) -> dict[
     """Return the page's rubber at the temperature at which the identified one is described."""
     import numpy as np
 
-    from viscofric.report.shift_summary import answers
+    from viscofric.report.texts.inverse import answers
 
     reference = found.material.reference
     if rubber.shift is not None and reference is not None:

@@ -118,7 +118,7 @@ def _shifted(curves: FrictionCurves, settings: dict[str, Any], **chosen: Any) ->
 
 
 def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
-    from viscofric.report.friction_data import measured_line
+    from viscofric.report.data import measured_line
     from viscofric.web.jobs.friction_data import by_temperature, drawn_line
 
     columns = {"friction": master.friction, "error": master.error, "scatter": master.scatter}
@@ -133,7 +133,7 @@ def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
 
 
 def _words(master: FrictionMasterCurve, *found: Any) -> list[dict[str, str]]:
-    from viscofric.report.shift_summary import shift_words
+    from viscofric.report.texts.inverse import shift_words
     from viscofric.web.jobs.friction_data import pairs
 
     law, agreement, why = found or (None, None, "")
@@ -147,7 +147,7 @@ def _found(
     """Return what friction tells by itself, and what is to be noted of it."""
     from viscofric.errors import InputError
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors
-    from viscofric.report.shift_summary import law_of
+    from viscofric.report.texts.inverse import law_of
 
     law, why, refused = law_of(master, options.law)
     notes, agreement = [*master.notes, *([refused] if refused else [])], None
@@ -176,8 +176,8 @@ def _line(law: ShiftLaw, temperatures: Any) -> dict[str, Any]:
     """Return a law between temperatures, with its 95 % band where it has one."""
     import numpy as np
 
-    from viscofric.report.shift_figures import LEVEL_95
-    from viscofric.report.shift_summary import answers
+    from viscofric.report.data import LEVEL_95
+    from viscofric.report.texts.inverse import answers
 
     kelvin = np.linspace(temperatures.min(), temperatures.max(), 100)
     log10, error = answers(law, kelvin)
@@ -192,7 +192,7 @@ def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
     """
     import numpy as np
 
-    from viscofric.report.inverse_figures import FARTHER
+    from viscofric.report.figures.shift_factors import FARTHER
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
     law = known.at_reference(beside["reference"])

@@ -82,14 +82,14 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     """Return what is to be said of the friction as a whole, but for what notes and checks tell."""
-    from viscofric.report.friction_summary import friction_lines
+    from viscofric.report.texts.friction import friction_lines
 
     return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "left over")]
 
 
 def _checks(curves: FrictionCurves) -> list[dict[str, str]]:
     """Judge whether the four sign configurations agree with each other."""
-    from viscofric.report.friction_checks import consistency_check
+    from viscofric.report.texts.checks import consistency_check
 
     if curves.consistency is None or curves.consistency_error is None:
         return []

@@ -1,0 +1,1 @@
+"""Figures: functions on an Axes, and whole figures."""

@@ -1,0 +1,214 @@
+"""Figures of one contact: the map of its pressure, and profiles along the motion; each drawn on an Axes."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import matplotlib
+import numpy as np
+from scipy.ndimage import uniform_filter
+
+from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, new_figure
+from viscofric.report.texts.numbers import prefixed, significant
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.solution import ContactSolution
+
+
+#: More cells along an edge than this do not show; the map draws every n-th.
+_MOST_CELLS = 256
+#: Share of the loaded cells within the colours of a pressure whose largest value means nothing.
+_SHARE_SHOWN = 0.98
+
+
+class Unit(NamedTuple):
+    """A unit of an axis: its size in SI, and what it is called."""
+
+    size: float
+    name: str
+
+
+def _unit(largest: float, base: str) -> Unit:
+    """Return the unit in which the largest of some numbers is neither very small nor very large."""
+    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ")):
+        if largest >= 0.5 * size:
+            return Unit(size, prefix + base)
+    return Unit(1e-9, "n" + base)
+
+
+def _along(solution: ContactSolution) -> Unit:
+    return _unit(float(np.abs(solution.x).max()), "m")
+
+
+def _label_along(solution: ContactSolution) -> str:
+    """Return the label of the axis along the motion, with an arrow that shows where the indenter goes."""
+    label = f"along the motion $x$ ({_along(solution).name})"
+    if solution.speed == 0.0:
+        return label
+    return f"{label} →" if solution.speed > 0.0 else f"← {label}"
+
+
+def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
+    """Draw the pressure of a point contact seen from above, with the outline of the contact.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : ContactSolution
+        Of a point contact.
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh
+        For a colour bar.
+    """
+    unit, pressure_unit = _along(solution), _unit(solution.max_pressure, "Pa")
+    every = math.ceil(max(solution.pressure.shape) / _MOST_CELLS)
+    x, y = solution.x[::every] / unit.size, solution.y[::every] / unit.size
+    pressure = solution.pressure[::every, ::every].T / pressure_unit.size
+    shown = np.ma.masked_equal(pressure, 0.0)
+    colours = matplotlib.colormaps["viridis"]
+    # One cell at a sharp edge would leave all others dark.
+    highest = None if solution.diagnostics.peak_resolved else float(np.quantile(shown.compressed(), _SHARE_SHOWN))
+    mesh: QuadMesh = axes.pcolormesh(
+        x, y, shown, cmap=colours, vmin=0.0, vmax=highest, shading="nearest", rasterized=True
+    )
+    # Averaged over three cells, the staircase of the loaded cells is a curve.
+    loaded = uniform_filter((pressure > 0.0).astype(float), 3, mode="constant")
+    axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
+    axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    axes.set_xlabel(_label_along(solution))
+    axes.set_ylabel(f"across $y$ ({unit.name})")
+    _tell_motion(axes, solution)
+    return mesh
+
+
+def _tell_motion(axes: Axes, solution: ContactSolution) -> None:
+    """Draw an arrow that shows where the indenter goes."""
+    if solution.speed == 0.0:
+        return
+    ends = ((0.03, 0.15), (0.15, 0.03))[solution.speed < 0.0]
+    axes.annotate(
+        "",
+        xy=(ends[1], 0.95),
+        xytext=(ends[0], 0.95),
+        xycoords="axes fraction",
+        arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.2},
+    )
+    axes.text(0.03, 0.91, "motion", transform=axes.transAxes, fontsize=8, va="top", color=INK)
+
+
+def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
+    """Draw the pressure along the centre line of a contact.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : ContactSolution
+    """
+    unit, pressure_unit = _along(solution), _unit(solution.max_pressure, "Pa")
+    x, pressure = solution.x / unit.size, _centre(solution.pressure) / pressure_unit.size
+    axes.fill_between(x, pressure, color=BLUE, alpha=0.15, linewidth=0.0)
+    axes.plot(x, pressure, color=BLUE)
+    centre = solution.centre_of_pressure / unit.size
+    axes.axvline(0.0, color=GREY, linewidth=0.8)
+    axes.axvline(centre, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="centre of pressure")
+    axes.set_ylim(bottom=0.0)
+    axes.set_ylabel(f"pressure $p$ ({pressure_unit.name})")
+    axes.set_xlabel(_label_along(solution))
+    axes.legend(loc="best")
+
+
+def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indenter) -> None:
+    """Draw the deformed surface along the centre line, with the indenter that presses on it.
+
+    Heights are counted from the level of the indentation, upwards.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : ContactSolution
+    indenter : Indenter
+    """
+    unit = _along(solution)
+    surface = -_centre(solution.displacement)
+    rigid = _beneath(solution, indenter)
+    depth_unit = _unit(max(float(np.abs(surface).max()), abs(solution.indentation)), "m")
+    x, shown = solution.x / unit.size, np.isfinite(rigid)
+    top = max(float(surface.max()), 0.35 * solution.indentation) / depth_unit.size
+    bottom = min(float(surface.min()), -solution.indentation) / depth_unit.size
+    reach = top - bottom
+    heights = np.where(shown, rigid, math.inf) / depth_unit.size
+    ceiling = top + 0.15 * reach
+    axes.fill_between(x, np.minimum(heights, ceiling), ceiling, color=GREY, alpha=0.35, linewidth=0.0, label="indenter")
+    axes.plot(x, surface / depth_unit.size, color=INK, label="surface")
+    axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle=(0, (1.5, 1.5)))
+    axes.set_ylim(bottom - 0.12 * reach, ceiling)
+    axes.set_xlim(float(x[0]), float(x[-1]))
+    axes.set_xlabel(_label_along(solution))
+    axes.set_ylabel(f"height ({depth_unit.name})")
+    axes.legend(loc="upper center", ncols=2)
+
+
+def _centre(values: Array) -> Array:
+    """Return the line through the axis: the mean of the two rows of cells beside it."""
+    middle = values.shape[1] // 2
+    return values[:, 0] if values.shape[1] == 1 else np.asarray(0.5 * (values[:, middle - 1] + values[:, middle]))
+
+
+def _beneath(solution: ContactSolution, indenter: Indenter) -> Array:
+    """Height of the indenter's surface along the centre line, from the level of the indentation, m."""
+    rows = solution.y[[0]] if len(solution.y) == 1 else solution.y[len(solution.y) // 2 - 1 : len(solution.y) // 2 + 1]
+    # The solution's x lies along the direction, and its y to the left of it; the heights have axes of their own.
+    (ahead, aside), x = solution.direction, solution.x[:, None]
+    heights = np.asarray(indenter.height(ahead * x - aside * rows, aside * x + ahead * rows)).mean(axis=1)
+    return np.asarray(heights - solution.indentation)
+
+
+def contact_figure(solution: ContactSolution, indenter: Indenter, title: str = "") -> Figure:
+    """Return a figure of a contact: the map of the pressure (of a point contact) and both profiles.
+
+    Parameters
+    ----------
+    solution : ContactSolution
+    indenter : Indenter
+    title : str
+    """
+    if solution.geometry == "line":
+        figure = new_figure(6.2, 6.0)
+        profile, surface = figure.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
+    else:
+        figure = new_figure(9.6, 4.8)
+        left, right = figure.subfigures(1, 2, width_ratios=[1.15, 1.0], squeeze=False)[0]
+        above = left.subplots()
+        beyond = "neither" if solution.diagnostics.peak_resolved else "max"
+        bar = left.colorbar(plot_pressure_map(above, solution), ax=above, shrink=0.85, pad=0.02, extend=beyond)
+        bar.set_label(f"pressure $p$ ({_unit(solution.max_pressure, 'Pa').name})")
+        profile, surface = right.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
+    plot_pressure_profile(profile, solution)
+    profile.set_xlabel("")
+    plot_surface_profile(surface, solution, indenter)
+    figure.suptitle("\n".join(line for line in (title, _conditions(solution)) if line), fontsize=10.5)
+    return figure
+
+
+def _conditions(solution: ContactSolution) -> str:
+    """Return speed, load, temperature and what friction came of them."""
+    force = "N/m" if solution.geometry == "line" else "N"
+    parts = [
+        "infinite speed" if math.isinf(solution.speed) else prefixed(solution.speed, None, "m/s"),
+        prefixed(solution.load, None, force),
+    ]
+    if solution.temperature is not None:
+        parts.append(f"{celsius(solution.temperature):z.4g} °C".replace("-", "−"))
+    return f"{', '.join(parts)}: $\\mu$ = {significant(solution.friction_coefficient, 4)}"

@@ -1,0 +1,347 @@
+"""Figures of contacts beside each other: pressure maps and profiles, surface behind the contact, rough contacts."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import matplotlib
+import numpy as np
+from scipy.ndimage import uniform_filter
+
+from viscofric.report.figures.rough import highest_shown, mark_motion, plot_pressure_of_period
+from viscofric.report.figures.style import BLUE, GREY, INK, ORANGE, VERMILION, WHITE, new_figure, slender_bar
+from viscofric.report.texts.numbers import megapascals, significant
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
+
+
+_MOST_CELLS = 200  # along an edge of a map; more do not show
+_MARGIN = 1.12  # of what is shown, over the largest contact
+#: Share of the loaded cells below the end of the colours: a few cells at a sharp edge do not darken all others.
+_SHARE_SHOWN = 0.995
+_MILLI, _MEGA = 1e-3, 1e6
+#: Mean pressures within this factor share a scale in MPa.
+_ALIKE = 1.8
+_PRESSURE, _ALONG = "pressure $p$ (MPa)", "along the motion $x$ (mm) →"
+
+
+class Contact(NamedTuple):
+    """One solved contact with its fields; the indenter moves towards +x.
+
+    Parameters
+    ----------
+    title : str
+        "slowest", "most friction", …
+    conditions : str
+        "30 °C, 20 mm/s".
+    friction : float
+        Friction coefficient; NaN if it is not known.
+    x, y : (nx,) and (ny,) array
+        Cell centres from the indenter's axis, m; one y for a line contact.
+    pressure, displacement : (nx, ny) array
+        Pa; m into the solid.
+    """
+
+    title: str
+    conditions: str
+    friction: float
+    x: Array
+    y: Array
+    pressure: Array
+    displacement: Array
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a line contact."""
+        return len(self.y) == 1
+
+    @property
+    def centre_of_pressure(self) -> float:
+        """Where the resultant load acts, from the axis along the motion, m."""
+        return float(self.x @ self.pressure.sum(axis=1)) / float(self.pressure.sum())
+
+    @property
+    def mean_pressure(self) -> float:
+        """Of the loaded cells, Pa."""
+        return float(self.pressure[self.pressure > 0.0].mean())
+
+    @property
+    def edges(self) -> tuple[float, float]:
+        """Rear and front of the loaded cells, m."""
+        loaded = self.x[(self.pressure > 0.0).any(axis=1)]
+        return (float(loaded.min()), float(loaded.max())) if loaded.size else (float(self.x[0]), float(self.x[-1]))
+
+    @property
+    def reach(self) -> float:
+        """Largest distance of the contact's edge from the axis, along or across the motion, m."""
+        across = self.y[(self.pressure > 0.0).any(axis=0)]
+        along = max(abs(end) for end in self.edges)
+        return along if self.is_line or not across.size else max(along, float(np.abs(across).max()))
+
+    def centre_line(self, field: Array) -> Array:
+        """Return the line of a field through the axis."""
+        middle = np.flatnonzero(np.isclose(np.abs(self.y), np.abs(self.y).min(), rtol=1e-6))
+        return np.asarray(field[:, middle].mean(axis=1))
+
+
+def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: float, highest: float) -> QuadMesh:
+    """Draw the pressure of a point contact seen from above, with its outline and its axis.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    contact : Contact
+    pressure : (nx, ny) array
+        Of the contact, in the unit of the colours.
+    reach : float
+        How far from the axis is shown, m.
+    highest : float
+        Pressure at the end of the colours.
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh
+        For a colour bar.
+    """
+    along, across = (np.flatnonzero(np.abs(places) <= reach) for places in (contact.x, contact.y))
+    every = math.ceil(max(along.size, across.size) / _MOST_CELLS)
+    along, across = along[::every], across[::every]
+    x, y = contact.x[along] / _MILLI, contact.y[across] / _MILLI
+    seen = pressure[np.ix_(along, across)].T
+    shown = np.ma.masked_equal(seen, 0.0)
+    mesh: QuadMesh = axes.pcolormesh(
+        x,
+        y,
+        shown,
+        cmap=matplotlib.colormaps["viridis"],
+        vmin=0.0,
+        vmax=highest,
+        shading="nearest",
+        rasterized=True,
+    )
+    # Averaged over three cells, the staircase of the loaded cells is a curve.
+    loaded = uniform_filter((seen > 0.0).astype(float), 3, mode="constant")
+    axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
+    axes.plot([0.0], [0.0], marker="+", color=WHITE, markersize=9, markeredgewidth=1.2, linestyle="none")
+    axes.plot(
+        [contact.centre_of_pressure / _MILLI],
+        [0.0],
+        marker="o",
+        color=VERMILION,
+        markersize=4,
+        markeredgecolor=WHITE,
+        markeredgewidth=0.6,
+        linestyle="none",
+    )
+    axes.set_aspect("equal")
+    axes.set_xlim(-reach / _MILLI, reach / _MILLI)
+    axes.set_ylim(-reach / _MILLI, reach / _MILLI)
+    axes.grid(visible=False)
+    arrow = {"arrowstyle": "->", "color": INK, "linewidth": 1.1}
+    ends = {"xy": (0.21, 0.945), "xytext": (0.04, 0.945)}
+    axes.annotate("", xycoords="axes fraction", arrowprops=arrow, **ends)  # type: ignore[arg-type]
+    return mesh
+
+
+def plot_contact_profile(axes: Axes, contact: Contact, pressure: Array) -> None:
+    """Draw the pressure on the centre line, and its mirror image: what differs is what causes the friction.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    contact : Contact
+    pressure : (nx, ny) array
+        Of the contact, in the unit of the axis.
+    """
+    x, line = contact.x / _MILLI, contact.centre_line(pressure)
+    axes.fill_between(x, line, color=BLUE, alpha=0.15, linewidth=0.0)
+    axes.plot(x, line, color=BLUE, label="pressure on the centre line")
+    axes.plot(-x, line, color=GREY, linewidth=1.0, linestyle=(0, (1.5, 1.2)), label="the same, mirrored")
+    axes.axvline(0.0, color=INK, linewidth=0.8, label="indenter's axis")
+    centre = contact.centre_of_pressure / _MILLI
+    axes.axvline(centre, color=VERMILION, linewidth=1.3, linestyle=(0, (4, 2)), label="centre of pressure")
+
+
+def contacts_figure(contacts: Sequence[Contact]) -> Figure:
+    """Return contacts beside each other on one scale: maps of the pressure (of point contacts), and profiles.
+
+    Where their pressures differ much they are shown over their means, so that the shapes can be compared.
+
+    Parameters
+    ----------
+    contacts : sequence of Contact
+        One to three, all of them point or all of them line contacts.
+    """
+    scaled, label = _on_one_scale(contacts)
+    maps, profiles, figure = _panels(len(contacts), contacts[0].is_line)
+    reach = _MARGIN * max(contact.reach for contact in contacts)
+    highest = float(np.quantile(np.concatenate([each[each > 0.0] for each in scaled]), _SHARE_SHOWN))
+    for axes, contact, pressure in zip(maps, contacts, scaled, strict=False):
+        mesh = plot_contact_map(axes, contact, pressure, reach=reach, highest=highest)
+    for axes, contact, pressure in zip(profiles, contacts, scaled, strict=True):
+        plot_contact_profile(axes, contact, pressure)
+        axes.set_xlim(-reach / _MILLI, reach / _MILLI)
+        # A peak of a cell or two at the leading edge is cut off rather than all else pressed flat.
+        axes.set_ylim(0.0, 1.25 * highest)
+        axes.set_xlabel(_ALONG)
+    for axes, contact in zip(maps or profiles, contacts, strict=True):
+        mean = f"mean pressure {megapascals(contact.mean_pressure)}" if label != _PRESSURE else ""
+        axes.set_title("\n".join(line for line in (contact_title(contact), mean) if line), fontsize=9.5)
+    profiles[0].set_ylabel(label)
+    if maps:
+        maps[0].set_ylabel("across $y$ (mm)")
+        slender_bar(figure, mesh, maps, label, extend="max")
+    handles, labels = profiles[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4 if len(contacts) > 1 else 2, fontsize=8.5)
+    return figure
+
+
+def _on_one_scale(contacts: Sequence[Contact]) -> tuple[list[Array], str]:
+    """Return the pressures in MPa, or over their means where these differ much, and what they are called."""
+    means = [contact.mean_pressure for contact in contacts]
+    if max(means) <= _ALIKE * min(means):
+        return [contact.pressure / _MEGA for contact in contacts], _PRESSURE
+    return [contact.pressure / contact.mean_pressure for contact in contacts], "pressure over its mean $p/\\bar{p}$"
+
+
+def _panels(count: int, is_line: bool) -> tuple[list[Axes], list[Axes], Figure]:
+    """Return panels for maps (none of line contacts) and for profiles, and their figure."""
+    if is_line:
+        figure = new_figure(1.2 + 2.9 * count, 3.4)
+        return [], list(figure.subplots(1, count, squeeze=False, sharey=True)[0]), figure
+    if count == 1:
+        figure = new_figure(8.4, 3.9)
+        left, right = figure.subplots(1, 2)
+        return [left], [right], figure
+    figure = new_figure(1.5 + 2.7 * count, 6.0)
+    grid = figure.subplots(2, count, sharey="row", height_ratios=[2.5, 1.7])
+    return list(grid[0]), list(grid[1]), figure
+
+
+def contact_title(contact: Contact) -> str:
+    """Return what a contact is called, its conditions and its friction, each in a line of its own."""
+    friction = rf"$\mu$ = {significant(contact.friction)}" if math.isfinite(contact.friction) else ""
+    lines = (contact.title, contact.conditions, friction)
+    return "\n".join(line for line in lines if line)
+
+
+def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> None:
+    """Draw the surface on the centre line before, in and behind a contact, with what has not yet recovered.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    contact : Contact
+        For its edges.
+    x : (n,) array
+        Places along the motion, from the axis, m, ascending.
+    displacement : (n,) array
+        Into the solid, m.
+    """
+    height = -displacement / 1e-6
+    ahead = np.interp(-x, x, height, left=np.nan, right=np.nan)
+    behind = (x < 0.0) & np.isfinite(ahead)
+    axes.fill_between(
+        x / _MILLI,
+        height,
+        np.maximum(ahead, height),
+        where=behind,
+        color=ORANGE,
+        alpha=0.35,
+        linewidth=0.0,
+        label="not yet recovered",
+    )
+    axes.plot(
+        x[behind] / _MILLI,
+        ahead[behind],
+        color=GREY,
+        linewidth=1.0,
+        linestyle=(0, (1.5, 1.2)),
+        label="the surface ahead, mirrored",
+    )
+    axes.plot(x / _MILLI, height, color=INK, label="surface")
+    rear, front = contact.edges
+    touched = (x >= rear) & (x <= front)
+    axes.plot(x[touched] / _MILLI, height[touched], color=BLUE, linewidth=3.0, solid_capstyle="butt", label="contact")
+    axes.axvline(0.0, color=INK, linewidth=0.8)
+
+
+def trail_figure(contacts: Sequence[Contact], trails: Sequence[tuple[Array, Array]]) -> Figure:
+    """Return the surface along the centre lines of contacts, one above the other.
+
+    Parameters
+    ----------
+    contacts : sequence of Contact
+    trails : sequence of ((n,) array, (n,) array)
+        Of each contact, where (m) and how deep (m) the surface is displaced; see `plot_trail`.
+    """
+    figure = new_figure(7.4, 0.9 + 1.75 * len(contacts))
+    panels = figure.subplots(len(contacts), 1, squeeze=False, sharex=True)[:, 0]
+    for axes, contact, trail in zip(panels, contacts, trails, strict=True):
+        plot_trail(axes, contact, *trail)
+        axes.set_title(contact_title(contact).replace("\n", ", "), fontsize=9.5, loc="left")
+    panels[-1].set_xlabel(_ALONG)
+    figure.supylabel("height of the surface (µm)", fontsize=10.5)
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8.5)
+    return figure
+
+
+_MILLI, _MEGA = 1e-3, 1e6
+
+
+def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[float]) -> Figure:
+    """Return maps of the pressure on a whole period of the surface; of a profile, the pressure along it.
+
+    Parameters
+    ----------
+    contacts : sequence of Contact
+        One to three, all of them of maps or all of profiles.
+    directions : sequence of float
+        Of the motion of each, from x towards y, radians.
+    """
+    is_line = contacts[0].is_line
+    count = len(contacts)
+    size = (7.4, 0.9 + 1.75 * count) if is_line else (1.5 + 2.9 * count, 1.35 + 2.7 * _shape(contacts[0]))
+    figure = new_figure(*size)
+    rows, columns = (count, 1) if is_line else (1, count)
+    panels = list(figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True).ravel())
+    highest = highest_shown(*(contact.pressure for contact in contacts))
+    for axes, contact, direction in zip(panels, contacts, directions, strict=True):
+        touching = f"{100.0 * np.mean(contact.pressure > 0.0):.3g} % in contact"
+        title = f"{contact_title(contact)}, {touching}"
+        if is_line:
+            line = contact.pressure[:, 0] / _MEGA
+            axes.fill_between(contact.x / _MILLI, line, color=BLUE, alpha=0.15, linewidth=0.0)
+            axes.plot(contact.x / _MILLI, line, color=BLUE, linewidth=0.9)
+            axes.set_title(title.replace("\n", ", "), fontsize=9.5, loc="left")
+            axes.margins(x=0.0)
+            continue
+        mesh, label = plot_pressure_of_period(axes, contact.x, contact.y, contact.pressure, highest=highest)
+        mark_motion(axes, (math.cos(direction), math.sin(direction)))
+        axes.set_title(title, fontsize=9.5)
+        axes.label_outer()
+    if is_line:
+        panels[0].set_ylim(bottom=0.0)
+        panels[-1].set_xlabel("$x$ (mm)")
+        figure.supylabel("pressure $p$ (MPa)", fontsize=10.5)
+    else:
+        figure.supxlabel(panels[-1].get_xlabel(), fontsize=10.5)
+        slender_bar(figure, mesh, panels, label, extend="max")
+        for axes in panels:
+            axes.set_xlabel("")
+            axes.set_anchor("S")  # what room an equal aspect leaves is the titles'; a colour bar centres its panels
+    return figure
+
+
+def _shape(contact: Contact) -> float:
+    """Return the length of a period across over that along x, within what can be drawn beside others."""
+    return float(np.clip(np.ptp(contact.y) / np.ptp(contact.x), 0.4, 1.5))

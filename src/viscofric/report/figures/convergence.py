@@ -1,0 +1,122 @@
+"""Figures of how well the cases of a study were solved: error estimates, energy balance, cells."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from viscofric.report.figures.style import BLUE, GREEN, ORANGE, VERMILION, decade_ticks, new_figure, speed_ticks
+from viscofric.report.results import interpolated, values
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array, Mask
+
+
+_SMALLEST = 1e-9  # relative errors below are drawn there
+_FEW = 4.0  # points
+
+
+def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None) -> None:
+    """Draw the error estimate and the energy balance of every case, over the friction coefficient.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    cases : xarray.Dataset
+        `speed`, `friction_coefficient`, `friction_error` and perhaps `energy_balance`, `interpolated` and
+        `interpolation_error` along `case`.
+    accuracy : float, optional
+        That was asked for, relative: a line.
+    """
+    x = _along(cases)
+    friction = np.abs(values(cases, "friction_coefficient"))
+    between = interpolated(cases)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        error = values(cases, "friction_error") / friction
+    for mask, marker, filled, label in (
+        (~between, "o", True, "error estimate"),
+        (between, "o", False, "error estimate, interpolated"),
+    ):
+        _points(axes, x, error, mask, BLUE, marker, filled, label)
+    balance = np.abs(values(cases, "energy_balance"))
+    _points(axes, x, balance, ~between, ORANGE, "^", True, "energy balance")
+    if accuracy is not None and np.isfinite(accuracy):
+        axes.axhline(accuracy, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="accuracy asked for")
+    axes.set_yscale("log")
+    _finish(axes, cases, "relative to friction")
+    decade_ticks(axes.yaxis)
+
+
+def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
+    """Draw how many cells along the longer edge the finest grid of every solved case has.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    cases : xarray.Dataset
+        `speed` and `cells` along `case`, and perhaps `interpolated`.
+    """
+    cells = values(cases, "cells")
+    _points(axes, _along(cases), cells, ~interpolated(cases), GREEN, "s", True, "cells")
+    axes.set_yscale("log", base=2)
+    axes.yaxis.set_major_formatter(lambda number, _: f"{number:.0f}")
+    axes.minorticks_off()
+    _finish(axes, cases, "cells along an edge")
+
+
+def convergence_figure(cases: xr.Dataset, *, accuracy: float | None = None) -> Figure | None:
+    """Return errors and grids of all cases, or None where nothing is known of them.
+
+    Parameters
+    ----------
+    cases : xarray.Dataset
+        See `plot_errors` and `plot_cells`.
+    accuracy : float, optional
+        Relative.
+    """
+    if not np.isfinite(values(cases, "friction_error")).any() or cases.sizes["case"] < 2:
+        return None
+    has_cells = bool((np.isfinite(values(cases, "cells")) & ~interpolated(cases)).any())
+    figure = new_figure(7.4, 5.0 if has_cells else 3.4)
+    panels = figure.subplots(1 + has_cells, 1, squeeze=False, sharex=True, height_ratios=[2.0, 1.0][: 1 + has_cells])[
+        :, 0
+    ]
+    plot_errors(panels[0], cases, accuracy=accuracy)
+    if has_cells:
+        plot_cells(panels[1], cases)
+        panels[0].set_xlabel("")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4, fontsize=8.5)
+    return figure
+
+
+def _has_speeds(cases: xr.Dataset) -> bool:
+    return np.unique(values(cases, "speed")).size > 1
+
+
+def _along(cases: xr.Dataset) -> Array:
+    return np.asarray(1e3 * values(cases, "speed") if _has_speeds(cases) else 1.0 + np.arange(cases.sizes["case"]))
+
+
+def _points(axes: Axes, x: Array, y: Array, mask: Mask, colour: str, marker: str, filled: bool, label: str) -> None:
+    shown = mask & np.isfinite(y) & (y >= 0.0)
+    if shown.any():
+        style: dict[str, Any] = {"color": colour, "marker": marker, "markersize": _FEW, "linestyle": "none"}
+        face = colour if filled else "none"
+        axes.plot(x[shown], np.maximum(y[shown], _SMALLEST), markerfacecolor=face, alpha=0.75, label=label, **style)
+
+
+def _finish(axes: Axes, cases: xr.Dataset, label: str) -> None:
+    if _has_speeds(cases):
+        axes.set_xscale("log")
+        speed_ticks(axes.xaxis)
+        axes.set_xlabel("speed $v$ (mm/s)")
+    else:
+        axes.set_xlabel("case")
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.set_ylabel(label)

@@ -1,0 +1,318 @@
+"""Figures of friction against speed and against reduced speed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from viscofric.errors import InputError
+from viscofric.report.data import (
+    Measured,
+    Predicted,
+    measured,
+    measured_at_reference,
+    measured_line,
+    predicted,
+)
+from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors
+from viscofric.report.figures.style import (
+    GREY,
+    INK,
+    at_temperature,
+    degrees,
+    looks,
+    new_figure,
+    plain_numbers,
+    speed_ticks,
+)
+from viscofric.report.results import nearest, nominal_temperatures
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+    from viscofric.report.data import Friction, ReducedFriction
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+
+
+_BAND = 0.18  # how much of a band's colour covers what lies below it
+_MILLIMETRES = 1e3
+_WIDTH, _HEIGHT = 7.4, 4.0
+_HEADROOM = 1.08  # over the highest number, where the axis begins at zero
+
+
+def plot_friction_curves(axes: Axes, prediction: Friction | None = None, measurement: Friction | None = None) -> None:
+    """Draw viscoelastic friction against speed at each temperature (the paper's Figure 6).
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    prediction : FrictionCurves or xarray.Dataset, optional
+        Lines, and the 95 % bands where there are any.  A dataset has `speed`, `temperature`, `load`,
+        `friction_coefficient` and perhaps `friction_lower` and `friction_upper` along `case`.
+    measurement : FrictionCurves or xarray.Dataset, optional
+        Points with bars of one standard deviation.  A dataset has `speed`, `temperature`, `viscoelastic` and
+        `viscoelastic_scatter` along `point`.
+
+    Raises
+    ------
+    InputError
+        If there is neither.
+    """
+    if prediction is None and measurement is None:
+        raise InputError("there is no friction to draw: give a prediction, a measurement or both.")
+    lines = None if prediction is None else predicted(prediction)
+    points = None if measurement is None else measured(measurement)
+    nominal = nominal_temperatures(*(part.temperature for part in (lines, points) if part is not None))
+    handles = []
+    for index, look in enumerate(looks(nominal.size)):
+        marker, line = "none", "none"
+        if lines is not None and np.any(here := nearest(nominal, lines.temperature) == index):
+            _plot_loads(axes, lines.rows(here), look, alone=points is None)
+            line = look.dashes
+        if points is None or np.any(nearest(nominal, points.temperature) == index):
+            marker = look.marker
+        named: Any = {"marker": marker, "linestyle": line, "label": degrees(float(nominal[index]))}
+        handles.append(Line2D([], [], color=look.colour, **named))
+    if points is not None:
+        _plot_measured(axes, points, nominal)
+    axes.set_xlabel(r"speed $v$ (mm/s)")
+    title = [] if points is None else ["points: measured ± scatter"]
+    if lines is not None:
+        title.append(("lines: predicted" if title else "predicted") + (", 95 % bands" if lines.has_band else ""))
+    _finish(axes, handles[::-1], "\n".join(title), r"viscoelastic friction coefficient $\mu$")
+
+
+def plot_friction_master_curve(
+    axes: Axes,
+    prediction: Friction | None = None,
+    measurement: ReducedFriction | None = None,
+    *,
+    reference_temperature: float | None = None,
+) -> None:
+    """Draw viscoelastic friction of all temperatures against the reduced speed αv (the paper's Figure 7).
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    prediction : FrictionCurves or xarray.Dataset, optional
+        At the reference temperature, over the reduced speed: one line, and its 95 % band where there is one.  See
+        `plot_friction_curves`.
+    measurement : FrictionMasterCurve or xarray.Dataset, optional
+        Points with bars of one standard deviation; without a prediction also the smooth line through a
+        `FrictionMasterCurve`, with the 95 % band that the points' errors leave.  A dataset has `reduced_speed`,
+        `temperature`, `viscoelastic` and `viscoelastic_scatter` along `point`.
+    reference_temperature : float, optional
+        K, for the label; that of a `FrictionMasterCurve` if not given.
+
+    Raises
+    ------
+    InputError
+        If there is neither.
+    """
+    if prediction is None and measurement is None:
+        raise InputError("there is no friction to draw: give a prediction, a measurement or both.")
+    handles: list[Any] = []
+    if prediction is not None:
+        handles += _plot_line(axes, predicted(prediction), "predicted")
+    elif measurement is not None and (smooth := measured_line(measurement)) is not None:
+        handles += _plot_line(axes, smooth, "smoothed")
+    if measurement is not None:
+        points = measured_at_reference(measurement)
+        nominal = nominal_temperatures(points.temperature)
+        handles += [
+            Line2D([], [], color=look.colour, marker=look.marker, linestyle="none", label=degrees(float(kelvin)))
+            for look, kelvin in zip(looks(nominal.size), nominal, strict=True)
+        ][::-1]
+        _plot_measured(axes, points, nominal)
+    at = getattr(measurement, "reference", None) if reference_temperature is None else reference_temperature
+    axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(at))
+    title = "" if measurement is None else "points: measured ± scatter"
+    _finish(axes, handles, title, r"viscoelastic friction coefficient $\mu$")
+
+
+def plot_friction_master_curves(
+    axes: Axes, predictions: Mapping[str, Friction], *, reference_temperature: float | None = None
+) -> None:
+    """Draw predicted friction of several rubbers against the reduced speed αv.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    predictions : mapping of str to FrictionCurves or xarray.Dataset
+        Name of the rubber -> its friction at the reference temperature; see `plot_friction_master_curve`.
+    reference_temperature : float, optional
+        K, for the label.
+    """
+    handles: list[Any] = []
+    for look, (name, prediction) in zip(looks(len(predictions)), predictions.items(), strict=True):
+        lines = predicted(prediction)
+        lines = lines.rows(np.ones(lines.speed.size, dtype=bool))
+        _plot_band(axes, lines, look.colour, 1.0)
+        _plot_predicted(axes, lines, color=look.colour, linestyle=look.dashes)
+        handles.append(Line2D([], [], color=look.colour, linestyle=look.dashes, label=name))
+    axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(reference_temperature))
+    _finish(axes, handles, "predicted", r"viscoelastic friction coefficient $\mu$")
+
+
+def plot_coulomb_friction(axes: Axes, measurement: Friction) -> None:
+    """Draw measured Coulomb friction against speed at each temperature.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    measurement : FrictionCurves or xarray.Dataset
+        A dataset has `speed`, `temperature`, `coulomb` and `coulomb_scatter` along `point`.
+
+    Raises
+    ------
+    InputError
+        If it holds no Coulomb friction.
+    """
+    points = measured(measurement, "coulomb")
+    if not np.isfinite(points.friction).any():
+        raise InputError("the friction curves hold no Coulomb friction: measure with slip, in both directions.")
+    nominal = nominal_temperatures(points.temperature)
+    _plot_measured(axes, points, nominal)
+    handles = [
+        Line2D([], [], color=look.colour, marker=look.marker, linestyle="none", label=degrees(float(kelvin)))
+        for look, kelvin in zip(looks(nominal.size), nominal, strict=True)
+    ]
+    axes.set_xlabel(r"speed $v$ (mm/s)")
+    _finish(axes, handles[::-1], "measured ± scatter", r"Coulomb friction coefficient $\mu_\mathrm{c}$")
+
+
+def _plot_loads(axes: Axes, lines: Predicted, look: Any, *, alone: bool) -> None:
+    """Draw the predicted lines of one temperature, one for each load, fainter from the second on."""
+    loads = np.unique(lines.load)
+    for load in loads:
+        line = lines.rows(lines.load == load)
+        marker = look.marker if alone or np.isfinite(line.friction).sum() == 1 else "none"
+        alpha = 1.0 if load == loads[0] else 0.55
+        _plot_band(axes, line, look.colour, alpha)
+        style = {"linestyle": look.dashes, "marker": marker, "markersize": 4, "alpha": alpha}
+        _plot_predicted(axes, line, color=look.colour, **style)
+
+
+def _plot_line(axes: Axes, lines: Predicted, label: str) -> list[Any]:
+    """Draw one line over the reduced speed, with its band, and return what the legend shows of them."""
+    lines = lines.rows(np.ones(lines.speed.size, dtype=bool))
+    alone = {"marker": "o", "markersize": 4} if np.isfinite(lines.friction).sum() == 1 else {}
+    _plot_band(axes, lines, GREY, 1.0)
+    _plot_predicted(axes, lines, color=INK, **alone)
+    handles: list[Any] = [Line2D([], [], color=INK, label=label, **alone)]  # type: ignore[arg-type]
+    if lines.has_band:
+        handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="its 95 % band"))
+    return handles
+
+
+def _plot_band(axes: Axes, lines: Predicted, colour: Any, alpha: float) -> None:
+    if lines.has_band:
+        shade = {"color": colour, "alpha": alpha * (2.0 * _BAND if colour == GREY else _BAND), "linewidth": 0.0}
+        axes.fill_between(_MILLIMETRES * lines.speed, lines.lower, lines.upper, zorder=1, **shade)
+
+
+def _plot_predicted(axes: Axes, lines: Predicted, **look: Any) -> None:
+    """Draw a predicted line, thin where it rests on frequencies that were not measured."""
+    speed = _MILLIMETRES * lines.speed
+    look["zorder"] = 3.0  # above the points
+    if not lines.extrapolated.any():
+        axes.plot(speed, lines.friction, **look)
+        return
+    axes.plot(speed, lines.friction, linewidth=0.7, **look)
+    axes.plot(speed, np.where(lines.extrapolated, np.nan, lines.friction), **look)
+
+
+def _plot_measured(axes: Axes, points: Measured, nominal: Array) -> None:
+    which = nearest(nominal, points.temperature)
+    speed = _MILLIMETRES * points.speed
+    for index, look in enumerate(looks(nominal.size)):
+        rows = np.flatnonzero((which == index) & np.isfinite(speed) & np.isfinite(points.friction))
+        if rows.size:
+            axes.errorbar(
+                speed[rows],
+                points.friction[rows],
+                yerr=points.scatter[rows],
+                fmt=look.marker,
+                color=look.colour,
+                elinewidth=1.0,
+            )
+
+
+def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
+    axes.set_xscale("log")
+    axes.set_ylabel(label)
+    if axes.get_ylim()[1] > 0.0 and axes.dataLim.y0 >= 0.0:
+        axes.set_ylim(0.0, max(axes.get_ylim()[1], _HEADROOM * axes.dataLim.y1))
+    speed_ticks(axes.xaxis)
+    plain_numbers(axes, "y")
+    axes.legend(
+        handles=handles,
+        title=title or None,
+        alignment="left",
+        loc="upper left",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=1 + len(handles) // 18,
+    )
+
+
+def friction_figure(curves: FrictionCurves) -> Figure:
+    """Return a figure of measured viscoelastic friction, and of Coulomb friction where there is any below it.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    """
+    if curves.coulomb is None:
+        figure = new_figure(_WIDTH, _HEIGHT)
+        plot_friction_curves(figure.subplots(), measurement=curves)
+        return figure
+    figure = new_figure(_WIDTH, 1.8 * _HEIGHT)
+    top, bottom = figure.subplots(2, 1, sharex=True)
+    plot_friction_curves(top, measurement=curves)
+    plot_coulomb_friction(bottom, curves)
+    top.set_xlabel("")
+    return figure
+
+
+def predicted_figure(curves: FrictionCurves) -> Figure:
+    """Return a figure of predicted friction against speed, with its bands where it has any.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    """
+    figure = new_figure(_WIDTH, _HEIGHT)
+    plot_friction_curves(figure.subplots(), curves)
+    return figure
+
+
+def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None) -> Figure:
+    """Return a figure of a friction master curve, and of its shift factors below it where they were found from it.
+
+    Parameters
+    ----------
+    master : FrictionMasterCurve
+    known : ShiftLaw, optional
+        Shift factors of the modulus, to compare with.
+    """
+    if not master.found:
+        figure = new_figure(_WIDTH, _HEIGHT)
+        plot_friction_master_curve(figure.subplots(), measurement=master)
+        return figure
+    figure = new_figure(_WIDTH, 2.0 * _HEIGHT)
+    top, bottom = figure.subplots(2, 1)
+    plot_friction_master_curve(top, measurement=master)
+    if known is None:
+        plot_shift_factors(bottom, master.shift_factors)
+    else:
+        plot_shift_comparison(bottom, master.shift_factors, known)
+    return figure

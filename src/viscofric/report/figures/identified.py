@@ -1,0 +1,114 @@
+"""Figure of the modulus identified from friction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.report.data import Moduli, moduli_of_master_curve, modulus_band
+from viscofric.report.figures.style import (
+    BLUE,
+    GREY,
+    INK,
+    VERMILION,
+    at_temperature,
+    decade_ticks,
+    legend_above,
+    new_figure,
+)
+from viscofric.rheology.material import Material
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
+    from viscofric.friction.identification.result import IdentifiedMaterial
+    from viscofric.report.data import Master
+
+
+_MEGAPASCAL = 1e6
+#: The modulus is drawn so far beyond the frequencies of the contacts, as a factor.
+_BEYOND = 10.0
+_POINTS = 300
+
+
+def drawn_frequencies(found: IdentifiedMaterial) -> Array:
+    """Return the frequencies over which an identified modulus is drawn, rad/s: those of the contacts, and beyond."""
+    (first, last), band = found.frequency_range, found.identified
+    return np.geomspace(min(first, band.low) / _BEYOND, max(last, band.high) * _BEYOND, _POINTS)
+
+
+def plot_identified_modulus(axes: Axes, found: IdentifiedMaterial, known: Material | Master | None = None) -> None:
+    """Draw the modulus that friction identifies with its 95 % band, the identified frequencies marked.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    found : IdentifiedMaterial
+        From `viscofric.identify_material`.
+    known : Material, MasterCurve, Superposition or xarray.Dataset, optional
+        The same rubber as a DMA knows it, at the same reference temperature: a line, or points.
+    """
+    low, high = found.identified.low, found.identified.high
+    frequency = drawn_frequencies(found)
+    modulus = np.asarray(found.material.complex_modulus(frequency))
+    bounds = modulus_band(found.samples, frequency)
+    reference = found.material.reference
+    inside = (frequency >= low) & (frequency <= high)
+    handles: list[Any] = []
+    if high > low:
+        known_to = f"known to {100.0 * found.identified.limit:g} %" + (" but for the level" * found.identified.relative)
+        handles.append(axes.axvspan(low, high, color=GREY, alpha=0.15, linewidth=0.0, zorder=0, label=known_to))
+    for symbol, value, limits, colour in (
+        ("$E'$", modulus.real, bounds.storage, BLUE),
+        ("$E''$", modulus.imag, bounds.loss, VERMILION),
+    ):
+        value, limits = value / _MEGAPASCAL, limits / _MEGAPASCAL
+        shade: dict[str, Any] = {"color": colour, "alpha": 0.22, "linewidth": 0.0, "zorder": 1}
+        axes.plot(frequency, value, color=colour, linewidth=0.7)
+        handles += axes.plot(frequency, np.where(inside, value, np.nan), color=colour, label=f"{symbol} from friction")
+        handles.append(axes.fill_between(frequency, *limits, **shade, label=f"{symbol}, 95 %"))
+    if known is not None:
+        handles += _plot_known(axes, known, frequency)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(frequency[0], frequency[-1])
+    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(reference))
+    axes.set_ylabel("modulus (MPa)")
+    decade_ticks(axes.xaxis)
+    decade_ticks(axes.yaxis)
+    legend_above(axes, handles, columns=3)
+
+
+def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[Any]:
+    if isinstance(known, Material):
+        modulus = np.asarray(known.complex_modulus(frequency)) / _MEGAPASCAL
+        handles = axes.plot(frequency, modulus.real, color=INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
+        axes.plot(frequency, modulus.imag, color=INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
+        handles[0].set_label(known.name or "beside it")
+        return list(handles)
+    points: Moduli = moduli_of_master_curve(known)
+    near = (points.angular_frequency >= frequency[0]) & (points.angular_frequency <= frequency[-1])
+    look: dict[str, Any] = {"color": INK, "markersize": 3.0, "fillstyle": "none", "markeredgewidth": 0.7, "zorder": 2}
+    handles = axes.plot(points.angular_frequency[near], points.storage[near] / _MEGAPASCAL, "s", **look)
+    axes.plot(points.angular_frequency[near], points.loss[near] / _MEGAPASCAL, "o", **look)
+    handles[0].set_label("of the DMA")
+    return list(handles)
+
+
+def identified_figure(found: IdentifiedMaterial, known: Material | None = None) -> Figure:
+    """Return a figure of the modulus identified from friction.
+
+    Parameters
+    ----------
+    found : IdentifiedMaterial
+    known : Material, optional
+        To compare with, at the reference temperature of the other.
+    """
+    if known is not None and known.shift is not None and found.material.reference is not None:
+        known = known.at_reference(found.material.reference)
+    figure = new_figure()
+    plot_identified_modulus(figure.subplots(), found, known)
+    return figure

@@ -1,0 +1,349 @@
+"""Figures of rough surfaces: heights, power spectra, contact pressure, and friction by wavelength."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import matplotlib
+import numpy as np
+
+from viscofric.report.figures.style import INK, decade_ticks, looks, new_figure, speed_ticks
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
+    from viscofric.contact.periodic.solution import PeriodicSolution
+    from viscofric.roughness.ensemble import RoughFriction
+    from viscofric.roughness.persson import PerssonTheory
+    from viscofric.roughness.scales import FrictionByWavelength
+    from viscofric.roughness.spectrum import PowerSpectrum
+    from viscofric.roughness.topography import Topography
+
+
+#: More points along an edge than this do not show; maps draw every n-th.
+_MOST_POINTS = 512
+#: Share of the loaded points within the colours of a pressure.
+_SHARE_SHOWN = 0.995
+
+
+class _Unit(NamedTuple):
+    size: float
+    name: str
+
+
+def _unit(largest: float, base: str = "m") -> _Unit:
+    """Return the unit in which the largest of some numbers is neither very small nor very large."""
+    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ")):
+        if largest >= 0.5 * size:
+            return _Unit(size, prefix + base)
+    return _Unit(1e-9, "n" + base)
+
+
+def _axes_of_map(axes: Axes, unit: _Unit) -> None:
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    axes.set_xlabel(f"$x$ ({unit.name})")
+    axes.set_ylabel(f"$y$ ({unit.name})")
+
+
+def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
+    """Draw the heights of a surface seen from above; points without a reading stay blank.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    topography : Topography
+        A map of heights.
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh
+        For a colour bar.
+    str
+        Label of that bar.
+    """
+    every = math.ceil(max(topography.shape) / _MOST_POINTS)
+    z = topography.heights[::every, ::every] - np.nanmean(topography.heights)
+    unit, depth = _unit(max(topography.size)), _unit(float(np.nanmax(np.abs(z))) or 1.0)
+    mesh = axes.pcolormesh(
+        topography.x[::every] / unit.size,
+        topography.y[::every] / unit.size,
+        np.ma.masked_invalid(z.T / depth.size),
+        cmap=matplotlib.colormaps["cividis"],
+        shading="nearest",
+        rasterized=True,
+    )
+    _axes_of_map(axes, unit)
+    return mesh, f"height above the mean ({depth.name})"
+
+
+def plot_line_scan(axes: Axes, topography: Topography) -> None:
+    """Draw the heights of a line scan, or of the first line along x of a map, over their position.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    topography : Topography
+    """
+    z = topography.heights[:, 0] - np.nanmean(topography.heights[:, 0])
+    unit, depth = _unit(topography.size[0]), _unit(float(np.nanmax(np.abs(z))) or 1.0)
+    axes.plot(topography.x / unit.size, z / depth.size, color=INK, linewidth=0.9)
+    axes.set_xlabel(f"$x$ ({unit.name})")
+    axes.set_ylabel(f"height ({depth.name})")
+    axes.margins(x=0.0)
+
+
+def plot_contact_map(axes: Axes, solution: PeriodicSolution) -> tuple[QuadMesh, str]:
+    """Draw where a rough surface touches, and with which pressure; an arrow shows where it goes.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : PeriodicSolution
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh
+        For a colour bar.
+    str
+        Label of that bar.
+    """
+    mesh, label = plot_pressure_of_period(axes, solution.x, solution.y, solution.pressure)
+    if solution.speed != 0.0:
+        sense = math.copysign(1.0, solution.speed)
+        mark_motion(axes, (sense * solution.direction[0], sense * solution.direction[1]))
+    return mesh, label
+
+
+def plot_pressure_of_period(
+    axes: Axes, x: Array, y: Array, pressure: Array, *, highest: float | None = None
+) -> tuple[QuadMesh, str]:
+    """Draw the pressure on one period of a rough surface seen from above, where there is any.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    x, y : (nx,) and (ny,) array
+        m.
+    pressure : (nx, ny) array
+        Pa.
+    highest : float, optional
+        Pressure at the end of the colours, Pa; 99.5 % of the loaded points are below if it is not given.
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh
+        For a colour bar.
+    str
+        Label of that bar.
+    """
+    every = math.ceil(max(pressure.shape) / _MOST_POINTS)
+    # Contact patches are small: of n² points the highest pressure is drawn.
+    shape = tuple(n // every for n in pressure.shape)
+    merged = pressure[: shape[0] * every, : shape[1] * every]
+    merged = merged.reshape(shape[0], every, shape[1], every).max(axis=(1, 3))
+    unit, ends = _unit(float(x[-1])), highest_shown(merged) if highest is None else highest
+    size = _unit(float(pressure.max()) if highest is None else highest, "Pa")
+    mesh = axes.pcolormesh(
+        x[: shape[0] * every : every] / unit.size,
+        y[: shape[1] * every : every] / unit.size,
+        np.ma.masked_equal(merged.T, 0.0) / size.size,
+        cmap=matplotlib.colormaps["viridis"],
+        vmin=0.0,
+        vmax=ends / size.size,
+        shading="nearest",
+        rasterized=True,
+    )
+    _axes_of_map(axes, unit)
+    return mesh, f"pressure ({size.name})"
+
+
+def highest_shown(*pressures: Array) -> float:
+    """Return where the colours of pressures should end: one point at a sharp edge would leave all others dark."""
+    return float(np.quantile(np.concatenate([each[each > 0.0] for each in pressures]), _SHARE_SHOWN))
+
+
+def mark_motion(axes: Axes, direction: tuple[float, float]) -> None:
+    """Draw an arrow in the upper left corner along a unit vector."""
+    reach = 0.06 * direction[0], 0.06 * direction[1]
+    axes.annotate(
+        "",
+        (0.1 + reach[0], 0.92 + reach[1]),
+        (0.1 - reach[0], 0.92 - reach[1]),
+        "axes fraction",
+        "axes fraction",
+        arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4},
+    )
+
+
+def plot_power_spectra(axes: Axes, spectra: Mapping[str, PowerSpectrum]) -> None:
+    """Draw power spectra over the wave number, with wavelengths along the top.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    spectra : mapping of str to PowerSpectrum
+        By what the legend calls them.
+    """
+    for look, (name, spectrum) in zip(looks(len(spectra)), spectra.items(), strict=True):
+        few = len(spectrum.wave_number) <= 60
+        axes.loglog(
+            spectrum.wave_number,
+            spectrum.density,
+            color=look.colour,
+            linestyle=look.dashes,
+            marker=look.marker if few else "",
+            markersize=3.5,
+            label=name,
+        )
+    axes.set_xlabel("wave number $q$ (rad/m)")
+    axes.set_ylabel(r"$C(q)$ (m$^4$)")
+    axes.tick_params(which="both", top=False)
+    for axis in (axes.xaxis, axes.yaxis):
+        decade_ticks(axis)
+    above = axes.secondary_xaxis("top", functions=(_turned, _turned))
+    above.set_xlabel("wavelength (m)")
+    if len(spectra) > 1:
+        axes.legend()
+
+
+def _turned(value: Any) -> Any:
+    """Return the wavelength of a wave number, or the other way round."""
+    with np.errstate(divide="ignore"):
+        return np.asarray(2.0 * np.pi / np.asarray(value, dtype=float))
+
+
+def plot_friction_by_wavelength(axes: Axes, parts: Mapping[str, FrictionByWavelength]) -> None:
+    """Draw what the waves of each length add to the friction coefficient, per decade of wavelength.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    parts : mapping of str to FrictionByWavelength
+        By what the legend calls them.
+    """
+    for look, (name, part) in zip(looks(len(parts)), parts.items(), strict=True):
+        per_decade = part.contribution / np.log10(part.edges[:-1] / part.edges[1:])
+        axes.stairs(per_decade[::-1], part.edges[::-1], color=look.colour, linestyle=look.dashes, label=name)
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel("wavelength (m)")
+    axes.set_ylabel("friction per decade of wavelength")
+    decade_ticks(axes.xaxis)
+    if len(parts) > 1:
+        axes.legend()
+
+
+def plot_rough_friction(
+    axes: Axes, found: RoughFriction, theories: Mapping[str, PerssonTheory] | None = None, *, area: bool = False
+) -> None:
+    """Draw friction on an ensemble of surfaces over the speed: the mean, its 95 % interval, and the theory beside it.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    found : RoughFriction
+    theories : mapping of str to PerssonTheory, optional
+        By what the legend calls them; for the same temperatures.
+    area : bool
+        Whether to draw the corrected contact area fraction instead, without an interval.
+    """
+    several = len(found.surfaces) > 1 and not area
+    for row, look in enumerate(looks(len(found.temperature))):
+        kelvin = float(found.temperature[row])
+        where = "" if math.isnan(kelvin) else f", {celsius(kelvin):.4g} °C"
+        mean = (found.mean_area if area else found.mean_friction)[row]
+        name = f"solved, {len(found.surfaces)} surfaces{where}" if len(found.surfaces) > 1 else f"solved{where}"
+        axes.plot(found.speed, mean, marker=look.marker, color=look.colour, linestyle="none", label=name)
+        if several:
+            lower, upper = found.interval()
+            axes.fill_between(found.speed, lower[row], upper[row], color=look.colour, alpha=0.25, linewidth=0.0)
+        for dashes, (title, theory) in zip(("-", "--", ":", "-."), (theories or {}).items(), strict=False):
+            values = theory.contact_area_fraction if area else theory.friction_coefficient
+            axes.plot(theory.speed, values[row], color=look.colour, linestyle=dashes, label=f"{title}{where}")
+    _speed_axes(axes, "contact area over nominal area" if area else "friction coefficient")
+
+
+def plot_friction_by_cut_off(
+    axes: Axes, theories: Sequence[PerssonTheory], labels: Sequence[str], *, temperature: int = 0
+) -> None:
+    """Draw μ(v) of Persson's theory for several cut-offs of the surface.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    theories : sequence of PerssonTheory
+    labels : sequence of str
+        Such as the shortest wavelength of each.
+    temperature : int
+        Which of their temperatures.
+    """
+    for look, theory, label in zip(looks(len(theories)), theories, labels, strict=True):
+        axes.plot(
+            theory.speed,
+            theory.friction_coefficient[temperature],
+            color=look.colour,
+            linestyle=look.dashes,
+            label=label,
+        )
+    _speed_axes(axes, "friction coefficient")
+
+
+def _speed_axes(axes: Axes, quantity: str) -> None:
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0.0)
+    speed_ticks(axes.xaxis)
+    axes.set_xlabel("speed (m/s)")
+    axes.set_ylabel(quantity)
+    axes.legend()
+
+
+def rough_contact_figure(topography: Topography, solution: PeriodicSolution) -> Figure:
+    """Draw a surface and where it touches, side by side.
+
+    Parameters
+    ----------
+    topography : Topography
+    solution : PeriodicSolution
+        Of this surface.
+    """
+    figure = new_figure(8.6, 3.9)
+    left, right = figure.subplots(1, 2)
+    for axes, (mesh, label) in ((left, plot_topography(left, topography)), (right, plot_contact_map(right, solution))):
+        figure.colorbar(mesh, ax=axes, label=label)
+    touching = f"{100.0 * solution.contact_area_fraction:.3g} % in contact, μ = {solution.friction_coefficient:.3g}"
+    right.set_title(touching, fontsize=9, loc="left", color=INK)
+    return figure
+
+
+def surface_view(topography: Topography, *, stretch: float = 0.15) -> Figure:
+    """Draw a surface in three dimensions, its heights exaggerated.
+
+    Parameters
+    ----------
+    topography : Topography
+        A map without missing points.
+    stretch : float
+        Range of heights over the length of the surface in the drawing.
+    """
+    every = math.ceil(max(topography.shape) / 200)
+    z = topography.complete()[::every, ::every]
+    unit, depth = _unit(max(topography.size)), _unit(float(np.ptp(z)))
+    x, y = np.meshgrid(topography.x[::every] / unit.size, topography.y[::every] / unit.size, indexing="ij")
+    figure = new_figure(6.2, 4.3)
+    axes = figure.add_subplot(projection="3d")
+    axes.plot_surface(
+        x, y, (z - z.mean()) / depth.size, cmap=matplotlib.colormaps["cividis"], rcount=200, ccount=200, linewidth=0.0
+    )
+    axes.set_box_aspect((topography.size[0], topography.size[1], stretch * max(topography.size)))
+    axes.set_xlabel(f"$x$ ({unit.name})")
+    axes.set_ylabel(f"$y$ ({unit.name})")
+    axes.set_zlabel(f"height ({depth.name})")
+    return figure

@@ -1,0 +1,330 @@
+"""Figures of the material: isotherms, master curve with the residuals of the fit, and spectra."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from viscofric.report.data import Moduli, moduli_of_master_curve, moduli_of_sweeps, modulus_band
+from viscofric.report.figures.style import (
+    BLUE,
+    GREY,
+    INK,
+    VERMILION,
+    at_temperature,
+    decade_ticks,
+    degrees,
+    legend_above,
+    temperature_scale,
+)
+from viscofric.report.results import nearest, nominal_temperatures, values
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+
+    from viscofric.arrays import Array
+    from viscofric.report.data import Master, Sweeps
+    from viscofric.rheology.spectra.modulus_table import ModulusTable
+
+    Fitted = RetardationSpectrum | ModulusTable | xr.Dataset
+    from viscofric.rheology.spectra.retardation import RelaxationSpectrum
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+
+
+_PASCAL_PER_MEGAPASCAL = 1e6
+#: The fitted line goes so far beyond the measured frequencies, as a factor.
+_BEYOND = 10.0
+
+
+def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "loss"] = "storage") -> ScalarMappable:
+    """Draw the storage or the loss modulus of every sweep as measured, coloured by temperature.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    isotherms : IsothermalSweeps, Superposition, sequence of Isotherm, or xarray.Dataset
+        A dataset has `temperature`, `angular_frequency`, `storage_modulus`, `loss_modulus` along `reading`.
+    modulus : {"storage", "loss"}
+
+    Returns
+    -------
+    matplotlib.cm.ScalarMappable
+        Temperatures in °C to colours, for a colour bar (`house_style.temperature_bar`).
+    """
+    measured = moduli_of_sweeps(isotherms)
+    value = (measured.storage if modulus == "storage" else measured.loss) / _PASCAL_PER_MEGAPASCAL
+    marker = "s" if modulus == "storage" else "o"
+    scale = draw_by_temperature(axes, measured, measured.angular_frequency, value, marker)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel(r"angular frequency $\omega$ (rad/s)")
+    axes.set_ylabel(modulus_label(measured.symbol, modulus))
+    decade_ticks(axes.xaxis)
+    decade_ticks(axes.yaxis)
+    return scale
+
+
+def draw_by_temperature(axes: Axes, measured: Moduli, x: Array, y: Array, marker: str = "o") -> ScalarMappable:
+    """Draw one line with marks for each temperature, points in the order of their frequencies."""
+    nominal = nominal_temperatures(measured.temperature)
+    if not nominal.size:
+        nominal = np.array([293.15])  # a scale for the colour bar of an empty figure
+    scale = temperature_scale(nominal)
+    which = nearest(nominal, measured.temperature)
+    for index, kelvin in enumerate(nominal):
+        rows = np.flatnonzero(which == index)
+        if not rows.size:
+            continue
+        rows = rows[np.argsort(measured.angular_frequency[rows], kind="stable")]
+        label = degrees(float(kelvin))
+        colour = scale.to_rgba(np.array(celsius(float(kelvin))))
+        axes.plot(x[rows], y[rows], color=colour, marker=marker, markersize=3, linewidth=0.8, label=label)
+    return scale
+
+
+def modulus_label(symbol: str, modulus: Literal["storage", "loss"]) -> str:
+    """Return the label of an axis of moduli in MPa."""
+    primes = "'" if modulus == "storage" else "''"
+    return f"{modulus} modulus ${symbol}{primes}$ (MPa)"
+
+
+def plot_master_curve(
+    axes: Axes,
+    master_curve: Master,
+    spectrum_curve: Fitted | None = None,
+    *,
+    reference_temperature: float | None = None,
+    band: Any = None,
+) -> None:
+    """Draw the measured master curve with the fitted retardation spectrum (the paper's Figure 5).
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    master_curve : MasterCurve, Superposition or xarray.Dataset
+        A dataset has `angular_frequency` (reduced), `storage_modulus`, `loss_modulus` and, for the fit,
+        `fitted_storage_modulus` and `fitted_loss_modulus` along `reading`.
+    spectrum_curve : RetardationSpectrum, ModulusTable or xarray.Dataset, optional
+        The fit; a dataset has `storage_modulus` and `loss_modulus` along `angular_frequency`.
+    reference_temperature : float, optional
+        K, for the label; known already where a master curve is given as an object.
+    band : ModulusBand, MaterialSamples or xarray.Dataset, optional
+        Bounds of E' and E''; see `figure_data.modulus_band`.
+    """
+    measured = moduli_of_master_curve(master_curve)
+    frequency = measured.angular_frequency
+    line, fitted = _fitted_line(master_curve, spectrum_curve, frequency)
+    bounds = None if band is None else modulus_band(band, _wide(frequency) if line is None else line)
+    handles: list[Any] = []
+    bands: list[Any] = []
+    for name, symbol, marker, colour, dashes in (
+        ("storage", "$E'$", "s", BLUE, "-"),
+        ("loss", "$E''$", "o", VERMILION, (0, (5, 1.5))),
+    ):
+        value = getattr(measured, name) / _PASCAL_PER_MEGAPASCAL
+        handles += axes.plot(
+            frequency,
+            value,
+            marker,
+            color=colour,
+            markersize=3.5,
+            markeredgewidth=0.8,
+            fillstyle="none",
+            label=f"{symbol} measured",
+        )
+        if line is not None:
+            part = (fitted.real if name == "storage" else fitted.imag) / _PASCAL_PER_MEGAPASCAL
+            handles += axes.plot(line, part, color=INK, linestyle=dashes, linewidth=1.2, label=f"{symbol} fitted")
+        if bounds is not None:
+            lower, upper = getattr(bounds, name) / _PASCAL_PER_MEGAPASCAL
+            look: dict[str, Any] = {
+                "color": colour,
+                "alpha": 0.25,
+                "linewidth": 0,
+                "zorder": 1,
+                "label": f"{symbol}, 95 %",
+            }
+            bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, **look))
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel(_reduced_label(master_curve, reference_temperature))
+    axes.set_ylabel("modulus (MPa)")
+    decade_ticks(axes.xaxis)
+    decade_ticks(axes.yaxis)
+    legend_above(axes, handles + bands, columns=3 if bands else 2)
+
+
+def plot_residuals(
+    axes: Axes,
+    master_curve: Master,
+    spectrum: Fitted | None = None,
+    *,
+    reference_temperature: float | None = None,
+) -> None:
+    """Draw log10 of measured over fitted E' and E'' against reduced frequency: the panel below a master curve.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    master_curve, spectrum, reference_temperature
+        See `plot_master_curve`; of a dataset the columns `fitted_storage_modulus` and `fitted_loss_modulus`.
+    """
+    measured = moduli_of_master_curve(master_curve)
+    frequency = measured.angular_frequency
+    fitted = _fitted_at_readings(master_curve, spectrum, frequency)
+    handles: list[Any] = []
+    largest = 0.01
+    for symbol, value, fit, marker, colour in (
+        ("$E'$", measured.storage, fitted.real, "s", BLUE),
+        ("$E''$", measured.loss, fitted.imag, "o", VERMILION),
+    ):
+        left = np.log10(value / fit)
+        rms = float(np.sqrt(np.mean(left**2))) if left.size else 0.0
+        largest = max(largest, float(np.max(np.abs(left), initial=0.0)))
+        handles += axes.plot(
+            frequency,
+            left,
+            marker,
+            color=colour,
+            markersize=3,
+            markeredgewidth=0.7,
+            fillstyle="none",
+            label=f"{symbol}, rms {rms:#.3g}",
+        )
+    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=0)
+    axes.set_xscale("log")
+    axes.set_ylim(-1.12 * largest, 1.12 * largest)
+    axes.set_xlabel(_reduced_label(master_curve, reference_temperature))
+    axes.set_ylabel(r"$\log_{10}\,\frac{\mathrm{measured}}{\mathrm{fit}}$")
+    decade_ticks(axes.xaxis)
+    legend_above(axes, handles)
+
+
+def _reduced_label(master_curve: Master, reference: float | None) -> str:
+    if isinstance(master_curve, Superposition):
+        master_curve = master_curve.master_curve
+    known = getattr(master_curve, "reference", None) if reference is None else reference
+    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(known)
+
+
+def _wide(frequency: Array) -> Array:
+    return np.geomspace(frequency.min() / _BEYOND, frequency.max() * _BEYOND, 300)
+
+
+def _fitted_line(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> tuple[Array | None, Any]:
+    """Return frequencies and complex moduli of the fit, ascending; None without a fit."""
+    if spectrum is not None and not hasattr(spectrum, "data_vars"):
+        line = _wide(frequency)
+        return line, spectrum.complex_modulus(line)
+    source: Any = master_curve if spectrum is None else spectrum
+    prefix = "fitted_" if spectrum is None else ""
+    if not hasattr(source, "data_vars"):
+        return None, None
+    line = values(source, "angular_frequency")
+    fitted = values(source, prefix + "storage_modulus") + 1j * values(source, prefix + "loss_modulus")
+    order = np.argsort(line, kind="stable")
+    return line[order], fitted[order]
+
+
+def _fitted_at_readings(master_curve: Any, spectrum: Fitted | None, frequency: Array) -> Any:
+    if spectrum is not None and not hasattr(spectrum, "data_vars"):
+        return spectrum.complex_modulus(frequency)
+    return values(master_curve, "fitted_storage_modulus") + 1j * values(master_curve, "fitted_loss_modulus")
+
+
+_PASCAL_PER_MEGAPASCAL = 1e6
+#: Modes weaker than the strongest by more than this are left below the axis: they change nothing that can be seen.
+_DECADES_SHOWN = 10.0
+
+
+def plot_retardation_spectrum(
+    axes: Axes, spectrum: RetardationSpectrum | xr.Dataset, samples: MaterialSamples | None = None
+) -> None:
+    """Draw the compliance C_k of each retardation mode over its time τ_k.
+
+    Times that no measured frequency reaches (τ beyond 1/ω) lie on grey: the modes there are extrapolated.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    spectrum : RetardationSpectrum or xarray.Dataset
+        A dataset has `retardation_time` and `creep_coefficient` along `mode`.
+    samples : MaterialSamples, optional
+        For the 95 % band of each C_k, drawn where all samples share their retardation times.
+    """
+    frequencies = None
+    if isinstance(spectrum, RetardationSpectrum):
+        tau, C = spectrum.tau, spectrum.C
+        frequencies = None if spectrum.fit is None else spectrum.fit.frequency_range
+    else:
+        tau, C = values(spectrum, "retardation_time"), values(spectrum, "creep_coefficient")
+    _draw_modes(axes, tau, C * _PASCAL_PER_MEGAPASCAL, BLUE, "o")
+    handles = [] if samples is None else _draw_band(axes, samples)
+    if frequencies is not None:
+        handles += _shade_extrapolated(axes, frequencies)
+    if handles:
+        legend_above(axes, handles)
+    axes.set_xlabel(r"retardation time $\tau_k$ (s)")
+    axes.set_ylabel(r"compliance of a mode $C_k$ (1/MPa)")
+
+
+def plot_relaxation_spectrum(axes: Axes, spectrum: RelaxationSpectrum | RetardationSpectrum) -> None:
+    """Draw the modulus E_k of each relaxation (Prony) mode over its time τ_k.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    spectrum : RelaxationSpectrum or RetardationSpectrum
+        The latter is converted, exactly.
+    """
+    series = spectrum.to_relaxation() if isinstance(spectrum, RetardationSpectrum) else spectrum
+    _draw_modes(axes, series.tau, series.E / _PASCAL_PER_MEGAPASCAL, VERMILION, "s")
+    axes.set_xlabel(r"relaxation time $\tau_k$ (s)")
+    axes.set_ylabel(r"modulus of a mode $E_k$ (MPa)")
+
+
+def _draw_modes(axes: Axes, tau: Array, strength: Array, colour: str, marker: str) -> None:
+    """Draw a stem for each mode above zero, on logarithmic axes."""
+    shown = np.flatnonzero(strength > 10.0**-_DECADES_SHOWN * np.max(strength, initial=0.0))
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    if not shown.size:
+        return
+    low, high = np.log10(strength[shown].min()), np.log10(strength[shown].max())
+    room = 0.05 * max(high - low, 1.0)
+    axes.set_ylim(10.0 ** (low - 2.0 * room), 10.0 ** (high + room))
+    axes.set_xlim(tau[shown].min() / 3.0, tau[shown].max() * 3.0)
+    axes.vlines(tau[shown], axes.get_ylim()[0], strength[shown], color=colour, linewidth=1.1)
+    axes.plot(tau[shown], strength[shown], marker, color=colour, markersize=4)
+    decade_ticks(axes.xaxis)
+    decade_ticks(axes.yaxis)
+
+
+def _draw_band(axes: Axes, samples: MaterialSamples) -> list[Any]:
+    if np.any(np.ptp(samples.tau, axis=0) > 0.0):
+        return []
+    limits, band = axes.axis(), samples.spectrum_band()
+    lower, upper = (np.maximum(side * _PASCAL_PER_MEGAPASCAL, limits[2]) for side in (band.lower, band.upper))
+    filled = axes.fill_between(
+        samples.tau[0], lower, upper, color=BLUE, alpha=0.2, linewidth=0, zorder=1, label="95 % band"
+    )
+    axes.axis(limits)
+    return [filled]
+
+
+def _shade_extrapolated(axes: Axes, frequencies: tuple[float, float]) -> list[Any]:
+    left, right = axes.get_xlim()
+    shortest, longest = 1.0 / frequencies[1], 1.0 / frequencies[0]
+    spans = [
+        axes.axvspan(start, end, color=GREY, alpha=0.18, linewidth=0, zorder=0, label="extrapolated")
+        for start, end in ((left, min(shortest, right)), (max(longest, left), right))
+        if start < end
+    ]
+    axes.set_xlim(left, right)
+    return spans[:1]

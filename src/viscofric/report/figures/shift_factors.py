@@ -1,0 +1,291 @@
+"""Figures of shift factors: measured ones, laws and their residuals, vertical shifts, and those from friction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.report.data import LEVEL_95, shift_table
+from viscofric.report.figures.style import (
+    BLUE,
+    GREY,
+    INK,
+    VERMILION,
+    at_temperature,
+    decade_ticks,
+    degrees,
+    legend_above,
+    looks,
+    plain_numbers,
+)
+from viscofric.report.results import SAME_TEMPERATURE
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.units import CELSIUS_ZERO
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+
+    from viscofric.arrays import Array, Mask
+    from viscofric.report.data import Shifts, ShiftTable
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+
+
+#: 10 to this power is still a float, and beyond any axis.
+_LARGEST = 100.0
+#: Laws are not drawn this near to a pole, K.
+_NEAR_POLE = 1.0
+#: Shift factors of the modulus are drawn so far beyond those of friction, K.
+FARTHER = 20.0
+
+
+def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | None = None) -> None:
+    """Draw measured shift factors with their standard errors, and a law with its 95 % band (the paper's Figure 4).
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    shift_factors : ShiftFactors, Superposition or xarray.Dataset
+        A dataset has `log10_shift_factor` and `standard_error` (of log10) along `temperature` (K), and the attribute
+        `reference_temperature`.
+    law : ShiftLaw or str, optional
+        A law, or the kind of one to be fitted here (see `ShiftFactors.law`).
+    """
+    table = shift_table(shift_factors)
+    if isinstance(law, str):
+        law = _fitted(shift_factors, law)
+    handles: list[Any] = [
+        axes.errorbar(
+            table.temperature - CELSIUS_ZERO,
+            10.0**table.log10,
+            yerr=bars(table.log10, table.error),
+            fmt="o",
+            color=BLUE,
+            markersize=4.5,
+            elinewidth=1.0,
+            zorder=3,
+            label="isotherms, ± standard error",
+        )
+    ]
+    if law is not None:
+        handles += draw_law(axes, law, table.temperature)
+    low, high = np.nanmin(table.log10), np.nanmax(table.log10)
+    room = 0.06 * max(high - low, 1.0)
+    axes.set_yscale("log")
+    axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
+    axes.set_xlabel("temperature (°C)")
+    axes.set_ylabel(r"shift factor $\alpha_T$")
+    plain_numbers(axes, "x")
+    decade_ticks(axes.yaxis)
+    legend_above(axes, handles, columns=1)
+
+
+def plot_vertical_shift(axes: Axes, vertical_shift: VerticalShift, temperatures: Array | None = None) -> None:
+    """Draw the vertical shift b(T): a table with its standard errors, or a law.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    vertical_shift : VerticalShift
+    temperatures : (n,) array, optional
+        K; where to draw a law.  By default 100 K about its reference.
+    """
+    measured = getattr(vertical_shift, "temperatures", None)
+    if measured is not None:
+        b = vertical_shift(measured)
+        error = np.log(10.0) * b * vertical_shift.standard_errors  # type: ignore[attr-defined]
+        axes.errorbar(measured - CELSIUS_ZERO, b, yerr=error, fmt="o", color=BLUE, markersize=4.5, elinewidth=1.0)
+    else:
+        reference = vertical_shift.reference
+        near = np.array([reference - 50.0, reference + 50.0]) if temperatures is None else temperatures
+        line = np.linspace(float(near.min()), float(near.max()), 200)
+        axes.plot(line - CELSIUS_ZERO, vertical_shift(line), color=VERMILION)
+    axes.axhline(1.0, color=GREY, linewidth=0.8, zorder=0)
+    axes.set_xlabel("temperature (°C)")
+    axes.set_ylabel(r"vertical shift $b_T$")
+    plain_numbers(axes, "x")
+    plain_numbers(axes, "y")
+
+
+def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLaw]) -> None:
+    """Draw what each law leaves unexplained, log10 of measured over predicted α, in the measurement's 95 % band.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    shift_factors : ShiftFactors, Superposition or xarray.Dataset
+        See `plot_shift_factors`.
+    laws : sequence of ShiftLaw
+        With the same reference.  One that is far worse than the two best runs out of the axes.
+    """
+    table = shift_table(shift_factors)
+    warm = table.temperature - CELSIUS_ZERO
+    doubt = LEVEL_95 * table.error
+    handles: list[Any] = [
+        axes.fill_between(warm, -doubt, doubt, color=GREY, alpha=0.3, linewidth=0, label="95 % of measured")
+    ]
+    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
+    every = []
+    for law, look in zip(laws, looks(len(laws)), strict=True):
+        answered = _answered(law, table.temperature)
+        left = table.log10[answered] - np.asarray(law.log10(table.temperature[answered]))
+        handles += axes.plot(
+            warm[answered],
+            left,
+            color=look.colour,
+            marker=look.marker,
+            linestyle=look.dashes,
+            markersize=4,
+            linewidth=1.0,
+            label=getattr(law, "title", type(law).__name__),
+        )
+        every.append(left)
+    axes.set_ylim(*_limits_of_residuals(every, doubt))
+    axes.set_xlabel("temperature (°C)")
+    axes.set_ylabel(r"$\log_{10}$ of measured over law's $\alpha_T$")
+    plain_numbers(axes, "x")
+    legend_above(axes, handles, columns=2)
+
+
+def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -> None:
+    """Draw shift factors found from friction beside those of the modulus, each with its standard error.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    found : ShiftFactors, Superposition or xarray.Dataset
+        From friction.  A dataset has `log10_shift_factor` and `standard_error` (of log10) along `temperature` (K), and
+        the attribute `reference_temperature`.
+    known : ShiftFactors, Superposition, xarray.Dataset or a law
+        Of the modulus; brought to the reference of `found`, which a dataset must have already.
+
+    Raises
+    ------
+    InputError
+        If a dataset has another reference temperature.
+    """
+    table = shift_table(found)
+    handles: list[Any] = []
+    if isinstance(known, ShiftLaw):
+        known = known.at_reference(table.reference)
+    if isinstance(known, ShiftLaw) and not isinstance(known, ShiftFactors):
+        ends = np.array([table.temperature.min(), table.temperature.max()])
+        handles += draw_law(axes, known, ends, "of the modulus: ")
+        lowest, highest = (float(part) for part in np.asarray(known.log10(ends))[[1, 0]])
+    else:
+        other = shift_table(known)
+        if abs(other.reference - table.reference) > SAME_TEMPERATURE:
+            raise InputError(
+                f"shift factors of friction are 1 at {degrees(table.reference)}, those of the modulus at "
+                f"{degrees(other.reference)}: must be the same to be drawn together."
+            )
+        other = _between(other, table.temperature)
+        handles.append(_points(axes, other, INK, "s", "of the modulus, ± standard error"))
+        lowest, highest = float(np.min(other.log10)), float(np.max(other.log10))
+    handles.append(_points(axes, table, BLUE, "o", "from friction, ± standard error"))
+    low, high = min(lowest, float(table.log10.min())), max(highest, float(table.log10.max()))
+    room = 0.08 * max(high - low, 0.5)
+    axes.set_yscale("log")
+    axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
+    axes.set_xlabel("temperature (°C)")
+    axes.set_ylabel(r"shift factor $\alpha_T$" + at_temperature(table.reference, ", 1"))
+    plain_numbers(axes, "x")
+    decade_ticks(axes.yaxis)
+    legend_above(axes, handles, columns=1)
+
+
+def _between(table: ShiftTable, temperatures: Array) -> ShiftTable:
+    """Leave out what lies far from temperatures, for a rubber's sweeps reach farther than friction."""
+    low, high = temperatures.min() - FARTHER, temperatures.max() + FARTHER
+    near = (table.temperature >= low) & (table.temperature <= high)
+    return table._replace(temperature=table.temperature[near], log10=table.log10[near], error=table.error[near])
+
+
+def _points(axes: Axes, table: ShiftTable, colour: str, marker: str, label: str) -> Any:
+    return axes.errorbar(
+        table.temperature - CELSIUS_ZERO,
+        10.0**table.log10,
+        yerr=bars(table.log10, table.error),
+        fmt=marker,
+        color=colour,
+        markersize=4.5 if marker == "o" else 6.5,
+        fillstyle="full" if marker == "o" else "none",
+        elinewidth=1.0,
+        zorder=3 if marker == "o" else 2,
+        label=label,
+    )
+
+
+def _limits_of_residuals(every: list[Array], doubt: Array) -> tuple[float, float]:
+    # The band of a plateau may be endless: the laws set the scale, with the usual doubt.
+    usual = min(float(np.median(doubt)), 1.0)
+    largest = [float(np.max(np.abs(left), initial=0.0)) for left in every]
+    scale = max(usual, *sorted(largest)[:2], 1e-3)
+    shown = np.concatenate([np.array([-usual, usual]), *(left for left in every if _not_far(left, scale))])
+    low, high = float(shown.min()), float(shown.max())
+    room = 0.08 * max(high - low, 1e-3)
+    return low - room, high + room
+
+
+def _not_far(left: Array, scale: float) -> bool:
+    return float(np.max(np.abs(left), initial=0.0)) <= 3.0 * scale
+
+
+def bars(log10: Array, error: Array) -> Array:
+    """Lengths of error bars of 10**log10 for a standard error of log10; endless ones end beyond any axis."""
+    factor, error = 10.0**log10, np.minimum(error, _LARGEST)
+    return np.array([factor * (1.0 - 10.0**-error), factor * (10.0**error - 1.0)])
+
+
+def draw_law(axes: Axes, law: ShiftLaw, temperatures: Array, whose: str = "") -> list[Any]:
+    """Draw a law with its 95 % band over a range of temperatures (K), and return what the legend shows of them."""
+    line = np.linspace(temperatures.min(), temperatures.max(), 400)
+    line = line[_answered(law, line)]
+    if not line.size:
+        return []
+    warm, log10 = line - CELSIUS_ZERO, np.asarray(law.log10(line))
+    handles: list[Any] = axes.plot(
+        warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=VERMILION, label=f"{whose}{_described(law)}"
+    )
+    if getattr(law, "covariance", None) is not None:
+        doubt = LEVEL_95 * np.asarray(law.standard_error(line))
+        lower, upper = (10.0 ** np.clip(log10 + side * doubt, -_LARGEST, _LARGEST) for side in (-1.0, 1.0))
+        handles.append(
+            axes.fill_between(warm, lower, upper, color=VERMILION, alpha=0.25, linewidth=0, label="its 95 % band")
+        )
+    return handles
+
+
+def _answered(law: ShiftLaw, temperatures: Array) -> Mask:
+    """Say where a law answers, with some room to its pole."""
+    measured = getattr(law, "temperatures", None)
+    if measured is not None:
+        low, high = measured[0], measured[-1]
+        return np.asarray((temperatures >= low) & (temperatures <= high))
+    low, high = getattr(law, "extrapolation_limits", (0.0, np.inf))
+    pole = getattr(law, "pole", None)
+    if pole is not None:
+        low = max(low, pole + _NEAR_POLE)
+    return np.asarray((temperatures >= low) & (temperatures <= high))
+
+
+def _described(law: ShiftLaw) -> str:
+    """Name a law with its constants, where they are two that everybody quotes."""
+    at = f"at {degrees(law.reference)}"
+    if hasattr(law, "C1") and not hasattr(law, "glass_transition"):
+        return f"WLF: $C_1$ = {law.C1:.4g}, $C_2$ = {law.C2:.4g} K {at}"  # type: ignore[attr-defined]
+    if hasattr(law, "glass_transition"):
+        return f"WLF above {degrees(law.glass_transition)}, Arrhenius below"
+    if type(law).__name__ == "Arrhenius":
+        return f"Arrhenius: {law.activation_energy / 1e3:.4g} kJ/mol"  # type: ignore[attr-defined]
+    return f"{getattr(law, 'title', type(law).__name__)} {at}"
+
+
+def _fitted(shift_factors: Shifts, kind: str) -> ShiftLaw:
+    factors: Any = getattr(shift_factors, "shift_factors", shift_factors)
+    fitted: ShiftLaw = factors.law(kind)
+    return fitted

@@ -1,0 +1,244 @@
+"""Contacts whose fields the results keep: which of them are shown, and the surface behind them."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.report.figures.contacts import Contact
+from viscofric.report.results import group, number, values
+from viscofric.report.sweeps import SEED, VARIED, solved_cases, value_label
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from viscofric.arrays import Array
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+
+
+FIELDS = "fields"
+#: Coordinates of a case, in the order in which they are told.
+_CONDITIONS = (*VARIED, "temperature", "speed")
+#: How far behind and ahead of the contact a trail is looked at, over the contact's length.
+_TRAIL = 2.5
+_FEWEST_CELLS = 64  # along an edge, of the pressure that a trail is calculated from
+_SAME = 1e-9  # relative
+
+
+class Shown(NamedTuple):
+    """A contact with the conditions that it was solved at, as far as they are known (SI, by name)."""
+
+    contact: Contact
+    conditions: dict[str, Any]
+
+
+def shown_contacts(tree: xr.DataTree) -> list[Shown]:
+    """Return the slowest contact, that of the most friction and the fastest, of those whose fields are kept.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Results; the groups below ``/fields`` hold `pressure` (Pa) and `displacement` (m) over `x` and `y` (m), and the
+        coordinates of their case.
+
+    Returns
+    -------
+    list of Shown
+        By speed; fewer than three where they coincide, none where no fields are kept.
+    """
+    found = _kept(tree)
+    if not found:
+        return []
+    speed, friction = (np.array([float(told.get(name, math.nan)) for _, told in found]) for name in _CHOSEN_BY)
+    if not np.isfinite(speed).any():
+        chosen = {0: ""}
+    else:
+        chosen = {}
+        for index, title in (
+            (int(np.nanargmin(speed)), "slowest"),
+            (int(np.nanargmax(friction)) if np.isfinite(friction).any() else None, "most friction"),
+            (int(np.nanargmax(speed)), "fastest"),
+        ):
+            if index is not None:
+                chosen[index] = f"{chosen[index]}, {title}" if index in chosen else title
+    order = sorted(chosen, key=lambda index: speed[index])
+    is_line = found[order[0]][0]["y"].size == 1
+    prediction, named = group(tree, "prediction"), _varied(found)
+    if prediction is not None and SEED in prediction.dims:  # also where all kept fields are of one seed
+        named.add(SEED)
+    return [
+        Shown(_contact(*found[index], chosen[index] if len(found) > 1 else "", named), found[index][1])
+        for index in order
+        if (found[index][0]["y"].size == 1) == is_line
+    ]
+
+
+_CHOSEN_BY = ("speed", "friction_coefficient")
+
+
+def _kept(tree: xr.DataTree) -> list[tuple[xr.Dataset, dict[str, Any]]]:
+    """Return the fields that the results keep, each with the conditions of its case and its friction."""
+    parent = tree.children.get(FIELDS)
+    if parent is None:
+        return []
+    kept = []
+    cases = solved_cases(tree)
+    for child in parent.children.values():
+        fields = child.to_dataset()
+        if "y" not in fields.dims and {"pressure", "x"} <= set(fields.variables):  # a line contact
+            fields = fields.expand_dims(y=[0.0], axis=1)
+        if not {"pressure", "x", "y"} <= set(fields.variables) or not (fields["pressure"].values > 0.0).any():
+            continue
+        told = {name: _told(fields, name) for name in (*_CONDITIONS, "friction_coefficient")}
+        told = {name: value for name, value in told.items() if value is not None}
+        if "mean_pressure" in fields.variables:  # of a rough surface: `pressure` is the field
+            told["pressure"] = _told(fields, "mean_pressure")
+        if "friction_coefficient" not in told and cases is not None:
+            told["friction_coefficient"] = _friction_of(cases, told)
+        kept.append((fields, told))
+    return kept
+
+
+def _told(fields: xr.Dataset, name: str) -> Any:
+    """Return what fields say of their case: a scalar among their variables or attributes."""
+    value = fields[name].values if name in fields.variables else fields.attrs.get(name)
+    if value is None or np.size(value) != 1:
+        return None
+    return np.ravel(value)[0].item() if isinstance(value, np.ndarray | np.generic) else value
+
+
+def _friction_of(cases: xr.Dataset, told: dict[str, Any]) -> float:
+    """Return the friction coefficient of the case with these conditions, NaN if there is none."""
+    same = np.ones(cases.sizes["case"], dtype=bool)
+    for name, value in told.items():
+        if name in cases.variables and cases[name].dims == ("case",):
+            column = cases[name].values
+            same &= column == value if isinstance(value, str) else np.isclose(column, value, rtol=_SAME, atol=0.0)
+    rows = np.flatnonzero(same)
+    return float(values(cases, "friction_coefficient")[rows[0]]) if rows.size else math.nan
+
+
+def _varied(found: list[tuple[xr.Dataset, dict[str, Any]]]) -> set[str]:
+    """Return which conditions differ among the contacts, and those that are always told."""
+    differ = {name for name in _CONDITIONS if len({str(told.get(name)) for _, told in found}) > 1}
+    return differ | {"temperature", "speed"}
+
+
+def _contact(fields: xr.Dataset, told: dict[str, Any], title: str, named: set[str]) -> Contact:
+    words = [_in_words(fields, name, told[name]) for name in _CONDITIONS if name in told and name in named]
+    pressure = fields["pressure"].transpose("x", "y").values.astype(float)
+    none = np.full(pressure.shape, np.nan)
+    displacement = fields["displacement"].transpose("x", "y").values.astype(float) if "displacement" in fields else none
+    friction = float(told.get("friction_coefficient", math.nan))
+    return Contact(title, ", ".join(words), friction, *_places(fields), pressure, displacement)
+
+
+def _in_words(fields: xr.Dataset, name: str, value: Any) -> str:
+    units = {"load": "N", "radius": "m", "thickness": "m"}
+    labelled = (
+        fields
+        if name in fields.variables
+        else fields.assign_coords({name: ((), value, {"units": units.get(name, "")})})
+    )
+    return value_label(labelled, name, value)
+
+
+def _places(fields: xr.Dataset) -> tuple[Array, Array]:
+    return fields["x"].values.astype(float), fields["y"].values.astype(float)
+
+
+def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
+    """Return the surface on the centre line of each contact, from well behind it to well ahead.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Results with the retardation spectrum and, where a temperature is not the reference, shift factors.
+    shown : list of Shown
+
+    Returns
+    -------
+    list of ((n,) array, (n,) array)
+        Place (m) and displacement (m) into the solid.  Only as far as the kept fields reach where the results do not
+        hold what it takes to look farther: of layers, of several rubbers, and of rubbers that they do not describe.
+
+    Notes
+    -----
+    The kept pressure is convolved with the moving half-space (`viscofric.contact.fields.trail`), in cells that are
+    merged down to about 64 along an edge.
+    """
+    found = [_calculated_trail(tree, contact, conditions) for contact, conditions in shown]
+    if any(trail is None for trail in found):
+        found = [(contact.x, contact.centre_line(contact.displacement)) for contact, _ in shown]
+    return [trail for trail in found if trail is not None and np.isfinite(trail[1]).all()]
+
+
+def _calculated_trail(tree: xr.DataTree, contact: Contact, conditions: dict[str, Any]) -> tuple[Array, Array] | None:
+    spectrum, poisson_ratio = group(tree, "spectrum"), number(tree.attrs, "poisson_ratio")
+    known = {"speed", "temperature"} <= set(conditions)
+    if spectrum is None or spectrum["retardation_time"].ndim != 1 or not math.isfinite(poisson_ratio) or not known:
+        return None
+    if np.isfinite(conditions.get("thickness", math.nan)) or "material" in conditions:
+        return None
+    try:
+        alpha = _shift_factor(tree, conditions["temperature"])
+    except InputError:
+        return None
+    return None if alpha is None else _trail(contact, alpha * conditions["speed"], spectrum, poisson_ratio)
+
+
+def _trail(contact: Contact, reduced_speed: float, spectrum: xr.Dataset, poisson_ratio: float) -> tuple[Array, Array]:
+    from viscofric.contact.fields.trail import surface_displacement
+
+    x, y, pressure = _merged(contact)
+    rear, front = contact.edges
+    far = _TRAIL * (front - rear)
+    surface = surface_displacement(
+        x,
+        y,
+        pressure,
+        speed=reduced_speed,
+        E_inf=number(spectrum.attrs, "E_inf"),
+        C=values(spectrum, "creep_coefficient"),
+        tau=values(spectrum, "retardation_time"),
+        poisson_ratio=poisson_ratio,
+        behind=far,
+        ahead=far,
+    )
+    middle = np.flatnonzero(np.isclose(np.abs(surface.y), np.abs(surface.y).min(), rtol=1e-6))
+    return surface.x, surface.displacement[:, middle].mean(axis=1)
+
+
+def _merged(contact: Contact) -> tuple[Array, Array, Array]:
+    """Return a point contact's pressure in larger cells, of which it keeps the load."""
+    x, y, pressure = contact.x, contact.y, contact.pressure
+    every = 1 if contact.is_line else max(1, min(pressure.shape) // _FEWEST_CELLS)
+    # A cell on the axis, of an odd number of them, stays there where nothing is merged.
+    if every == 1 or any(size % every for size in pressure.shape):
+        return x, y, pressure
+    rows, columns = (size // every for size in pressure.shape)
+    merged = pressure.reshape(rows, every, columns, every).mean(axis=(1, 3))
+    return x.reshape(rows, every).mean(axis=1), y.reshape(columns, every).mean(axis=1), merged
+
+
+def _shift_factor(tree: xr.DataTree, kelvin: float) -> float | None:
+    """Return α(T) as the study took it, None where the results do not tell."""
+    from viscofric.report.data import law_of, vertical_shift_of
+
+    factors, law = group(tree, "shift_factors"), law_of(group(tree, "shift_law"))
+    if factors is not None and vertical_shift_of(factors) is not None:
+        return None
+    if factors is not None and str(factors.attrs.get("shift_used", "measured")) == "measured":
+        return float(10.0 ** _measured(factors).log10(kelvin))
+    return None if law is None else float(10.0 ** law.log10(kelvin))
+
+
+def _measured(factors: xr.Dataset) -> ShiftFactors:
+    from viscofric.report.data import shift_table
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+
+    table = shift_table(factors)
+    return ShiftFactors(table.temperature, table.log10, table.reference)

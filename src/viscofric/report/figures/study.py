@@ -1,0 +1,317 @@
+"""The figures of a study's results, each drawn from the tree of results, or None where these lack its data."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.files import write_atomically
+from viscofric.report.data import law_of, vertical_shift_of
+from viscofric.report.figures import saving
+from viscofric.report.figures.contacts import contacts_figure, rough_contacts_figure, trail_figure
+from viscofric.report.figures.convergence import convergence_figure
+from viscofric.report.figures.friction import (
+    plot_coulomb_friction,
+    plot_friction_curves,
+    plot_friction_master_curve,
+    plot_friction_master_curves,
+)
+from viscofric.report.figures.maps import known_shifts, map_figure
+from viscofric.report.figures.rubber import plot_isotherms, plot_master_curve, plot_residuals, plot_retardation_spectrum
+from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors, plot_vertical_shift
+from viscofric.report.figures.stored_contacts import shown_contacts, trails
+from viscofric.report.figures.style import new_figure, temperature_bar
+from viscofric.report.figures.superposition import plot_cole_cole, plot_van_gurp_palmen
+from viscofric.report.figures.sweeps import sweep_figure
+from viscofric.report.results import (
+    group,
+    is_rough,
+    is_synthetic,
+    nearest,
+    nominal_temperatures,
+    number,
+    reference_temperature,
+    rubbers,
+    values,
+)
+from viscofric.report.sweeps import MOST_LINES, SAMPLE, labelled, solved_cases, sweep_axes, thinned
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+
+def _isotherms(tree: xr.DataTree) -> Figure | None:
+    sweeps = group(tree, "isotherms")
+    if sweeps is None:
+        return None
+    figure = new_figure(9.0, 4.3)
+    left, right = figure.subplots(1, 2)
+    plot_isotherms(left, sweeps, "storage")
+    temperature_bar(figure, plot_isotherms(right, sweeps, "loss"), [left, right])
+    return figure
+
+
+def _superposition(tree: xr.DataTree) -> Figure | None:
+    sweeps = group(tree, "isotherms")
+    if sweeps is None:
+        return None
+    figure = new_figure(9.0, 4.3)
+    left, right = figure.subplots(1, 2)
+    plot_van_gurp_palmen(left, sweeps)
+    temperature_bar(figure, plot_cole_cole(right, sweeps), [left, right])
+    return figure
+
+
+def _master_curve(tree: xr.DataTree) -> Figure | None:
+    curve, spectrum = group(tree, "master_curve"), group(tree, "spectrum_curve")
+    if curve is None:
+        return None
+    figure = new_figure(6.2, 5.6)
+    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[2.6, 1.0])
+    reference = reference_temperature(tree)
+    band = spectrum if spectrum is not None and "storage_modulus_lower" in spectrum else None
+    plot_master_curve(top, curve, spectrum, reference_temperature=reference, band=band)
+    plot_residuals(bottom, curve, reference_temperature=reference)
+    top.set_xlabel("")
+    return figure
+
+
+def _shift_factors(tree: xr.DataTree) -> Figure | None:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return None
+    figure = new_figure()
+    plot_shift_factors(figure.subplots(), factors, law_of(group(tree, "shift_law")))
+    return figure
+
+
+def _vertical_shift(tree: xr.DataTree) -> Figure | None:
+    factors = group(tree, "shift_factors")
+    shift = vertical_shift_of(factors)
+    if factors is None or shift is None:
+        return None
+    figure = new_figure()
+    plot_vertical_shift(figure.subplots(), shift, values(factors, "temperature"))
+    return figure
+
+
+def _spectrum(tree: xr.DataTree) -> Figure | None:
+    spectrum = group(tree, "spectrum")
+    if spectrum is None:
+        return None
+    figure = new_figure()
+    plot_retardation_spectrum(figure.subplots(), spectrum)
+    return figure
+
+
+def _friction_shift_factors(tree: xr.DataTree) -> Figure | None:
+    found = group(tree, "friction_shift_factors")
+    if found is None:
+        return None
+    # Friction may reach beyond the sweeps.
+    both = found.isel(temperature=np.isfinite(values(found, "known_log10_shift_factor")))
+    names = {f"known_{name}": name for name in ("log10_shift_factor", "standard_error")}
+    figure = new_figure()
+    plot_shift_comparison(figure.subplots(), found, both.drop_vars(names.values()).rename(names))
+    return figure
+
+
+def friction_against_speed(tree: xr.DataTree) -> Figure | None:
+    """Friction at a few temperatures, beside what was measured; where nothing else varies, or friction was measured."""
+    prediction, measurement = solved_cases(tree), group(tree, "measurement")
+    if measurement is None and (prediction is None or not _is_plain(tree)):
+        return None
+    figure = new_figure(7.4, 4.3)
+    few = None if prediction is None else _few_curves(prediction, measurement)
+    plot_friction_curves(figure.subplots(), few, measurement)
+    return figure
+
+
+def friction_sweep(tree: xr.DataTree) -> Figure | None:
+    """Friction over the axes of a study: where more than speed and temperature varies, or the speed does not."""
+    friction = labelled(tree)
+    told = group(tree, "measurement") is not None and varied(tree) <= _CURVES
+    return None if friction is None or told or _is_plain(tree) else sweep_figure(friction)
+
+
+def _is_plain(tree: xr.DataTree) -> bool:
+    """Whether curves over the speed, one for each temperature, are all there is."""
+    names, friction = varied(tree), labelled(tree)
+    return "speed" in names and names <= _CURVES and friction is not None and SAMPLE not in friction.dims
+
+
+def varied(tree: xr.DataTree) -> set[str]:
+    """Return the names of the axes along which friction was predicted at more than one point."""
+    friction = labelled(tree)
+    return set() if friction is None else {axis.name for axis in sweep_axes(friction)}
+
+
+_CURVES = {"speed", "temperature"}
+
+
+def _few_curves(prediction: xr.Dataset, measurement: xr.Dataset | None) -> xr.Dataset:
+    """Leave out temperatures where there are more lines than can be told apart, and loads other than the measured."""
+    temperature, load = (values(prediction, name) for name in ("temperature", "load"))
+    nominal = nominal_temperatures(temperature)
+    kept, shown = set(thinned(nominal.size, MOST_LINES)), np.ones(temperature.size, dtype=bool)
+    if measurement is not None:
+        shown = load == load[np.abs(load - np.nanmedian(values(measurement, "load"))).argmin()]
+        if nominal.size > MOST_LINES:
+            kept = set(nearest(nominal, values(measurement, "temperature")).tolist())
+    return prediction.isel(case=np.flatnonzero(shown & np.isin(nearest(nominal, temperature), sorted(kept))))
+
+
+def friction_map(tree: xr.DataTree) -> Figure | None:
+    """Friction over speed and temperature."""
+    friction, measurement = labelled(tree), group(tree, "measurement")
+    points = None if measurement is None else (values(measurement, "speed"), values(measurement, "temperature"))
+    return None if friction is None else map_figure(friction, points, known_shifts(tree))
+
+
+def friction_master_curve(tree: xr.DataTree) -> Figure | None:
+    """Friction of all temperatures over the reduced speed, a line for each of several rubbers."""
+    reference = reference_temperature(tree)
+    found = [(name, part) for name, branch in rubbers(tree) if (part := solved_cases(branch, _MASTER)) is not None]
+    if found:
+        figure = new_figure(7.4, 4.3)
+        plot_friction_master_curves(figure.subplots(), dict(found[:MOST_LINES]), reference_temperature=reference)
+        return figure
+    prediction = solved_cases(tree, _MASTER)
+    measured = group(tree, "measurement_master")
+    measured = group(tree, "measurement") if measured is None else measured
+    if group(tree, _MASTER) is None or (prediction is None and measured is None):
+        return None
+    figure = new_figure(7.4, 4.3)
+    plot_friction_master_curve(figure.subplots(), prediction, measured, reference_temperature=reference)
+    return figure
+
+
+_MASTER = "prediction_master"
+
+
+def coulomb_friction(tree: xr.DataTree) -> Figure | None:
+    """Measured Coulomb friction."""
+    measurement = group(tree, "measurement")
+    if measurement is None or not np.isfinite(values(measurement, "coulomb")).any():
+        return None
+    figure = new_figure(7.4, 4.0)
+    plot_coulomb_friction(figure.subplots(), measurement)
+    return figure
+
+
+def contacts(tree: xr.DataTree) -> Figure | None:
+    """Pressure of the slowest contact, of that with the most friction and of the fastest."""
+    shown = shown_contacts(tree)
+    if not shown:
+        return None
+    each = [contact for contact, _ in shown]
+    if is_rough(tree):
+        return rough_contacts_figure(each, [float(told.get("direction", 0.0)) for _, told in shown])
+    return contacts_figure(each)
+
+
+def recovery_trail(tree: xr.DataTree) -> Figure | None:
+    """Draw the surface behind those contacts; a rough surface has no behind."""
+    shown = [] if is_rough(tree) else shown_contacts(tree)
+    found = trails(tree, shown)
+    return trail_figure([contact for contact, _ in shown], found) if found and len(found) == len(shown) else None
+
+
+def convergence(tree: xr.DataTree) -> Figure | None:
+    """Errors and grids of the cases asked for."""
+    cases = solved_cases(tree)
+    return None if cases is None else convergence_figure(cases, accuracy=number(tree.attrs, "accuracy"))
+
+
+#: Name of the files -> what draws the figure, or gives None if the results lack it: of friction …
+FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
+    "friction_against_speed": friction_against_speed,
+    "friction_sweep": friction_sweep,
+    "friction_map": friction_map,
+    "friction_master_curve": friction_master_curve,
+    "coulomb_friction": coulomb_friction,
+    "friction_shift_factors": _friction_shift_factors,
+    "contacts": contacts,
+    "recovery_trail": recovery_trail,
+    "convergence": convergence,
+}
+#: … and of the rubber, or of each of several.
+RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
+    "master_curve": _master_curve,
+    "spectrum": _spectrum,
+    "shift_factors": _shift_factors,
+    "vertical_shift": _vertical_shift,
+    "superposition": _superposition,
+    "isotherms": _isotherms,
+}
+
+
+def figure_images(tree: xr.DataTree, formats: tuple[str, ...] = ("png", "svg")) -> dict[str, dict[str, bytes]]:
+    """Draw every figure that the results afford and return it as the content of image files.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Results of a study.
+    formats : tuple of {"png", "svg"}
+
+    Returns
+    -------
+    dict
+        Name of the figure -> format -> bytes; the same bytes for the same results.  Figures of the second of several
+        rubbers end in ``_2``, and so on.
+    """
+    images = _drawn(FRICTION_FIGURES, tree, formats) | _drawn(RUBBER_FIGURES, tree, formats)
+    for place, (_, branch) in enumerate(rubbers(tree), 1):
+        images |= {f"{name}_{place}": image for name, image in _drawn(RUBBER_FIGURES, branch, formats).items()}
+    return images
+
+
+def _drawn(
+    figures: dict[str, Callable[[xr.DataTree], Figure | None]], tree: xr.DataTree, formats: tuple[str, ...]
+) -> dict[str, dict[str, bytes]]:
+    found = {
+        name: saving.images(partial(draw, tree), formats, name=name, synthetic=is_synthetic(tree))
+        for name, draw in figures.items()
+    }
+    return {name: image for name, image in found.items() if image}
+
+
+def draw_figures(tree: xr.DataTree, folder: str | Path) -> list[Path]:
+    """Draw every figure that a study's results afford, as PNG and SVG.
+
+    Parameters
+    ----------
+    tree : xarray.DataTree
+        Results of a study.
+    folder : str or Path
+        Where the files go; made if need be.  Files of the same names are replaced.
+
+    Returns
+    -------
+    list of Path
+        One for each figure, with ``.png`` and ``.svg``; without those that the results lack.
+
+    Raises
+    ------
+    DataFileError
+        If the folder or a file cannot be written.
+    """
+    return save_images(figure_images(tree), Path(folder))
+
+
+def save_images(images: dict[str, dict[str, bytes]], folder: Path) -> list[Path]:
+    """Write what `figure_images` returned into a folder; see `draw_figures`."""
+    written = []
+    for name, forms in images.items():
+        for form, content in forms.items():
+            path = folder / f"{name}.{form}"
+            write_atomically(path, content)
+            written.append(path)
+    return written

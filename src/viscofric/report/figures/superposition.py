@@ -1,0 +1,168 @@
+"""Figures that show whether superposition holds (wicket, Cole–Cole, van Gurp–Palmen), and whether E' fits E''.
+
+If one shift of time joins all temperatures, frequency drops out of the former and all isotherms fall on one line.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.report.data import moduli_of_sweeps
+from viscofric.report.figures.rubber import draw_by_temperature, modulus_label
+from viscofric.report.figures.style import BLUE, GREY, VERMILION, decade_ticks, legend_above, plain_numbers
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+
+    from viscofric.report.data import Sweeps
+    from viscofric.rheology.superposition.consistency import SuperpositionCheck
+    from viscofric.rheology.superposition.kramers_kronig import KramersKronig
+
+
+_PASCAL_PER_MEGAPASCAL = 1e6
+
+
+def plot_wicket(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
+    """Draw the loss tangent against the storage modulus of every sweep, coloured by temperature.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
+        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+
+    Returns
+    -------
+    matplotlib.cm.ScalarMappable
+        Temperatures in °C to colours, for a colour bar.
+    """
+    measured = moduli_of_sweeps(sweeps)
+    scale = draw_by_temperature(axes, measured, measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss_tangent)
+    axes.set_xlabel(modulus_label(measured.symbol, "storage"))
+    axes.set_ylabel(r"loss tangent $\tan\delta$")
+    _both_logarithmic(axes)
+    return scale
+
+
+def plot_cole_cole(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
+    """Draw the loss against the storage modulus of every sweep, both in decades, coloured by temperature.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
+        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+
+    Returns
+    -------
+    matplotlib.cm.ScalarMappable
+        Temperatures in °C to colours, for a colour bar.
+    """
+    measured = moduli_of_sweeps(sweeps)
+    storage, loss = measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss / _PASCAL_PER_MEGAPASCAL
+    scale = draw_by_temperature(axes, measured, storage, loss)
+    axes.set_xlabel(modulus_label(measured.symbol, "storage"))
+    axes.set_ylabel(modulus_label(measured.symbol, "loss"))
+    _both_logarithmic(axes)
+    return scale
+
+
+def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
+    """Draw the loss tangent against the magnitude of the modulus of every sweep, coloured by temperature.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
+        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+
+    Returns
+    -------
+    matplotlib.cm.ScalarMappable
+        Temperatures in °C to colours, for a colour bar.
+
+    References
+    ----------
+    H. C. Booij, J. H. M. Palmen, Theoretical and Applied Rheology (1992) 321.
+    """
+    measured = moduli_of_sweeps(sweeps)
+    magnitude = np.hypot(measured.storage, measured.loss) / _PASCAL_PER_MEGAPASCAL
+    scale = draw_by_temperature(axes, measured, magnitude, measured.loss_tangent)
+    axes.set_xlabel(rf"modulus $|{measured.symbol}^*|$ (MPa)")
+    axes.set_ylabel(r"loss tangent $\tan\delta$")
+    _both_logarithmic(axes)
+    return scale
+
+
+def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
+    """Draw the loss angle δ against the magnitude of the modulus of every sweep, coloured by temperature.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
+        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+
+    Returns
+    -------
+    matplotlib.cm.ScalarMappable
+        Temperatures in °C to colours, for a colour bar.
+
+    References
+    ----------
+    M. van Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5.
+    """
+    measured = moduli_of_sweeps(sweeps)
+    magnitude = np.hypot(measured.storage, measured.loss) / _PASCAL_PER_MEGAPASCAL
+    angle = np.degrees(np.arctan2(measured.loss, measured.storage))
+    scale = draw_by_temperature(axes, measured, magnitude, angle)
+    axes.set_xscale("log")
+    axes.set_xlabel(rf"modulus $|{measured.symbol}^*|$ (MPa)")
+    axes.set_ylabel(r"loss angle $\delta$ (°)")
+    decade_ticks(axes.xaxis)
+    plain_numbers(axes, "y")
+    return scale
+
+
+def plot_kramers_kronig(axes: Axes, agreement: KramersKronig) -> None:
+    """Draw how far E' and E'' of a master curve are from what each demands of the other, log10, with what is allowed.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    agreement : KramersKronig
+        As `check_superposition(fit).kramers_kronig`.  Points at the ends, which are not judged, are open.
+    """
+    from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
+
+    judged = agreement.judged
+    handles: list[Any] = []
+    for label, deviation, marker, colour in (
+        ("$E'$ that $E''$ demands", agreement.storage_deviation, "s", BLUE),
+        ("$E''$ that $E'$ demands", agreement.loss_deviation, "o", VERMILION),
+    ):
+        look: dict[str, Any] = {"color": colour, "markersize": 3.5, "markeredgewidth": 0.8}
+        handles += axes.plot(agreement.angular_frequency[judged], deviation[judged], marker, label=label, **look)
+        axes.plot(agreement.angular_frequency[~judged], deviation[~judged], marker, fillstyle="none", **look)
+    handles.append(
+        axes.axhspan(-LARGEST_RMS, LARGEST_RMS, color=GREY, alpha=0.2, linewidth=0, label="allowed rms of $E'$")
+    )
+    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=0)
+    shown = np.concatenate([agreement.storage_deviation[judged], agreement.loss_deviation[judged]])
+    largest = 1.15 * max(float(np.max(np.abs(shown), initial=0.0)), 1.5 * LARGEST_RMS)
+    axes.set_ylim(-largest, largest)
+    axes.set_xscale("log")
+    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)")
+    axes.set_ylabel(r"$\log_{10}$ of demanded over measured")
+    decade_ticks(axes.xaxis)
+    legend_above(axes, handles)
+
+
+def _both_logarithmic(axes: Axes) -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    decade_ticks(axes.xaxis)
+    decade_ticks(axes.yaxis)

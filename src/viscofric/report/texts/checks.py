@@ -1,0 +1,365 @@
+"""Checks of a study's results, each with its verdict and the numbers behind it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.report.figures.style import degrees
+from viscofric.report.results import (
+    SAME_TEMPERATURE,
+    group,
+    interpolated,
+    is_extrapolated,
+    is_from_friction,
+    is_rough,
+    knows_range,
+    notes,
+    number,
+    numbers,
+    reach,
+    rubbers,
+    sentences,
+    values,
+)
+from viscofric.report.sweeps import solved_cases
+from viscofric.report.texts.friction import CONSISTENT_WITHIN, consistency_words
+from viscofric.report.texts.numbers import percent, several, significant
+from viscofric.study.results import beyond_accuracy
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import xarray as xr
+
+    from viscofric.arrays import Array
+
+
+Verdict: TypeAlias = Literal["passed", "noted", "look at this", "failed"]
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check: its name, whether it passed, and a sentence with the numbers."""
+
+    name: str
+    verdict: Verdict
+    words: str
+
+    @classmethod
+    def of(cls, name: str, sound: bool, words: str) -> Check:
+        """Return a check that passed, or one to look at."""
+        return cls(name, "passed" if sound else "look at this", words)
+
+
+def all_checks(tree: xr.DataTree) -> list[Check]:
+    """Return every check that the results allow, in the order of the calculation."""
+    of_each = [
+        replace(check, name=f"{check.name} ({rubber})")
+        for rubber, branch in rubbers(tree)
+        for check in rubber_checks(branch)
+    ]
+    return [*rubber_checks(tree), *of_each, *friction_checks(tree)]
+
+
+def counted(checks: list[Check]) -> str:
+    """Say how many checks there are of each verdict: 12 checks: 9 passed, 2 to look at, 1 noted."""
+    words = {"failed": "failed", "look at this": "to look at", "noted": "noted", "passed": "passed"}
+    found = [(sum(check.verdict == verdict for check in checks), told) for verdict, told in words.items()]
+    parts = ", ".join(f"{count} {told}" for count, told in found if count)
+    return f"{len(checks)} check{'' if len(checks) == 1 else 's'}: {parts}." if checks else ""
+
+
+# What still counts as sound
+_OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
+_FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
+_LAW = 0.1  # decades of α, rms
+
+
+def rubber_checks(tree: xr.DataTree) -> Iterator[Check]:
+    """Yield every check of the rubber that the results allow."""
+    for part in (_isotherms, _superposition, _spectrum):
+        yield from part(tree)
+
+
+def _decades(rms: float) -> str:
+    """Say an rms of log10 as a percentage."""
+    return percent(10.0**rms - 1.0)
+
+
+def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
+    if not (math.isfinite(given) and math.isfinite(used)):
+        return  # results of an older viscofric
+    if used >= given:
+        yield Check("Isotherms used", "passed", f"All {given:.0f} isotherms are joined into the master curve.")
+        return
+    kept = values(factors, "temperature")
+    left = [
+        degrees(kelvin)
+        for kelvin in numbers(factors.attrs, "temperatures_given")
+        if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE
+    ]
+    which = f", those at {several(left)} are not" if len(left) > 1 else f", the one at {''.join(left)} is not"
+    known = len(left) == given - used
+    yield Check(
+        "Isotherms used",
+        "look at this",
+        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve{which if known else ''}; the notes "
+        "on the input say why.",
+    )
+
+
+def _superposition(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
+    pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield Check.of(
+            "Overlap of the isotherms",
+            max(storage, loss) <= _OVERLAP and not apart > 0,
+            f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
+            f"{_decades(loss)} in the loss modulus (rms; up to {_decades(_OVERLAP)} counts as sound)."
+            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
+        )
+    yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
+    whole = group(tree, "superposition")
+    if whole is not None:
+        words = " ".join(sentences(whole.attrs, "sentences"))
+        holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
+        fails = whole.attrs.get("verdict", "roughly" if roughly else "fails") == "fails"
+        yield Check("Superposition", "passed" if holds else "failed" if fails else "look at this", words)
+        if whole.attrs.get("causality"):
+            belong = number(whole.attrs, "consistent") == 1.0
+            yield Check.of("Storage against loss modulus", belong, str(whole.attrs["causality"]))
+
+
+def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
+    law = group(tree, "shift_law")
+    rms = math.nan if law is None else number(law.attrs, "rms")
+    if law is None or not math.isfinite(rms):
+        return
+    far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
+    if measured_used:
+        words = f"{far}; the measured shift factors are used, not this law."
+        yield Check("Shift law", "noted", words)
+    else:
+        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (up to {_LAW:g} counts as sound).")
+
+
+def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
+    curve = group(tree, "master_curve")
+    if curve is None:
+        return
+    storage, loss = (number(curve.attrs, f"rms_log10_{name}") for name in ("storage", "loss"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield Check.of(
+            "Fit of the spectrum",
+            max(storage, loss) <= _FIT,
+            f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
+            f"measured loss modulus (rms; up to {_decades(_FIT)} counts as sound).",
+        )
+
+
+#: What a comparison with friction is worth where the rubber comes from friction.
+CIRCULAR = "The rubber was itself identified from friction; if that is this friction, this tests nothing."
+# What still counts as sound
+_COMPLEMENTARITY = 1e-6  # over the indentation, or the rms height; contacts are solved to less
+_CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
+# Probability of differences as large, below which two sets of shift factors are not the same
+_LIKELY = 0.05
+# How far apart, in units of the accuracy, friction from the pressure and from the dissipation may be.
+_ENERGY_BALANCE = 5.0
+# What `viscofric.friction.assumptions` judges -> how the report calls it.
+_ASSUMPTIONS = {
+    "half-space": "Half-space",
+    "linearity": "Linear rubber",
+    "uncoupled": "Shear leaves the pressure alone",
+    "one temperature": "Isothermal",
+}
+_VERDICTS: dict[int, Verdict] = {1: "passed", 0: "look at this", -1: "noted"}
+
+
+def friction_checks(tree: xr.DataTree) -> Iterator[Check]:
+    """Yield every check of friction that the results allow, in the order of the calculation."""
+    parts = (_contact, _small_strain, _assumptions, _frequencies, _measurement, _friction_shifts, _cases)
+    for part in parts:
+        yield from part(tree)
+
+
+def _contact(tree: xr.DataTree) -> Iterator[Check]:
+    parts = [part for name in ("prediction", "prediction_master") if (part := solved_cases(tree, name)) is not None]
+    if not parts:
+        return
+
+    def largest(name: str) -> float:
+        sizes = np.abs(np.concatenate([values(part, name) for part in parts]))
+        sizes = sizes[np.isfinite(sizes)]
+        return float(sizes.max()) if sizes.size else math.nan
+
+    accuracy = number(tree.attrs, "accuracy")
+    energy = largest("energy_balance")
+    if math.isfinite(energy):
+        limit = _ENERGY_BALANCE * (accuracy if math.isfinite(accuracy) else 1e-3)
+        yield Check.of(
+            "Energy balance",
+            energy <= limit * (1.0 + 1e-9),
+            "Friction is calculated twice, from the contact pressure and from the energy that the rubber dissipates. "
+            f"The two differ by {percent(energy)} at most. Up to {percent(limit)} counts as sound, "
+            f"{_ENERGY_BALANCE:g} times the accuracy asked for: only the better known of the two is reported, and "
+            "that one must reach the accuracy.",
+        )
+    violation = largest("complementarity")
+    if math.isfinite(violation):
+        yield Check.of(
+            "Contact conditions",
+            violation <= _COMPLEMENTARITY,
+            f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of the "
+            f"{'rms height' if is_rough(tree) else 'indentation'} at most (up to {significant(_COMPLEMENTARITY, 1)} "
+            "counts as sound).",
+        )
+
+
+def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
+    parts = [part for name in ("prediction", "prediction_master") if (part := solved_cases(tree, name)) is not None]
+    if not parts or is_rough(tree):
+        return
+    reaches = np.concatenate([reach(tree, part) for part in parts])
+    reaches = reaches[np.isfinite(reaches)]
+    if not reaches.size:
+        words = "Could not be checked: the results do not say how large the ball or its contact is."
+        yield Check("Small strain", "noted", words)
+        return
+    wide = int(np.sum(reaches > SMALL_STRAIN))
+    along = " and along the friction master curve" if len(parts) > 1 else ""
+    many = f" This concerns {wide} of {reaches.size} cases asked for{along}, which the tables mark." if wide else ""
+    yield Check.of(
+        "Small strain",
+        wide == 0,
+        f"The contact reaches up to {significant(float(reaches.max()), 2)} of the ball's radius from its axis; above "
+        f"{SMALL_STRAIN:g} the linear, half-space description of the contact is doubtful.{many}",
+    )
+
+
+def _assumptions(tree: xr.DataTree) -> Iterator[Check]:
+    found = group(tree, "assumptions")
+    if found is None:
+        return
+    for name, holds, sentence in zip(
+        *(found[column].values for column in ("assumption_name", "holds", "sentence")), strict=True
+    ):
+        if str(name) in _ASSUMPTIONS:  # the others are those of small strain, which counts the cases
+            verdict = _VERDICTS[int(holds)]
+            yield Check(_ASSUMPTIONS[str(name)], verdict, str(sentence))
+
+
+def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
+    counts, outside = [], 0
+    for name, what in (
+        ("prediction", "cases asked for"),
+        ("measurement", "measured points"),
+        ("prediction_master", "cases along the friction master curve"),
+    ):
+        part = group(tree, name) if name == "measurement" else solved_cases(tree, name)
+        if part is None or not knows_range(part):
+            continue
+        beyond, of = int(is_extrapolated(part).sum()), next(iter(part.sizes.values()))
+        outside += beyond
+        counts.append(f"{beyond} of {of} {what}")
+    if not counts:
+        return
+    ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
+    measured = f" ({ends[0]} to {ends[1]} rad/s at the reference temperature)" if len(ends) == 2 else ""
+    kind = "identified" if is_from_friction(tree) else "measured"
+    meaning = "the frequency at which the contact deforms the rubber, shift factor times speed over half-width,"
+    if outside:
+        words = (
+            f"In {several(counts)} {meaning} lies outside the {kind} range{measured}; friction there rests on the "
+            "extrapolated spectrum. The tables mark these cases."
+        )
+    else:
+        words = f"Everywhere {meaning} lies within the {kind} range{measured}."
+    yield Check.of("Measured frequency range", outside == 0, words)
+
+
+def _measurement(tree: xr.DataTree) -> Iterator[Check]:
+    measurement = group(tree, "measurement")
+    if measurement is None:
+        return
+    check = consistency_check(values(measurement, "consistency"), values(measurement, "consistency_error"))
+    if check is not None:
+        yield check
+
+
+def consistency_check(left_over: Array, error: Array) -> Check | None:
+    """Judge whether the sign configurations of a traction test agree; None where there is nothing to judge by.
+
+    Parameters
+    ----------
+    left_over, error : (n,) array
+        What the configurations leave over at each point, relative to the load, and its standard error.
+    """
+    told = consistency_words(left_over, error)
+    if told is None:
+        return None
+    known = np.isfinite(left_over) & np.isfinite(error)
+    sound = np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]
+    return Check.of(
+        "Consistency of the four configurations",
+        bool(np.mean(sound) >= _CONSISTENT),
+        f"The combination of the four sign configurations that should vanish is {told}.",
+    )
+
+
+def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:
+    found = group(tree, "friction_shift_factors")
+    if found is not None:
+        likely = number(found.attrs, "p_value") >= _LIKELY
+        sentence = str(found.attrs.get("sentence", ""))
+        if is_from_friction(tree):
+            yield Check("Shift factors from friction", "noted", f"{sentence} {CIRCULAR}")
+        else:
+            yield Check.of("Shift factors from friction", likely, sentence)
+
+
+def _cases(tree: xr.DataTree) -> Iterator[Check]:
+    found = group(tree, "prediction")
+    if found is None:
+        return
+    failures = notes(tree.attrs, "failures")
+    if failures:
+        many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
+        yield Check("All cases solved", "failed", f"{many} could not be solved: see above.")
+    else:
+        yield Check("All cases solved", "passed", "Every case was solved.")
+    cases, accuracy = solved_cases(tree), number(tree.attrs, "accuracy")
+    if cases is not None and math.isfinite(accuracy) and "friction_error" in cases:
+        yield _accuracy(cases, accuracy, is_rough(tree))
+
+
+def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
+    """Judge the numerical errors of friction by the accuracy asked for."""
+    beyond, between = int(beyond_accuracy(cases, accuracy).sum()), int(interpolated(cases).sum())
+    friction, error = (np.abs(values(cases, name)) for name in ("friction_coefficient", "friction_error"))
+    known = friction > 0.0
+    worst = percent(float(np.max(error[known] / friction[known], initial=0.0)))
+    words = f"The numerical error of friction is estimated at {worst} at most; {percent(accuracy)} was asked for."
+    if beyond:
+        why = " The points of the surface are too far apart for it." if rough else ""
+        words += f" It is larger than that in {beyond} of {friction.size} cases.{why}"
+    if between:
+        words += (
+            f" {between} of {friction.size} friction coefficients lie on a curve through solved contacts, which cases "
+            "of one material under one load share; the tables mark them, and their error includes that of the "
+            "interpolation."
+        )
+    return Check.of("Accuracy", beyond == 0, words)

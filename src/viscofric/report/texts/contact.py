@@ -1,0 +1,317 @@
+"""One solved contact: lines for people, plain types for other programs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.report.texts.numbers import finite, length, prefixed, short, significant, with_error
+
+if TYPE_CHECKING:
+    from viscofric.contact.solution import ContactSolution, Diagnostics
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+
+# A lean of the pressure below it is rounding.
+_ROUND_OFF = 1e-12
+
+# Relative to the friction: a lateral one below it is what the solver's tolerance leaves of none.
+_LEAST_LATERAL = 1e-5
+
+#: Units of what `contact_record` holds.
+UNITS = {
+    "speed": "m/s",
+    "load": "N",
+    "direction": "1",
+    "temperature": "K",
+    "E0": "Pa",
+    "E_inf": "Pa",
+    "C": "1/Pa",
+    "tau": "s",
+    "friction_force": "N",
+    "friction_coefficient": "1",
+    "lateral_friction_coefficient": "1",
+    "indentation": "m",
+    "contact_area": "m^2",
+    "front": "m",
+    "rear": "m",
+    "half_width": "m",
+    "max_pressure": "Pa",
+    "mean_pressure": "Pa",
+    "centre_of_pressure": "m",
+    "spacing": "m",
+    "seconds": "s",
+}
+_UNITS_OF_A_LINE = {"load": "N/m", "friction_force": "N/m", "contact_area": "m"}
+
+
+def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, str]]:
+    """Return what an engineer wants to know of a contact, as pairs of name and value.
+
+    Parameters
+    ----------
+    solution : ContactSolution
+    seconds : float
+        That it took.
+    """
+    line = solution.geometry == "line"
+    diagnostics = solution.diagnostics
+    force = "N/m" if line else "N"
+    peak = prefixed(solution.max_pressure, diagnostics.max_pressure_error, "Pa")
+    if not diagnostics.peak_resolved:
+        peak = f"at least {prefixed(solution.max_pressure, None, 'Pa')} (not resolved by this grid)"
+    cells = " × ".join(str(count) for count in diagnostics.shape if count > 1)
+    edge = diagnostics.edge_error
+    lines = [
+        ("friction coefficient", _friction(solution)),
+        ("  from the pressure", _five(solution.pressure_friction_coefficient)),
+        ("  from the energy", f"{_five(solution.energy_friction_coefficient)}{_balance(solution)}"),
+        ("friction force", prefixed(_friction_force(solution), None, force)),
+        *_lateral(solution),
+        ("load", prefixed(solution.load, diagnostics.load_error, force)),
+        ("indentation", length(solution.indentation, diagnostics.indentation_error)),
+        (
+            "contact width" if line else "contact area",
+            prefixed(solution.contact_area, diagnostics.contact_area_error, "m", 1 if line else 2),
+        ),
+        ("  ahead of the axis", length(solution.front, edge)),
+        ("  behind the axis", length(solution.rear, edge)),
+    ]
+    if not line:
+        lines.append(("  half width across", length(solution.half_width, edge)))
+    lines += [
+        ("largest pressure", peak),
+        ("mean pressure", prefixed(solution.load / solution.contact_area, None, "Pa")),
+        ("centre of pressure", _centre(solution)),
+        ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
+        ("solver", _work(diagnostics)),
+        ("time", f"{seconds:.2f} s"),
+    ]
+    return lines
+
+
+def _friction(solution: ContactSolution) -> str:
+    value, error = solution.friction_coefficient, solution.diagnostics.friction_error
+    if value == 0.0:
+        return "0 (elastic: nothing is dissipated)"
+    return with_error(value, error)
+
+
+def _lateral(solution: ContactSolution) -> list[tuple[str, str]]:
+    """Return the line of the force across the motion, where an indenter may have one."""
+    # Looking along the motion, whose sense is that of the speed.
+    value = solution.lateral_friction_coefficient * math.copysign(1.0, solution.speed)
+    if abs(value) <= _LEAST_LATERAL * abs(solution.friction_coefficient):
+        oblique = 0.0 not in solution.direction and solution.geometry == "point"
+        return [("lateral friction", "0 (it keeps its course by itself)")] if oblique else []
+    side = "left" if value > 0.0 else "right"
+    return [("lateral friction", f"{short(abs(value))} (it takes a push to the {side} to keep its course)")]
+
+
+def _work(diagnostics: Diagnostics) -> str:
+    return (
+        f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, gap closed to "
+        f"{diagnostics.complementarity:.0e} of the indentation"
+    )
+
+
+def _five(friction: float) -> str:
+    return significant(friction if abs(friction) > _ROUND_OFF else 0.0, 5)
+
+
+def _balance(solution: ContactSolution) -> str:
+    if solution.friction_coefficient == 0.0:
+        return ""
+    if solution.diagnostics.energy == -1.0:
+        return " (all of it at the sharp edge)"
+    return f" (energy balance {100.0 * solution.diagnostics.energy:+.2g} %)".replace("-", "−")
+
+
+def _centre(solution: ContactSolution) -> str:
+    distance = solution.centre_of_pressure * math.copysign(1.0, solution.speed)
+    if abs(distance) < 1e-6 * solution.diagnostics.spacing:
+        return "on the axis"
+    return f"{length(abs(distance))} {'ahead of' if distance > 0.0 else 'behind'} the axis"
+
+
+def _friction_force(solution: ContactSolution) -> float:
+    return solution.friction_coefficient * solution.load
+
+
+def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: float) -> dict[str, Any]:
+    """Return a contact in plain types: inputs, results, errors, diagnostics, and the units of their names.
+
+    Parameters
+    ----------
+    inputs : dict
+        What was asked for, in SI units and plain types.
+    solution : ContactSolution
+    seconds : float
+        That it took.
+
+    Returns
+    -------
+    dict
+        Made for JSON: every number is finite, and what has no value, such as the half width of a line contact, is null.
+    """
+    from importlib.metadata import version
+
+    diagnostics = solution.diagnostics
+    line = solution.geometry == "line"
+    results = {
+        "geometry": solution.geometry,
+        "friction_coefficient": solution.friction_coefficient,
+        "pressure_friction_coefficient": solution.pressure_friction_coefficient,
+        "energy_friction_coefficient": solution.energy_friction_coefficient,
+        "friction_force": _friction_force(solution),
+        "lateral_friction_coefficient": solution.lateral_friction_coefficient,
+        "load": solution.load,
+        "indentation": solution.indentation,
+        "contact_area": solution.contact_area,
+        "front": solution.front,
+        "rear": solution.rear,
+        "half_width": solution.half_width,
+        "max_pressure": solution.max_pressure,
+        "mean_pressure": solution.load / solution.contact_area,
+        "centre_of_pressure": solution.centre_of_pressure,
+    }
+    errors = {
+        "friction_coefficient": diagnostics.friction_error,
+        "load": diagnostics.load_error,
+        "indentation": diagnostics.indentation_error,
+        "contact_area": diagnostics.contact_area_error,
+        "front": diagnostics.edge_error,
+        "rear": diagnostics.edge_error,
+        "half_width": None if line else diagnostics.edge_error,
+        "max_pressure": diagnostics.max_pressure_error,
+        "centre_of_pressure": diagnostics.centre_of_pressure_error,
+    }
+    work = {
+        "cells": list(diagnostics.shape),
+        "spacing": diagnostics.spacing,
+        "complementarity": diagnostics.complementarity,
+        "relative_load_error": diagnostics.load,
+        "energy_balance": diagnostics.energy,
+        "peak_resolved": diagnostics.peak_resolved,
+        "collocation_shift": diagnostics.collocation_shift,
+        "levels": [level._asdict() for level in diagnostics.levels],
+        "set_changes": diagnostics.set_changes,
+        "linear_iterations": diagnostics.linear_iterations,
+        "products": diagnostics.products,
+        "ffts": diagnostics.ffts,
+        "seconds": seconds,
+    }
+    record: dict[str, Any] = _plain(
+        {
+            "format": "viscofric contact 1",
+            "viscofric": version("viscofric"),
+            "inputs": inputs,
+            "results": results,
+            "errors": errors,
+            "derivatives": derivative_record(solution),
+            "diagnostics": work,
+            "warnings": list(solution.warnings),
+            "units": UNITS | (_UNITS_OF_A_LINE if line else {}),
+        }
+    )
+    return record
+
+
+def _plain(value: Any) -> Any:
+    """Turn NumPy's numbers into Python's, and those that are not finite into null."""
+    if isinstance(value, dict):
+        return {str(key): _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if value is None or isinstance(value, (str, bool)):
+        return value
+    if isinstance(value, int):
+        return int(value)
+    if type(value).__name__ in ("bool", "bool_"):
+        return bool(value)
+    return finite(float(value))
+
+
+#: Modes that are shown; all of them are in the record.
+_MOST_MODES = 5
+#: Share of the largest mode's effect below which a mode is not shown.
+_NEGLIGIBLE = 0.01
+
+
+def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -> list[str]:
+    """Return d ln μ/d ln of speed, load, glass modulus and of the modes that matter most, a line each.
+
+    Parameters
+    ----------
+    solution : ContactSolution
+        With derivatives.
+    spectrum : RetardationSpectrum
+        What it was solved with.
+    """
+    derivatives, friction = solution.derivatives, solution.friction_coefficient
+    if derivatives is None or friction == 0.0:
+        return ["no derivatives: there is no friction to differentiate"]
+    of_logarithms = derivatives.logarithmic
+    error = derivatives.error / abs(friction)
+
+    # To the digit that the error is in.
+    decimals = min(max(1, -math.floor(math.log10(error))), 6) if error > 0.0 else 6
+
+    def relative(value: float | None) -> str:
+        return f"{(value or 0.0) / friction:+.{decimals}f}".replace("-", "−")
+
+    held = ("load", "F", of_logarithms.load) if of_logarithms.indentation is None else ("indentation", "δ", None)
+    rows = [
+        ("speed", "d ln μ/d ln v", of_logarithms.speed),
+        (held[0], f"d ln μ/d ln {held[1]}", held[2] if held[2] is not None else of_logarithms.indentation),
+        ("glass modulus", "d ln μ/d ln E∞", of_logarithms.E_inf),
+    ]
+    lines = [f"change of friction with each, all else held (d ln μ is known to ± {short(error, 1)})"]
+    lines += [f"  {name:<21}{symbol:<15}{relative(value):>9}" for name, symbol, value in rows]
+    effect = np.maximum(np.abs(of_logarithms.C), np.abs(of_logarithms.tau))
+    order = np.argsort(-effect, kind="stable")[:_MOST_MODES]
+    shown = np.sort(order[effect[order] > _NEGLIGIBLE * effect.max()])
+    among = f", those that matter most of {len(spectrum)}" if len(shown) < len(spectrum) else ""
+    lines.append(f"  modes{among}:")
+    lines.append(f"  {'retardation time τ':<21}{'d ln μ/d ln C':>15}{'d ln μ/d ln τ':>17}")
+    for k in shown:
+        time = prefixed(float(spectrum.tau[k]), None, "s")
+        lines.append(f"  {time:<21}{relative(of_logarithms.C[k]):>15}{relative(of_logarithms.tau[k]):>17}")
+    return lines
+
+
+def derivative_record(solution: ContactSolution) -> dict[str, Any] | None:
+    """Return the derivatives of a contact in plain types, with the units of their names; None without any.
+
+    Parameters
+    ----------
+    solution : ContactSolution
+    """
+    derivatives = solution.derivatives
+    if derivatives is None:
+        return None
+    of_logarithms = derivatives.logarithmic
+    line = solution.geometry == "line"
+    names = ("C", "tau", "E_inf", "speed", "load", "indentation")
+    return {
+        **{name: _listed(getattr(derivatives, name)) for name in names},
+        "logarithmic": {name: _listed(getattr(of_logarithms, name)) for name in names},
+        "error": derivatives.error,
+        "way": derivatives.way,
+        "units": {
+            "C": "Pa",
+            "tau": "1/s",
+            "E_inf": "1/Pa",
+            "speed": "s/m",
+            "load": "m/N" if line else "1/N",
+            "indentation": "1/m",
+            "logarithmic": "1",
+            "error": "1",
+        },
+    }
+
+
+def _listed(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value

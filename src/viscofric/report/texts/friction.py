@@ -1,0 +1,205 @@
+"""Traction runs and friction curves: tables and lines for people, plain types for other programs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.nominal import SAME_TEMPERATURE, numbered
+from viscofric.report.texts.numbers import ABSENT, finite, percent, several, short, significant
+from viscofric.report.texts.tables import aligned
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.traction import TractionRuns
+
+
+#: Standard errors within which what should be zero counts as zero.
+CONSISTENT_WITHIN = 2.0
+
+#: Units of what `friction_record` holds, but those of the load and of what is a share of it ("1").
+UNITS = {"speed": "m/s", "temperature": "K", "slip": "m/s", "offset": "N"}
+
+
+def friction_table(curves: FrictionCurves) -> list[str]:
+    """Return friction against speed and temperature as lines of a table.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    """
+    columns = [
+        ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in curves.temperature)],
+        ["speed (mm/s)", *(significant(1e3 * float(speed), 4) for speed in curves.speed)],
+    ]
+    if curves.slip is not None:
+        columns.append(["slip (mm/s)", *(significant(1e3 * float(slip), 3) for slip in curves.slip)])
+    columns += [
+        [f"load ({curves.load_unit})", *(significant(float(load), 4) for load in curves.load)],
+        ["n", *(str(count) for count in curves.replicates)],
+        *_coefficient("viscoelastic", curves.viscoelastic, curves.viscoelastic_error, curves.viscoelastic_scatter),
+        *_coefficient("Coulomb", curves.coulomb, curves.coulomb_error, curves.coulomb_scatter),
+    ]
+    if curves.consistency is not None:
+        columns.append(["left over", *_pairs(curves.consistency, curves.consistency_error)])
+    return aligned(zip(*columns, strict=True))
+
+
+def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
+    """Return what is to be said of separated friction as a whole, as pairs of name and value.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    """
+    lines = []
+    if curves.offset is not None:
+        low, high = float(curves.offset.min()), float(curves.offset.max())
+        span = f"{short(low, 3)} N" if low == high else f"{short(low, 3)} to {short(high, 3)} N"
+        lines.append(("zero of the force cell", span))
+    if curves.assumption:
+        lines.append(("assumed", curves.assumption))
+    if curves.consistency is not None and curves.consistency_error is not None:
+        told = consistency_words(curves.consistency, curves.consistency_error)
+        if told is not None:
+            lines.append(("left over", told))
+    return lines
+
+
+def consistency_words(left_over: Array, error: Array) -> str | None:
+    """Say how many points' configurations agree with each other, or None where none can tell.
+
+    Parameters
+    ----------
+    left_over, error : (n,) array
+        What the sign configurations leave over, relative to the load, and its standard error.
+    """
+    known = np.isfinite(left_over) & np.isfinite(error)
+    if not known.any():
+        return None
+    sound = int(np.sum(np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]))
+    largest = significant(float(np.max(np.abs(left_over[known]))), 2)
+    return f"within twice its standard error at {sound} of {known.sum()} points; {largest} of the load at most"
+
+
+def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:
+    """Return friction curves in plain types, SI units, without a NaN: what is not known is None.
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+    inputs : dict
+        What was asked for, in plain types.
+    """
+    columns = {
+        field.name: getattr(curves, field.name)
+        for field in fields(curves)
+        if isinstance(getattr(curves, field.name), np.ndarray)
+    }
+    return {
+        "format": "viscofric friction curves 1",
+        "inputs": inputs,
+        "points": [
+            {name: finite(column[row].item()) for name, column in columns.items()} for row in range(len(curves))
+        ],
+        "assumption": curves.assumption or None,
+        "notes": list(curves.notes),
+        "units": {name: UNITS.get(name, curves.load_unit if name == "load" else "1") for name in columns},
+    }
+
+
+def _coefficient(name: str, value: Array | None, error: Array | None, scatter: Array | None) -> list[list[str]]:
+    """Return the columns of a coefficient with its standard error, and of its scatter where it has any."""
+    if value is None:
+        return []
+    columns = [[name, *_pairs(value, error)]]
+    if scatter is not None and np.any(scatter > 0.0):
+        columns.append(["scatter", *(_share(one, of) for one, of in zip(scatter, value, strict=True))])
+    return columns
+
+
+def _share(part: float, whole: float) -> str:
+    """Return a scatter as a percentage of its mean."""
+    return percent(part / abs(whole)) if whole != 0.0 and math.isfinite(part) else ABSENT
+
+
+def _pairs(values: Array, errors: Array | None) -> list[str]:
+    """Return values with their errors, all with the decimals that the usual error leaves."""
+    known = np.zeros(0) if errors is None else errors[np.isfinite(errors) & (errors > 0.0)]
+    if errors is None or not known.size:
+        open_ends = [False] * len(values) if errors is None else np.isinf(errors).tolist()
+        return [
+            (significant(float(value), 4) + (" ± ?" if unknown else "")) if value or not unknown else ABSENT
+            for value, unknown in zip(values, open_ends, strict=True)
+        ]
+    decimals = int(np.clip(1 - math.floor(math.log10(float(np.median(known)))), 0, 9))
+    written = []
+    for value, error in zip(values, errors, strict=True):
+        if value == 0.0 and math.isinf(error):  # not found at all
+            written.append(ABSENT)
+            continue
+        doubt = f" ± {error:.{decimals}f}" if math.isfinite(error) else " ± ?"
+        written.append(f"{value:z.{decimals}f}{doubt}".replace("-", "−"))
+    return written
+
+
+_MOST_TEMPERATURES = 8
+#: Relative to the speed of the disc; slip below it is that of pure rolling.
+_ROLLING = 1e-3
+#: Sign of the disc's speed and of the slip -> the paper's number of the configuration.
+_CONFIGURATIONS = {(-1, -1): "I", (-1, 1): "II", (1, -1): "III", (1, 1): "IV"}
+
+
+def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
+    """Return what traction runs hold, as pairs of name and value.
+
+    Parameters
+    ----------
+    runs : TractionRuns
+        With at least one reading.
+    """
+    steps = f" in {len(runs.steps)} steps" if len(runs.steps) > 1 else ""
+    slip = runs.disc_speed - runs.ball_speed
+    return [
+        ("readings", f"{len(runs)}{steps}"),
+        ("temperatures", _temperatures(runs.temperature)),
+        ("speed of the disc", f"{_range(1e3 * np.abs(runs.disc_speed))} mm/s{_both(runs.disc_speed)}"),
+        ("slip", f"{_range(1e3 * np.abs(slip))} mm/s{_both(slip)}"),
+        ("load", f"{_range(runs.load)} N"),
+        ("sign configurations", _configurations(runs.disc_speed, slip)),
+    ]
+
+
+def _temperatures(kelvin: Array) -> str:
+    labels = numbered(kelvin, np.full(kelvin.shape, SAME_TEMPERATURE))
+    means = np.bincount(labels, kelvin) / np.bincount(labels)
+    told = [f"{celsius(float(mean)):z.1f}".replace("-", "−") for mean in means]
+    if len(told) > _MOST_TEMPERATURES:
+        return f"{len(told)} from {told[0]} to {told[-1]} °C"
+    return f"{several(told)} °C"
+
+
+def _range(values: Array) -> str:
+    low, high = short(float(values.min()), 3), short(float(values.max()), 3)
+    return low if low == high else f"{low} to {high}"
+
+
+def _both(velocity: Array) -> str:
+    return ", both directions" if velocity.min() < 0.0 < velocity.max() else ""
+
+
+def _configurations(disc: Array, slip: Array) -> str:
+    """Return how many readings there are of each combination of signs."""
+    rolls = np.abs(slip) <= _ROLLING * np.abs(disc)
+    signs = zip(np.sign(disc[~rolls]).astype(int).tolist(), np.sign(slip[~rolls]).astype(int).tolist(), strict=True)
+    found = [_CONFIGURATIONS.get(pair, "") for pair in signs]
+    counts = {name: found.count(name) for name in _CONFIGURATIONS.values() if name in found}
+    said = [f"{name}: {count} readings" for name, count in counts.items()]
+    said += [f"pure rolling: {int(rolls.sum())} readings"] * bool(rolls.any())
+    whole = "all four" if len(counts) == len(_CONFIGURATIONS) else f"{len(counts)} of four"
+    return f"{whole} ({', '.join(said)})"

@@ -1,0 +1,341 @@
+"""The report's tables of friction: predicted, measured, their agreement, and shift factors from friction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.report.figures.style import degrees
+from viscofric.report.results import (
+    EXTRAPOLATED,
+    WIDE,
+    group,
+    interpolated,
+    nearest,
+    nominal_temperatures,
+    number,
+    remarks,
+    rubbers,
+    values,
+)
+from viscofric.report.sweeps import VARIED, cases_of, solved_cases, thinned, value_label
+from viscofric.report.texts.numbers import ABSENT, percent, several, signed_percent, significant, with_error
+from viscofric.report.texts.tables import (
+    Column,
+    Table,
+    law_table,
+    made_table,
+    shift_factor_table,
+    spectrum_table,
+    times,
+    whole,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+
+    from viscofric.arrays import Array
+
+
+_GLANCE = "at-a-glance"
+_MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
+_DOUBTFUL = {
+    WIDE: f"reaching beyond {SMALL_STRAIN:g} ball radii from the axis",
+    EXTRAPOLATED: "at frequencies that were not measured",
+}
+_MEANINGS = (
+    "95 %: the band that the uncertainty of the rubber leaves; "
+    "front and rear: from the ball's axis to the leading and to the trailing edge of the contact; half-width: across "
+    "the motion; energy balance: friction from the pressure less friction from the dissipation, relative; "
+    "complementarity: largest violation of the contact conditions, over the indentation; cells: along the longer "
+    "edge of the finest grid; products: with the influence matrix, the solver's work."
+)
+
+
+_ROUGH_MEANINGS = (
+    "95 %: the band that the uncertainty of the rubber leaves; energy balance: friction from the pressure less "
+    "friction from the dissipation, relative; complementarity: largest violation of the contact conditions; cells: "
+    "points along the longer edge of the surface; products: the solver's work."
+)
+
+
+def _with_remarks(table: Table, doubts: Sequence[tuple[str, ...]]) -> Table:
+    """Add a column that says what is doubtful about a row, if anything is about any."""
+    if not any(doubts):
+        return table
+    rows = [[*row, "; ".join(doubt)] for row, doubt in zip(table.rows, doubts, strict=True)]
+    note = f"{table.note} {_meaning(*_DOUBTFUL)}.".strip()
+    return replace(table, headings=[*table.headings, "remark"], rows=rows, note=note)
+
+
+def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
+    """Predicted friction in one look: over speed and temperature, or its highest value for all else that varies."""
+    prediction = solved_cases(tree)
+    if prediction is None:
+        return None
+    others = [name for name in VARIED if name in prediction and len(np.unique(prediction[name].values)) > 1]
+    told = [[value_label(prediction, name, value) for value in prediction[name].values] for name in others]
+    kind = list(zip(*told, strict=True)) if others else [()] * prediction.sizes["case"]
+    temperatures = nominal_temperatures(values(prediction, "temperature")).size
+    if others and len(set(kind)) * temperatures > _MOST_COLUMNS:
+        return _highest_friction(tree, prediction, others, kind)
+    return _friction_grid(tree, prediction, kind)
+
+
+def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tuple[str, ...]]) -> Table:
+    """Return a row for each speed, and a column for each temperature and all else that varies."""
+    speed, friction = values(prediction, "speed"), values(prediction, "friction_coefficient")
+    nominal = nominal_temperatures(values(prediction, "temperature"))
+    kelvin = nominal[nearest(nominal, values(prediction, "temperature"))]
+    of_case = [", ".join((*other, degrees(float(at)))) for other, at in zip(kind, kelvin, strict=True)]
+    columns = list(dict.fromkeys(of_case))
+    shown = [columns[place] for place in thinned(len(columns), _MOST_COLUMNS)]
+    speeds = np.unique(speed)
+    every = int(np.ceil(speeds.size / _MOST_ROWS))
+    doubts = remarks(tree, prediction)
+    cells: dict[tuple[float, str], str] = {}
+    for row, column in enumerate(of_case):
+        mark = " *" if doubts[row] else ""
+        cells.setdefault((float(speed[row]), column), significant(float(friction[row]), 3) + mark)
+    rows = [
+        [significant(1e3 * float(at), 4), *(cells.get((float(at), column), ABSENT) for column in shown)]
+        for at in speeds[::every]
+    ]
+    some = [f"one speed in {every}"] if every > 1 else []
+    some += [f"{len(shown)} of {len(columns)} temperatures"] if len(shown) < len(columns) else []
+    return Table(
+        _GLANCE,
+        "Predicted viscoelastic friction coefficient."
+        + (f" Shown: {several(some)}; all of them are in the tables below." if some else ""),
+        ["speed (mm/s)", *(_together(column) for column in shown)],
+        rows,
+        note=f"* {_meaning(*chain(*doubts))}." if any(cell.endswith("*") for row in rows for cell in row) else "",
+    )
+
+
+def _highest_friction(
+    tree: xr.DataTree, prediction: xr.Dataset, others: Sequence[str], kind: Sequence[tuple[str, ...]]
+) -> Table:
+    """Return a row for each combination of all else that varies: its highest friction, and where that lies."""
+    friction, doubts = values(prediction, "friction_coefficient"), remarks(tree, prediction)
+    rows = []
+    for combination in dict.fromkeys(kind):
+        cases = [row for row, other in enumerate(kind) if other == combination]
+        top = max(cases, key=lambda row: friction[row])
+        mark = " *" if doubts[top] else ""
+        where = [value_label(prediction, name, prediction[name].values[top]) for name in ("temperature", "speed")]
+        lowest = significant(float(friction[cases].min()), 3)
+        rows.append([*map(_together, combination), significant(float(friction[top]), 3) + mark, *where, lowest])
+    shown = [rows[place] for place in thinned(len(rows), 2 * _MOST_ROWS)]
+    some = f" Shown: {len(shown)} of {len(rows)} combinations." if len(shown) < len(rows) else ""
+    return Table(
+        _GLANCE,
+        f"Highest predicted viscoelastic friction coefficient.{some}",
+        [*(name.replace("_", " ") for name in others), "highest friction", "at", "and", "lowest friction"],
+        shown,
+        note=f"* {_meaning(*chain(*doubts))}." if any("*" in cell for row in shown for cell in row) else "",
+    )
+
+
+def _together(label: str) -> str:
+    """Keep numbers and their units on one line."""
+    return ", ".join(part.replace(" ", "\N{NO-BREAK SPACE}") for part in label.split(", "))
+
+
+def _meaning(*doubts: str) -> str:
+    """Say what the marks of doubtful cells stand for, those that there are."""
+    return "; ".join(f"{doubt}: {meaning}" for doubt, meaning in _DOUBTFUL.items() if doubt in doubts)
+
+
+def agreement_table(tree: xr.DataTree) -> Table | None:
+    """Prediction against measurement, temperature by temperature."""
+    agreement = group(tree, "agreement")
+    if agreement is None:
+        return None
+    left_out = number(agreement.attrs, "left_out")
+    left = ""
+    if left_out > 0:
+        points = "1 measured point is" if left_out == 1 else f"{left_out:.0f} measured points are"
+        left = f" {points} left out: without a prediction, or with friction not above zero."
+    counted = number(agreement.attrs, "material_counted") == 1.0
+    material = "the material's own (sweeps, shift factors, spectrum)"
+    return made_table(
+        "agreement",
+        "Predicted less measured friction, over the measured one, temperature by temperature.",
+        agreement,
+        [
+            Column("temperature", "temperature", degrees),
+            Column("points", "points", whole),
+            Column("mean", "bias", signed_percent),
+            Column("its standard error", "bias_error", percent),
+            Column("rms", "rms", percent),
+            Column("within 2 standard errors", "share_within_error", lambda share: percent(share, 3)),
+            Column("within the scatter", "share_within_scatter", lambda share: percent(share, 3)),
+        ],
+        note="Standard error: of the measured mean, with the numerical error of the prediction"
+        + (f" and {material}" if counted else f"; {material} is not counted")
+        + f".{left}",
+    )
+
+
+def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_open: bool) -> Table | None:
+    """Every case of a group of predictions: friction, its band and errors, and the size of the contact."""
+    prediction = group(tree, name)
+    if prediction is None:
+        return None
+    prediction = cases_of(prediction)
+    friction, error = (values(prediction, part) for part in ("friction_coefficient", "friction_error"))
+    full = prediction.assign(relative_error=("case", error / np.where(friction == 0.0, np.nan, np.abs(friction))))
+    between = interpolated(full)
+    for work in ("cells", "products"):  # what was not solved took none
+        if work in full:
+            full[work] = ("case", np.where(between, np.nan, values(full, work)))
+    load, area = (_unit(full, part) for part in ("load", "contact_area"))
+    is_line = area == "m"
+    table = made_table(
+        key,
+        caption,
+        full,
+        [
+            *_varied_columns(full),
+            Column("temperature", "temperature", degrees),
+            Column("speed (mm/s)" if name == "prediction" else "reduced speed (mm/s)", "speed", times(1e3)),
+            Column(f"load ({load or 'N'})", "load", significant),
+            Column("friction coefficient", "friction_coefficient", times(1.0)),
+            Column("95 % from", "friction_lower", times(1.0)),
+            Column("to", "friction_upper", times(1.0)),
+            Column("numerical error", "relative_error", percent),
+            Column("energy balance", "energy_balance", percent),
+            Column("indentation (mm)", "indentation", times(1e3)),
+            Column("width (mm)" if is_line else "area (mm²)", "contact_area", times(1e3 if is_line else 1e6, 3)),
+            Column("area (share)", "contact_area_fraction", percent),
+            Column("mean gap (µm)", "mean_gap", times(1e6)),
+            Column("front (mm)", "front", times(1e3)),
+            Column("rear (mm)", "rear", times(1e3)),
+            Column("half-width (mm)", "half_width", times(1e3)),
+            Column("largest pressure (MPa)", "max_pressure", times(1e-6)),
+            Column("complementarity", "complementarity", times(1.0, 2)),
+            Column("cells", "cells", whole),
+            Column("products", "products", whole),
+        ],
+        is_open,
+        _MEANINGS if "contact_area_fraction" not in full else _ROUGH_MEANINGS,
+    )
+    return _with_remarks(table, [_state(*told) for told in zip(*_states(full), remarks(tree, full), strict=True)])
+
+
+def _unit(cases: xr.Dataset, name: str) -> str:
+    return str(cases[name].attrs.get("units", "")) if name in cases else ""
+
+
+def _varied_columns(cases: xr.Dataset) -> list[Column]:
+    """Return columns of what else varies; names of rubbers stand before them."""
+    found = []
+    for name in VARIED:
+        if name == "load" or name not in cases or len(np.unique(cases[name].values)) < 2:
+            continue
+        found.append(Column(name.replace("_", " "), name, partial(value_label, cases, name)))
+    return found
+
+
+def _states(cases: xr.Dataset) -> tuple[Array, Array]:
+    """Return which cases failed, and which were interpolated."""
+    return values(cases, "failed") == 1.0, values(cases, "interpolated") == 1.0
+
+
+def _state(failed: bool, between: bool, doubts: tuple[str, ...]) -> tuple[str, ...]:
+    return (*(["not solved"] if failed else []), *(["interpolated"] if between else []), *doubts)
+
+
+def measurement_table(tree: xr.DataTree) -> Table | None:
+    """Every measured point beside its prediction."""
+    measurement = group(tree, "measurement")
+    if measurement is None:
+        return None
+    full = measurement.assign(difference=measurement["predicted"] / measurement["viscoelastic"] - 1.0)
+    table = made_table(
+        "measured-and-predicted",
+        "Measured and predicted friction coefficients (scatter: standard deviation over the repetitions; "
+        "standard error: of their mean).",
+        full,
+        [
+            Column("temperature", "temperature", degrees),
+            Column("speed (mm/s)", "speed", times(1e3)),
+            Column("reduced speed (mm/s)", "reduced_speed", times(1e3)),
+            Column("load (N)", "load", times(1.0)),
+            Column("repetitions", "replicates", whole),
+            Column("viscoelastic, measured", "viscoelastic", times(1.0)),
+            Column("scatter", "viscoelastic_scatter", times(1.0, 2)),
+            Column("standard error", "viscoelastic_error", times(1.0, 2)),
+            Column("predicted", "predicted", times(1.0)),
+            Column("95 % from", "predicted_lower", times(1.0)),
+            Column("to", "predicted_upper", times(1.0)),
+            Column("numerical error", "predicted_error", times(1.0, 2)),
+            Column("predicted less measured", "difference", signed_percent),
+        ],
+    )
+    for heading, name in (("Coulomb, measured", "coulomb"), ("left over (consistency)", "consistency")):
+        if name in measurement.variables:
+            table.headings.append(heading)
+            pairs = zip(values(measurement, name), values(measurement, f"{name}_error"), strict=True)
+            for row, (value, error) in zip(table.rows, pairs, strict=True):
+                row.append(with_error(float(value), float(error)))
+    return _with_remarks(table, remarks(tree, measurement))
+
+
+def friction_shift_table(tree: xr.DataTree) -> Table | None:
+    """Shift factors from friction beside those of the modulus."""
+    found = group(tree, "friction_shift_factors")
+    if found is None:
+        return None
+    columns = [
+        Column("temperature", "temperature", degrees),
+        Column("log₁₀ α from friction", "log10_shift_factor", times(1.0)),
+        Column("standard error", "standard_error", times(1.0, 2)),
+        Column("log₁₀ α of the modulus", "known_log10_shift_factor", times(1.0)),
+        Column("its standard error", "known_standard_error", times(1.0, 2)),
+        Column("difference", "difference", times(1.0, 2)),
+    ]
+    full = found.assign(difference=found["log10_shift_factor"] - found["known_log10_shift_factor"])
+    at = degrees(number(found.attrs, "reference_temperature"))
+    caption = f"Shift factors from friction alone beside those of the modulus, 1 at {at}."
+    return made_table("friction-shift-factors", caption, full, columns, is_open=False)
+
+
+def detail_tables(tree: xr.DataTree) -> list[Table]:
+    """Return the full tables that the results afford."""
+    found = [
+        prediction_table(tree, "prediction", "prediction", "Friction predicted for each case.", True),
+        measurement_table(tree),
+        *_master_and_rubber(tree),
+    ]
+    for place, (rubber, branch) in enumerate(rubbers(tree), 1):
+        found += [
+            replace(table, key=f"{table.key}-{place}", caption=f"{rubber}. {table.caption}")
+            for table in _master_and_rubber(branch)
+            if table is not None
+        ]
+    return [table for table in found if table is not None]
+
+
+def _master_and_rubber(tree: xr.DataTree) -> list[Table | None]:
+    return [
+        prediction_table(
+            tree,
+            "prediction_master",
+            "prediction-master",
+            "Friction predicted against the reduced speed, at the reference temperature.",
+            False,
+        ),
+        friction_shift_table(tree),
+        shift_factor_table(tree),
+        law_table(tree),
+        spectrum_table(tree),
+    ]

@@ -1,0 +1,294 @@
+"""What a study was asked, and its results in key numbers."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.notes import Note
+from viscofric.report.figures.style import degrees
+from viscofric.report.results import (
+    group,
+    is_extrapolated,
+    is_from_friction,
+    is_rough,
+    is_synthetic,
+    is_wide,
+    nominal_temperatures,
+    number,
+    reference_temperature,
+    rubbers,
+    values,
+)
+from viscofric.report.sweeps import cases_of, labelled, solved_cases, sweep_axes, value_label
+from viscofric.report.texts.numbers import (
+    ABSENT,
+    megapascals,
+    percent,
+    several,
+    short,
+    signed_percent,
+    speed,
+    typeset,
+    with_error,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+
+    from viscofric.arrays import Array
+    from viscofric.report.sweeps import SweepAxis
+
+
+_FEW = 6  # points that are told one by one
+
+# Space between a number and its unit, where a line should not break
+_BEFORE_UNIT = re.compile(r"(?<=\d) (?=°C|N\b|mm|m/s|rad/s|%)")
+
+
+class Input(NamedTuple):
+    """One thing that was given: what it is, and its value in words."""
+
+    name: str
+    value: str
+
+
+def what_was_asked(tree: xr.DataTree) -> list[str]:
+    """Say the inputs of the study in sentences."""
+    attrs = tree.attrs
+    said = []
+    found, sweeps = group(tree, "prediction"), group(tree, "isotherms")
+    if found is not None:
+        prediction = cases_of(found)
+        steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(prediction, "temperature"))]
+        at = several(steps) if len(steps) <= 6 else f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}"
+        accuracy = number(attrs, "accuracy")
+        said.append(
+            f"The viscoelastic friction of a rubber against a {attrs.get('indenter', 'rigid indenter')}"
+            f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} "
+            f"and {at}" + (f", to an accuracy of {short(100 * accuracy)} %." if math.isfinite(accuracy) else ".")
+        )
+        also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
+        if also:
+            said.append(f"Varied as well: {'; '.join(f'{axis.title} ({_points(axis)})' for axis in also)}.")
+    if sweeps is not None:
+        steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(sweeps, "temperature"))]
+        at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
+        file = f" ({str(attrs['dma_format']).split(' (')[0]})" if attrs.get("dma_format") else ""
+        said.append(
+            f"The rubber is known from dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
+            f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s"
+            f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
+        )
+    elif attrs.get("material"):
+        source = f" ({attrs['citation']})" if attrs.get("citation") else ""
+        said.append(
+            f"The rubber is {attrs['material']}{source}. Poisson's ratio is {short(number(attrs, 'poisson_ratio'))}."
+        )
+    measurement = group(tree, "measurement")
+    if measurement is not None:
+        kind = "synthetic (made, not measured)" if is_synthetic(tree) else "measured"
+        coulomb = np.isfinite(values(measurement, "coulomb")).any()
+        separated = ", at which the viscoelastic and the Coulomb friction were separated" if coulomb else ""
+        enters = (
+            "The rubber was itself identified from friction; if that is this friction, the comparison tells how well "
+            "it was fitted, and tests no prediction."
+            if is_from_friction(tree)
+            else "Nothing of this friction enters the prediction."
+        )
+        points = f"{measurement.sizes['point']} {kind} points of friction"
+        said.append(f"The prediction is compared with {points}{separated}. {enters}")
+    return [_BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", sentence) for sentence in said]
+
+
+def inputs(tree: xr.DataTree) -> list[Input]:
+    """Return what the study was given: rubber, indenter, conditions, accuracy."""
+    attrs, listed = tree.attrs, []
+    rubber = str(attrs.get("material") or attrs.get("material_name") or "")
+    if not rubber and group(tree, "isotherms") is not None:
+        rubber = "of the sweeps"
+    listed.append(Input("rubber", rubber))
+    listed.append(Input("Poisson's ratio", short(number(attrs, "poisson_ratio"))))
+    reference = reference_temperature(tree)
+    listed.append(Input("reference temperature", "" if reference is None else degrees(reference)))
+    listed.append(Input("surface" if is_rough(tree) else "indenter", str(attrs.get("indenter", ""))))
+    friction = labelled(tree)
+    if friction is not None:
+        along = {axis.name: axis for axis in _axes(tree)}
+        told = {column for axis in along.values() for column in axis.columns}
+        listed += [Input(axis.title, _points(axis)) for axis in along.values()]
+        for name in ("load", "pressure", "direction", "temperature", "speed", "thickness"):
+            if name in friction.coords and name not in told and friction[name].ndim == 0:
+                listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
+        listed.append(Input("cases", str(math.prod(friction.sizes.values()))))
+    accuracy = number(attrs, "accuracy")
+    listed.append(Input("accuracy asked for", f"{short(100 * accuracy)} %" if math.isfinite(accuracy) else ""))
+    return [item for item in listed if item.value not in ("", ABSENT)]
+
+
+def _axes(tree: xr.DataTree) -> list[SweepAxis]:
+    friction = labelled(tree)
+    return [] if friction is None else sweep_axes(friction)
+
+
+def _points(axis: SweepAxis) -> str:
+    """Say the points of an axis: all of a few, the ends of many."""
+    if len(axis) <= _FEW:
+        return several(list(axis.labels)) if not any("," in label for label in axis.labels) else "; ".join(axis.labels)
+    return f"{axis.labels[0]} to {axis.labels[-1]} ({len(axis)} in all)"
+
+
+def _under(prediction: xr.Dataset, load: float) -> str:
+    """Say the load, or the range of loads."""
+    loads = values(prediction, "load")
+    loads = loads[np.isfinite(loads)] if np.isfinite(loads).any() else np.array([load])
+    unit = str(prediction["load"].attrs.get("units", "N")) if "load" in prediction else "N"
+    if "pressure" in prediction:
+        return f" under a mean pressure of {_range(values(prediction, 'pressure') / 1e3, 4)} kPa"
+    return f" under {_range(loads, 4)} {unit}" if np.isfinite(loads).all() else ""
+
+
+def _isotherms_used(tree: xr.DataTree) -> str:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return ""
+    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
+    return f"; {used:.0f} of {given:.0f} isotherms used" if math.isfinite(given) and math.isfinite(used) else ""
+
+
+def _range(numbers: Array, digits: int = 3) -> str:
+    low, high = short(float(np.nanmin(numbers)), digits), short(float(np.nanmax(numbers)), digits)
+    return low if low == high else f"{low} to {high}"
+
+
+def _speeds(metres_per_second: Array) -> str:
+    """Say a range of speeds: 20 to 200 mm/s, 0.1 mm/s to 10 m/s."""
+    low, high = speed(float(np.nanmin(metres_per_second))), speed(float(np.nanmax(metres_per_second)))
+    if low == high:
+        return low
+    same_unit = low.split()[1] == high.split()[1]
+    return f"{low.split()[0] if same_unit else low} to {high}"
+
+
+#: Name of the key number that compares prediction and measurement.
+AGREEMENT = "Prediction less measurement"
+_MOST_RUBBERS = 4
+_SHOWN_PLACES = 6
+
+
+class KeyNumber(NamedTuple):
+    """A number worth a frame: its name, the number, and a remark."""
+
+    name: str
+    value: str
+    remark: str
+
+
+def key_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+    """Return the answer's most important numbers."""
+    found = [*_friction_numbers(tree), *_shift_numbers(tree), *_modulus_numbers(tree)]
+    for rubber, branch in rubbers(tree)[:_MOST_RUBBERS]:
+        found += [item._replace(name=f"{item.name}, {rubber}") for item in _modulus_numbers(branch)]
+    return found
+
+
+def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+    found = []
+    prediction, agreement = solved_cases(tree), group(tree, "agreement")
+    if prediction is not None and np.isfinite(values(prediction, "friction_coefficient")).any():
+        friction = values(prediction, "friction_coefficient")
+        remark = f"predicted, over all cases asked for{_caveat(tree, prediction)}"
+        found.append(KeyNumber("Viscoelastic friction coefficient", _range(friction), remark))
+    if agreement is not None:
+        bias, rms, points = (number(agreement.attrs, name) for name in ("bias", "rms", "points"))
+        doubt = number(agreement.attrs, "bias_error")
+        average = signed_percent(bias) + (f" ± {percent(doubt)}" if math.isfinite(doubt) else "")
+        remark = f"rms over {points:.0f} points; {average} on average" if math.isfinite(points) else ""
+        share = number(agreement.attrs, "share_within_error")
+        if math.isfinite(share):
+            counted = "with" if number(agreement.attrs, "material_counted") == 1.0 else "without"
+            remark += (
+                f"; {percent(share, 3)} of the points within twice the standard error ({counted} the material's own)"
+            )
+        found.append(KeyNumber(AGREEMENT, percent(rms), remark))
+    shifts = group(tree, "friction_shift_factors")
+    if shifts is not None and not is_from_friction(tree):
+        slope, error = (number(shifts.attrs, name) for name in ("slope", "slope_error"))
+        remark = "times those of the modulus, as logarithms: 1 where both coincide"
+        found.append(KeyNumber("Shift factors from friction", with_error(slope, error), remark))
+    return found
+
+
+def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
+    """Say how many of the cases behind the headline rest on doubtful ground."""
+    wide, beyond = int(is_wide(tree, prediction).sum()), int(is_extrapolated(prediction).sum())
+    of, said = prediction.sizes["case"], ""
+    if wide:
+        said += f"; doubtful in {wide} of {of}, where the contact reaches beyond {SMALL_STRAIN:g} ball radii"
+    if beyond:
+        said += f"; extrapolated in {beyond} of {of}, beyond the measured frequencies"
+    return said
+
+
+def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+    factors, law, reference = group(tree, "shift_factors"), group(tree, "shift_law"), reference_temperature(tree)
+    if factors is None or law is None or reference is None:
+        return []
+    C1, C2, error1, error2 = (number(law.attrs, name) for name in ("wlf_C1", "wlf_C2", "wlf_C1_error", "wlf_C2_error"))
+    if not math.isfinite(C1):
+        return [KeyNumber("Shift law", str(law.attrs.get("told", "")), "")]
+    used = "used"
+    if str(factors.attrs.get("shift_used", "measured")) == "measured":
+        used = "a summary: the measured shift factors are used"
+    return [
+        KeyNumber("WLF constant C₁", with_error(C1, error1), f"about {degrees(reference)}; {used}"),
+        KeyNumber("WLF constant C₂", f"{with_error(C2, error2)} K", f"about {degrees(reference)}"),
+    ]
+
+
+def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+    spectrum = group(tree, "spectrum")
+    if spectrum is None:
+        return []
+    found = []
+    for name, title in (("E0", "Modulus at rest E₀"), ("E_inf", "Glass modulus E∞")):
+        value = number(spectrum.attrs, name)
+        known = math.isfinite(value) and number(spectrum.attrs, f"{name}_at_limit") != 1.0
+        remark = str(spectrum.attrs.get(f"{name}_remark", ""))
+        found.append(KeyNumber(title, megapascals(value) if known else ABSENT, remark))
+    return found
+
+
+def grouped_failures(failures: Sequence[Note], most: int) -> list[str]:
+    """Return failures as at most so many lines: those of one reason together, with their cases.
+
+    Parameters
+    ----------
+    failures : sequence of Note
+        Their places are the cases; those of one code, or without any of one text, have one reason.
+    most : int
+        Lines at most; the last one says how many failures are not shown, if there are more kinds.
+    """
+    kinds: dict[str, list[Note]] = {}
+    for failure in failures:
+        kinds.setdefault(failure.code or failure.text, []).append(failure)
+    shown = list(kinds.values())
+    if len(shown) > most:
+        shown = shown[: most - 1]
+    left = len(failures) - sum(map(len, shown))
+    return [*map(_line, shown), *([f"{left} more cases, for other reasons: see the report."] if left else [])]
+
+
+def _line(cases: list[Note]) -> str:
+    places = [one.where for one in cases if one.where]
+    if len(cases) == 1 or not places:
+        return (f"{len(cases)} times: " if len(cases) > 1 else "") + typeset(cases[0])
+    more = f"; and {len(places) - _SHOWN_PLACES} more" if len(places) > _SHOWN_PLACES else ""
+    reason = Note(cases[0].code, cases[0].text, remedy=cases[0].remedy).words("run_file")
+    return typeset(f"{len(cases)} cases ({'; '.join(places[:_SHOWN_PLACES])}{more}): {reason}")
