@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -218,3 +219,17 @@ def test_errors_that_are_not_known_tell_no_share() -> None:
     assert "50 % of the 2 whose error is known" in str(some)
     scattered = replace(measured, replicates=np.full(4, 3), viscoelastic_scatter=np.full(4, np.inf))
     assert compare(scattered, predicted).share_within_scatter is None
+
+
+def test_data_set_holds_the_numbers_of_each_temperature() -> None:
+    measured = friction_curves(SPEED, TEMPERATURE, np.array([0.01, 0.02, 0.04, 0.04]), error=1e-3)
+    agreement = compare(measured, friction_curves(SPEED, TEMPERATURE, np.array([0.011, 0.022, 0.04, 0.04])))
+    data = agreement.to_dataset()
+    np.testing.assert_allclose(data["temperature"], [303.15, 333.15])
+    np.testing.assert_allclose(data["bias"], [0.1, 0.0])
+    np.testing.assert_array_equal(data["points"], [2, 2])
+    np.testing.assert_array_equal(data["bias_error"], agreement.bias_error_at)
+    assert data["share_within_error"].attrs["units"] == "1"
+    assert data.attrs["bias"] == pytest.approx(0.05)
+    assert data.attrs["material_counted"] == 0
+    assert json.loads(data.attrs["sentences"]) == [str(agreement)]

@@ -12,10 +12,11 @@ import viscofric as vf
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
 from viscofric.friction import warming
+from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
 from viscofric.friction.contact_size import ContactSize
 from viscofric.friction.coupling import coupling
 from viscofric.friction.flash_temperature import bulk_temperature, flash_temperature, shared_flash_temperature
-from viscofric.notes import codes
+from viscofric.notes import Note, Remedy, codes
 from viscofric.thermal import FILLED_RUBBER, STEEL
 
 RUBBER = vf.synthetic_fluoroelastomer()
@@ -311,3 +312,19 @@ def test_the_narrowest_contact_is_hertz_at_the_modulus_of_its_own_frequency() ->
     sentence = checks(RUBBER, BALL, one)["small contact"].sentence
     assert f"about {1e3 * a:.2g} and at most" in sentence
     assert f"{a / 9.525e-3:.2f} to" in sentence
+
+
+def test_checks_make_a_data_set() -> None:
+    """What is not known is NaN, what cannot be judged −1; sentences are in the words of their reader."""
+    layer = Remedy("layer=Layer(…)", run_file="[layer]")
+    checks = (
+        AssumptionCheck("half-space", 0.5, 0.25, False, Note("too-thin", "Thin: ", remedy=layer)),
+        AssumptionCheck("linearity", None, 0.06, None, "Unknown."),
+    )
+    data = assumptions_dataset(checks, "run_file")
+    assert data["assumption_name"].values.tolist() == ["half-space", "linearity"]
+    np.testing.assert_array_equal(data["value"], [0.5, np.nan])
+    np.testing.assert_array_equal(data["limit"], [0.25, 0.06])
+    np.testing.assert_array_equal(data["holds"], [0, -1])
+    assert data["sentence"].values.tolist() == ["Thin: [layer]", "Unknown."]
+    assert checks[0].to_dataset()["sentence"].item() == "Thin: layer=Layer(…)"

@@ -194,6 +194,8 @@ def test_data_set_is_labelled() -> None:
         assert data[name].attrs["long_name"]
     assert data["temperature"].attrs["units"] == "K"
     np.testing.assert_array_equal(data["coulomb"], curves.coulomb)  # type: ignore[arg-type]
+    np.testing.assert_array_equal(data["speed"], curves.speed)
+    assert data["load"].attrs == {"units": "N", "long_name": "normal load"}
     assert "negative" in data.attrs["notes"]
 
 

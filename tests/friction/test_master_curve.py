@@ -189,3 +189,16 @@ def test_senseless_places_are_refused(speed: object, temperature: object, messag
 def test_a_shift_is_a_law() -> None:
     with pytest.raises(InputError, match=r"shift of friction curves must be a law .* not str; leave it out"):
         shift_friction(shifted_curves(), shift="wlf")  # type: ignore[arg-type]
+
+
+def test_data_set_holds_the_points_along_the_reduced_speed() -> None:
+    curves = shifted_curves(noise=0.01)
+    master = shift_friction(curves, shift=LAW)
+    data = master.to_dataset()
+    assert data.attrs == {"reference_temperature": 323.15, "load": curves.load[0]}
+    assert data["reduced_speed"].attrs["units"] == "m/s"
+    np.testing.assert_array_equal(data["reduced_speed"], master.reduced_speed)
+    order = np.argsort(LAW(curves.temperature) * curves.speed)
+    np.testing.assert_array_equal(data["temperature"], curves.temperature[order])
+    np.testing.assert_array_equal(data["viscoelastic"], curves.viscoelastic[order])
+    np.testing.assert_array_equal(data["viscoelastic_error"], curves.viscoelastic_error[order])

@@ -137,3 +137,20 @@ def test_factors_that_scatter_more_than_their_errors_say_widen_that_of_the_slope
     # 1e-6 decades are added to the errors, 1e-8 of their squares.
     assert agreement.slope == pytest.approx(slope, rel=1e-6)
     assert agreement.slope_error == pytest.approx(deviation / np.sqrt(x @ x), rel=1e-6)
+
+
+def test_data_set_has_all_temperatures_and_nan_where_the_other_is_unknown() -> None:
+    found = factors(0.02, np.random.default_rng(3))
+    other = ShiftFactors(KELVIN[:5], LAW.log10(KELVIN[:5]), 303.15)
+    agreement = compare_shift_factors(found, other)
+    data = agreement.to_dataset()
+    np.testing.assert_allclose(data["temperature"], KELVIN)
+    np.testing.assert_array_equal(data["log10_shift_factor"], found.log10_values)
+    np.testing.assert_array_equal(data["standard_error"], found.standard_errors)
+    np.testing.assert_allclose(data["known_log10_shift_factor"][:5], LAW.log10(KELVIN[:5]), atol=1e-12)
+    assert np.all(np.isnan(data["known_log10_shift_factor"][5:]))
+    assert data.attrs["reference_temperature"] == 303.15
+    assert data.attrs["p_value"] == agreement.p_value
+    exact = compare_shift_factors(found, LAW.at_reference("60 degC")).to_dataset()
+    np.testing.assert_allclose(exact["known_log10_shift_factor"], LAW.log10(KELVIN), atol=1e-12)
+    np.testing.assert_array_equal(exact["known_standard_error"], 0.0)

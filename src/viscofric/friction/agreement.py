@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, overload
@@ -15,6 +16,8 @@ from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.notes import Remedy
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array, Integers, Mask
 
 
@@ -84,6 +87,45 @@ class Agreement:
     along_reduced_speed: bool = False
     not_covered: int = 0
     with_error: int = 0
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the numbers of each temperature as a labelled data set along ``temperature``.
+
+        Those over all points are attributes of the same names; ``sentences`` is a JSON list with the agreement in
+        words.
+        """
+        from viscofric.datasets import dataset
+
+        return dataset(
+            "temperature",
+            {
+                "bias": (self.bias_at, "1", "mean relative difference of prediction and measurement"),
+                "rms": (self.rms_at, "1", "root mean square relative difference"),
+                "share_within_error": (
+                    self.share_within_error_at,
+                    "1",
+                    "share of points within twice the combined standard error",
+                ),
+                "points": (self.points_at, "1", "points compared"),
+                "bias_error": (self.bias_error_at, "1", "standard error of the mean relative difference"),
+                "share_within_scatter": (
+                    self.share_within_scatter_at,
+                    "1",
+                    "share of repeated points within the scatter of the repetitions",
+                ),
+            },
+            coordinates={"temperature": (self.temperature, "K", "temperature")},
+            attributes={
+                "bias": self.bias,
+                "rms": self.rms,
+                "points": self.points,
+                "bias_error": self.bias_error,
+                "material_counted": int(self.material_counted),
+                "share_within_error": self.share_within_error,
+                "share_within_scatter": self.share_within_scatter,
+                "sentences": json.dumps([str(self)], ensure_ascii=False),
+            },
+        )
 
     def __str__(self) -> str:
         where = "On the master curve, over" if self.along_reduced_speed else "Over"

@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from viscofric.notes import note_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray
+
+    from viscofric.notes import Reader
 
 
 @dataclass(frozen=True)
@@ -29,8 +40,35 @@ class AssumptionCheck:
     holds: bool | None
     sentence: str
 
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the check as a labelled data set along ``assumption``; see `assumptions_dataset`."""
+        return assumptions_dataset((self,))
+
     def __str__(self) -> str:
         return self.sentence
+
+
+def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "python") -> xarray.Dataset:
+    """Return checks as a labelled data set along ``assumption``, their sentences in the words of a reader.
+
+    `value` is NaN where it is not known; `holds` is 1, 0, or −1 where it cannot be judged.
+    """
+    from viscofric.datasets import dataset
+
+    return dataset(
+        "assumption",
+        {
+            "assumption_name": ([check.name for check in checks], "1", "what is taken for granted"),
+            "value": ([math.nan if check.value is None else check.value for check in checks], "1", "what is judged"),
+            "limit": ([check.limit for check in checks], "1", "largest value at which the assumption holds well"),
+            "holds": (
+                [-1 if check.holds is None else int(check.holds) for check in checks],
+                "1",
+                "whether it does (1), does not (0), or cannot be told (-1)",
+            ),
+            "sentence": ([note_of(check.sentence).words(reader) for check in checks], "1", "the same in words"),
+        },
+    )
 
 
 def verdict(low: float, high: float, limit: float) -> bool | None:

@@ -38,34 +38,29 @@ _OPTIONAL = (
     "coulomb_freedom",
 )
 
-# name -> (unit, what it is), for labelled data
+#: Column -> unit, long name; the load's are those of `FrictionCurves.to_dataset`.
 _LABELS = {
     "speed": ("m/s", "speed at which the rubber is deformed"),
     "temperature": ("K", "temperature"),
-    "load": ("N", "normal load"),
+    "slip": ("m/s", "magnitude of the sliding velocity"),
     "viscoelastic": ("1", "viscoelastic friction coefficient"),
     "viscoelastic_error": ("1", "standard error of the viscoelastic friction coefficient"),
-    "viscoelastic_scatter": ("1", "standard deviation of viscoelastic friction over the replicates"),
-    "replicates": ("1", "number of replicates"),
+    "viscoelastic_scatter": ("1", "standard deviation of the viscoelastic friction coefficient"),
+    "replicates": ("1", "repetitions"),
     "coulomb": ("1", "Coulomb friction coefficient"),
     "coulomb_error": ("1", "standard error of the Coulomb friction coefficient"),
-    "coulomb_scatter": ("1", "standard deviation of Coulomb friction over the replicates"),
+    "coulomb_scatter": ("1", "standard deviation of the Coulomb friction coefficient"),
     "consistency": ("1", "what the sign configurations leave over, relative to the load"),
     "consistency_error": ("1", "standard error of the consistency"),
-    "slip": ("m/s", "magnitude of the sliding velocity"),
     "offset": ("N", "zero reading of the force cell"),
-    "material_error": ("1", "standard error of the viscoelastic friction coefficient that the material's leaves"),
-    "viscoelastic_lower": (
-        "1",
-        "lower 95 % limit of the viscoelastic friction coefficient, from the material's errors",
-    ),
-    "viscoelastic_upper": (
-        "1",
-        "upper 95 % limit of the viscoelastic friction coefficient, from the material's errors",
-    ),
+    "material_error": ("1", "standard error of the friction coefficient that the rubber's uncertainty leaves"),
+    "viscoelastic_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
+    "viscoelastic_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
     "viscoelastic_freedom": ("1", "degrees of freedom behind the standard error of viscoelastic friction"),
     "coulomb_freedom": ("1", "degrees of freedom behind the standard error of Coulomb friction"),
 }
+_COORDINATES = ("speed", "temperature", "load", "slip")
+_LOADS = {"N": "normal load", "N/m": "normal load per length"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -339,20 +334,21 @@ class FrictionCurves:
         return self.select(keep)
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return the curves as a labelled data set along ``point``, units and names in its attributes."""
-        import xarray
+        """Return the curves as a labelled data set along ``point``, with units and long names.
 
+        Speed, temperature, load and slip are coordinates; source, notes and assumption are attributes.
+        """
+        from viscofric.datasets import dataset
+
+        labels = _LABELS | {"load": (self.load_unit, _LOADS[self.load_unit])}
         columns = {
-            name: ("point", getattr(self, name), {"units": unit, "long_name": long_name})
-            for name, (unit, long_name) in (_LABELS | {"load": (self.load_unit, _LABELS["load"][1])}).items()
-            if getattr(self, name) is not None
+            name: (getattr(self, name), *label) for name, label in labels.items() if getattr(self, name) is not None
         }
-        names = [name for name in ("speed", "temperature", "load", "slip") if name in columns]
-        coordinates = {name: columns.pop(name) for name in names}
-        return xarray.Dataset(
-            columns,
-            coords=coordinates,
-            attrs={"source": self.source, "notes": "\n".join(self.notes), "assumption": self.assumption},
+        return dataset(
+            "point",
+            {name: column for name, column in columns.items() if name not in _COORDINATES},
+            coordinates={name: columns[name] for name in _COORDINATES if name in columns},
+            attributes={"source": self.source, "notes": "\n".join(self.notes), "assumption": self.assumption},
         )
 
 

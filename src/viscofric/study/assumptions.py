@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.friction.assumption_check import assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
 from viscofric.notes import Note, note_of
-from viscofric.study import labels
 from viscofric.study.bands import curves_of
 from viscofric.study.surface_words import surface_checks
 
@@ -31,7 +31,7 @@ _WARNED_OF = (_OF_HALF_SPACES, "uncoupled")
 
 def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
     """Return what `assumption_checks` found as a group of results; none where there was nothing to check."""
-    return {"/assumptions": labels.assumption_data(found)} if found else {}
+    return {"/assumptions": assumptions_dataset(found, "run_file")} if found else {}
 
 
 def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:

@@ -21,8 +21,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.errors import InputError
-from viscofric.notes import note_of
 from viscofric.study.record import NUMBERS, Record
 
 if TYPE_CHECKING:
@@ -31,11 +29,8 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.friction.agreement import Agreement
-    from viscofric.friction.assumption_check import AssumptionCheck
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.friction.shifting.shift_agreement import ShiftAgreement
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.study.bands import BandColumns
 
 #: Variable -> unit, long name.
@@ -95,33 +90,11 @@ MEANING = {
     ),
     "interpolated": ("1", "whether it lies between solved contacts (1) or was solved itself (0)"),
     "failed": ("1", "whether the case could not be solved (1); its other variables are missing then"),
-    "replicates": ("1", "repetitions"),
-    "viscoelastic": ("1", "measured viscoelastic friction coefficient"),
-    "viscoelastic_error": ("1", "standard error of the viscoelastic friction coefficient"),
-    "viscoelastic_scatter": ("1", "standard deviation of the viscoelastic friction coefficient"),
-    "coulomb": ("1", "measured Coulomb friction coefficient"),
-    "coulomb_error": ("1", "standard error of the Coulomb friction coefficient"),
-    "coulomb_scatter": ("1", "standard deviation of the Coulomb friction coefficient"),
-    "consistency": ("1", "what the sign configurations leave over, relative to the load"),
-    "consistency_error": ("1", "standard error of the consistency"),
     "predicted": ("1", "predicted viscoelastic friction coefficient"),
     "predicted_error": ("1", "numerical error estimate of the predicted friction coefficient"),
     "predicted_material_error": ("1", "standard error of predicted friction that the rubber's uncertainty leaves"),
     "predicted_lower": ("1", "lower end of the 95 % band of the predicted friction coefficient"),
     "predicted_upper": ("1", "upper end of the 95 % band of the predicted friction coefficient"),
-    "bias": ("1", "mean relative difference of prediction and measurement"),
-    "rms": ("1", "root mean square relative difference"),
-    "share_within_error": ("1", "share of points within twice the combined standard error"),
-    "points": ("1", "points compared"),
-    "bias_error": ("1", "standard error of the mean relative difference"),
-    "share_within_scatter": ("1", "share of repeated points within the scatter of the repetitions"),
-    "known_log10_shift_factor": ("1", "decadic logarithm of the modulus's shift factor"),
-    "known_standard_error": ("1", "standard error of log10 of the modulus's shift factor"),
-    "assumption_name": ("1", "what is taken for granted"),
-    "value": ("1", "what is judged"),
-    "limit": ("1", "largest value at which the assumption holds well"),
-    "holds": ("1", "whether it does (1), does not (0), or cannot be told (-1)"),
-    "sentence": ("1", "the same in words"),
 }
 
 
@@ -185,101 +158,33 @@ def measurement_data(
 
     `predicted` holds the points where it did not.
     """
-    columns: dict[str, Any] = {
-        name: getattr(measured, name) for name in _MEASURED if getattr(measured, name) is not None
-    }
-    columns["reduced_speed"] = reduced_speed
+    columns: dict[str, Any] = {"reduced_speed": reduced_speed}
     solved = np.array([record is not None for record in records])
-    told = {"predicted": predicted.viscoelastic, "predicted_error": predicted.viscoelastic_error}
-    for name, values in (told | band(predicted, "predicted")).items():
+    values = {"predicted": predicted.viscoelastic, "predicted_error": predicted.viscoelastic_error}
+    for name, column in (values | band(predicted, "predicted")).items():
         columns[name] = np.full(len(records), np.nan)
-        columns[name][solved] = values
+        columns[name][solved] = column
     if within is not None:
         columns["within_measured_frequencies"] = np.array(within, dtype=np.int8)
-    return dataset("point", columns)
+    known = measured.to_dataset().reset_coords()
+    known = known[[name for name in _MEASURED if name in known]].drop_attrs(deep=False)
+    return _measured(known).merge(dataset("point", columns))
 
 
 def measured_master_data(master: FrictionMasterCurve) -> xarray.Dataset:
-    """Label measured friction over the reduced speed, all of it at the load of the master curve."""
-    columns = {
-        "reduced_speed": master.reduced_speed,
-        "temperature": master.temperature,
-        "viscoelastic": master.friction,
-        "viscoelastic_error": master.error,
-        "viscoelastic_scatter": master.scatter,
-    }
-    return dataset("point", columns, reference_temperature=master.reference, load=master.load)
+    """Return measured friction over the reduced speed, all of it at the load of the master curve."""
+    return _measured(master.to_dataset())
+
+
+def _measured(data: xarray.Dataset) -> xarray.Dataset:
+    """Say in their long names that friction coefficients were measured."""
+    for name in ("viscoelastic", "coulomb"):
+        if name in data:
+            data[name].attrs["long_name"] = f"measured {data[name].attrs['long_name']}"
+    return data
 
 
 def agreement_data(agreement: Agreement, sentences: Sequence[str], left_out: int) -> xarray.Dataset:
-    """Label how well prediction and measurement agree; the sentences are attributes."""
-    shares = {
-        "share_within_error": agreement.share_within_error,
-        "share_within_scatter": agreement.share_within_scatter,
-    }
-    return dataset(
-        "temperature",
-        {
-            "temperature": agreement.temperature,
-            "bias": agreement.bias_at,
-            "rms": agreement.rms_at,
-            "share_within_error": agreement.share_within_error_at,
-            "points": agreement.points_at,
-            "bias_error": agreement.bias_error_at,
-            "share_within_scatter": agreement.share_within_scatter_at,
-        },
-        "temperature",
-        bias=agreement.bias,
-        rms=agreement.rms,
-        points=agreement.points,
-        left_out=left_out,
-        bias_error=agreement.bias_error,
-        material_counted=int(agreement.material_counted),
-        sentences=json.dumps(list(sentences), ensure_ascii=False),
-        **{name: share for name, share in shares.items() if share is not None},
-    )
-
-
-def friction_shift_data(found: FrictionMasterCurve, known: ShiftLaw, agreement: ShiftAgreement) -> xarray.Dataset:
-    """Label the shift factors that friction alone tells, and those of the modulus where they are known there."""
-    factors = found.shift_factors
-    known = known.at_reference(factors.reference)
-    columns: dict[str, Any] = {
-        "temperature": factors.temperatures,
-        "log10_shift_factor": factors.log10_values,
-        "standard_error": factors.standard_errors,
-        "known_log10_shift_factor": np.full(len(factors.temperatures), np.nan),
-        "known_standard_error": np.full(len(factors.temperatures), np.nan),
-    }
-    exact = getattr(known, "covariance", None) is None
-    for row, kelvin in enumerate(factors.temperatures.tolist()):
-        try:
-            columns["known_log10_shift_factor"][row] = known.log10(kelvin)
-            columns["known_standard_error"][row] = 0.0 if exact else known.standard_error(kelvin)
-        except InputError:
-            continue  # friction may reach beyond the sweeps
-    return dataset(
-        "temperature",
-        columns,
-        "temperature",
-        reference_temperature=factors.reference,
-        sentence=agreement.sentence,
-        slope=agreement.slope,
-        slope_error=agreement.slope_error,
-        p_value=agreement.p_value,
-        rms=agreement.rms,
-    )
-
-
-def assumption_data(checks: Sequence[AssumptionCheck]) -> xarray.Dataset:
-    """Label what predicted friction takes for granted, as checked; `holds` is −1 where it could not be told."""
-    return dataset(
-        "assumption",
-        {
-            "assumption_name": [check.name for check in checks],
-            "value": [np.nan if check.value is None else check.value for check in checks],
-            "limit": [check.limit for check in checks],
-            "holds": [-1 if check.holds is None else int(check.holds) for check in checks],
-            "sentence": [note_of(check.sentence).words("run_file") for check in checks],
-        },
-    )
+    """Return how well prediction and measurement agree; sentences, also of the master curves, are an attribute."""
+    words = json.dumps(list(sentences), ensure_ascii=False)
+    return agreement.to_dataset().assign_attrs(sentences=words, left_out=left_out)

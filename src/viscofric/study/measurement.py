@@ -152,4 +152,4 @@ class Measurement:
             self.notes.append(error.note.at(where).coded("not-compared"))
             return {}
         self.notes += map(note_of, self._found.notes)
-        return {"/friction_shift_factors": labels.friction_shift_data(self._found, self.material.shift, agreement)}
+        return {"/friction_shift_factors": agreement.to_dataset()}

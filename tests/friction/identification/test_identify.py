@@ -95,6 +95,28 @@ def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
     assert np.all(found.friction.viscoelastic_lower < found.friction.viscoelastic_upper)
 
 
+def test_data_sets_hold_modulus_friction_and_shift_factors(found: vf.IdentifiedMaterial) -> None:
+    omega = np.geomspace(*found.frequency_range, 5)
+    modulus = found.to_dataset(omega)
+    np.testing.assert_array_equal(modulus["storage_modulus"], found.material.complex_modulus(omega).real)
+    np.testing.assert_array_equal(modulus["loss_modulus_upper"], found.samples.modulus_band(omega).upper.imag)
+    np.testing.assert_array_equal(modulus["modulus_error"], found.standard_error(omega))
+    assert modulus["loss_modulus"].attrs["units"] == "Pa"
+    assert modulus.attrs["reference_temperature"] == found.material.reference
+    assert modulus.attrs["identified_high"] == found.identified.high
+    wide = found.to_dataset()["angular_frequency"]
+    assert wide[0] == pytest.approx(0.1 * min(found.frequency_range[0], found.identified.low))
+    assert wide[-1] == pytest.approx(10.0 * max(found.frequency_range[1], found.identified.high))
+    friction = found.friction_dataset()
+    np.testing.assert_array_equal(friction["residual"], found.residuals)
+    np.testing.assert_array_equal(friction["viscoelastic"], found.friction.viscoelastic)
+    shift = found.shift_dataset()
+    assert shift is not None
+    np.testing.assert_allclose(shift["temperature"], WARM)
+    np.testing.assert_array_equal(shift["log10_shift_factor"], found.shift_factors.log10_values)
+    np.testing.assert_array_equal(shift["standard_error"], found.shift_factors.standard_errors)
+
+
 @pytest.mark.usefixtures("closed_form")
 def test_without_an_anchor_there_is_a_family() -> None:
     """Levels 40 % apart are fitted nearly as well, and the result says that the level is not identified."""

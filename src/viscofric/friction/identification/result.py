@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -9,10 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import flag, numbers
+from viscofric.friction.shifting.shift_agreement import log10_with_errors
 from viscofric.notes import codes
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
@@ -22,6 +25,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
+#: The modulus is described so far beyond the frequencies of the contacts, as a factor, and at so many frequencies.
+_BEYOND = 10.0
+_FREQUENCIES = 300
 #: Notes beside which nothing counts as identified: the friction is not that of one rubber, or of none that is known.
 NOTHING_IDENTIFIED = frozenset({"not-one-rubber", "too-steep", "constant-friction"})
 
@@ -163,6 +169,82 @@ class IdentifiedMaterial:
             level = self._levels
             rows = rows - level.reshape((-1,) + (1,) * omega.ndim)
         return np.asarray(rows.std(axis=0, ddof=1))
+
+    @property
+    def frequencies(self) -> Array:
+        """Angular frequencies (300,) of the contacts and of `identified`, and a decade beyond on both sides, rad/s."""
+        (first, last), band = self.frequency_range, self.identified
+        return np.geomspace(min(first, band.low) / _BEYOND, max(last, band.high) * _BEYOND, _FREQUENCIES)
+
+    def to_dataset(self, angular_frequency: ArrayLike | None = None) -> xarray.Dataset:
+        """Return the modulus at the reference with its 95 % limits as a labelled data set.
+
+        Parameters
+        ----------
+        angular_frequency : (n,) array_like, optional
+            rad/s; if not given, `frequencies`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along ``angular_frequency``; what was found besides, in SI units, in its attributes.
+        """
+        from viscofric.datasets import dataset
+
+        omega = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
+        modulus, band = np.asarray(self.material.complex_modulus(omega)), self.samples.modulus_band(omega)
+        columns = {"modulus_error": (self.standard_error(omega), "1", "relative standard error of |E|")}
+        if not self.anchored:
+            columns["modulus_error"] = (*columns["modulus_error"][:2], "relative standard error of |E| over its level")
+        for name, part in (("storage", "real"), ("loss", "imag")):
+            columns[f"{name}_modulus"] = (getattr(modulus, part), "Pa", f"{name} modulus")
+            for side in ("lower", "upper"):
+                limit, words = getattr(getattr(band, side), part), f"{side} end of the 95 % band of the {name} modulus"
+                columns[f"{name}_modulus_{side}"] = (limit, "Pa", words)
+        return dataset(
+            "angular_frequency",
+            columns,
+            coordinates={"angular_frequency": (omega, "rad/s", "angular frequency")},
+            attributes={
+                "reference_temperature": self.material.reference,
+                "identified_low": self.identified.low,
+                "identified_high": self.identified.high,
+                "identified_limit": self.identified.limit,
+                "middle": self.middle,
+                "level_lower": self.level_range[0],
+                "level_upper": self.level_range[1],
+                "anchored": int(self.anchored),
+                "chi2": self.chi2,
+                "freedom": self.freedom,
+                "rms": self.rms,
+                "error_scale": self.error_scale,
+                "sentences": json.dumps(self.sentences, ensure_ascii=False),
+            },
+        )
+
+    def friction_dataset(self) -> xarray.Dataset:
+        """Return `friction` as a labelled data set along ``point``, with the residuals as ``residual``."""
+        label = {"units": "1", "long_name": "measured less fitted friction over the standard error"}
+        return self.friction.to_dataset().assign(residual=("point", self.residuals, label))
+
+    def shift_dataset(self) -> xarray.Dataset | None:
+        """Return α(T) at the temperatures of the friction as a labelled data set; None for one temperature."""
+        from viscofric.datasets import dataset
+
+        law = self.shift_factors
+        if law is None:
+            return None
+        kelvin = getattr(law, "temperatures", self.friction.temperatures)
+        log10, error = log10_with_errors(law, kelvin)
+        return dataset(
+            "temperature",
+            {
+                "log10_shift_factor": (log10, "1", "decadic logarithm of the shift factor"),
+                "standard_error": (error, "1", "standard error of log10 of the shift factor"),
+            },
+            coordinates={"temperature": (kelvin, "K", "temperature")},
+            attributes={"reference_temperature": law.reference, "found": int(self.shift_found)},
+        )
 
     @cached_property
     def _levels(self) -> Array:

@@ -14,6 +14,8 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.units import Quantities, Quantity, celsius, positive, to_si_in_shape
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.collapse import Collapse
@@ -114,6 +116,34 @@ class FrictionMasterCurve:
             slopes = gradient(kelvin)
             spread = slopes @ covariance @ slopes.T
         return ShiftFactors(kelvin, self.shift.log10(kelvin), self.reference, spread)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points as a labelled data set along ``point``, with units and long names.
+
+        The friction is that at the load of the curve; the attributes are ``reference_temperature`` (K) and ``load`` (in
+        the curves' `load_unit`).
+        """
+        from viscofric.datasets import dataset
+
+        return dataset(
+            "point",
+            {
+                "reduced_speed": (self.reduced_speed, "m/s", "speed times shift factor"),
+                "temperature": (self.temperature, "K", "temperature"),
+                "viscoelastic": (self.friction, "1", "viscoelastic friction coefficient"),
+                "viscoelastic_error": (
+                    self.error,
+                    "1",
+                    "standard error of the viscoelastic friction coefficient",
+                ),
+                "viscoelastic_scatter": (
+                    self.scatter,
+                    "1",
+                    "standard deviation of the viscoelastic friction coefficient",
+                ),
+            },
+            attributes={"reference_temperature": self.reference, "load": self.load},
+        )
 
     @property
     def reduced_range(self) -> tuple[float, float]:

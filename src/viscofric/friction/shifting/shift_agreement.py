@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +14,8 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors, referenced_cov
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array, Mask
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.rheology.material import Material
@@ -54,6 +57,10 @@ class ShiftAgreement:
         k and its standard error in log10 α_found = k log10 α_other, errors of both counted: 1 where they coincide.
     rms : float
         Root mean square difference, decades.
+    found : ShiftFactors
+        Those found, at all of their temperatures.
+    other : ShiftFactors or ShiftLaw
+        The other ones, about the same reference.
     """
 
     reference: float
@@ -66,6 +73,37 @@ class ShiftAgreement:
     slope: float
     slope_error: float
     rms: float
+    found: ShiftFactors = field(repr=False)
+    other: ShiftLaw = field(repr=False)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return both sets of shift factors as a labelled data set along ``temperature``.
+
+        The other ones are NaN where they are not known, their error zero where they are exact.  The agreement is in the
+        attributes.
+        """
+        from viscofric.datasets import dataset
+
+        factors = self.found
+        known, known_error = log10_with_errors(self.other, factors.temperatures)
+        return dataset(
+            "temperature",
+            {
+                "log10_shift_factor": (factors.log10_values, "1", "decadic logarithm of the shift factor"),
+                "standard_error": (factors.standard_errors, "1", "standard error of log10 of the shift factor"),
+                "known_log10_shift_factor": (known, "1", "decadic logarithm of the modulus's shift factor"),
+                "known_standard_error": (known_error, "1", "standard error of log10 of the modulus's shift factor"),
+            },
+            coordinates={"temperature": (factors.temperatures, "K", "temperature")},
+            attributes={
+                "reference_temperature": self.reference,
+                "sentence": self.sentence,
+                "slope": self.slope,
+                "slope_error": self.slope_error,
+                "p_value": self.p_value,
+                "rms": self.rms,
+            },
+        )
 
     @property
     def sentence(self) -> str:
@@ -156,7 +194,22 @@ def compare_shift_factors(
         slope=slope,
         slope_error=slope_error,
         rms=float(np.sqrt(np.mean(difference**2))),
+        found=table,
+        other=law,
     )
+
+
+def log10_with_errors(law: ShiftLaw, temperatures: Array) -> tuple[Array, Array]:
+    """Return log10 α (n,) of a law and its standard error at temperatures (n,), K.
+
+    Both are NaN where the law does not hold; the error of an exact law is zero.
+    """
+    values = np.full((2, len(temperatures)), np.nan)
+    exact = getattr(law, "covariance", None) is None
+    for row, kelvin in enumerate(np.asarray(temperatures).tolist()):
+        with suppress(InputError):
+            values[:, row] = law.log10(kelvin), 0.0 if exact else law.standard_error(kelvin)
+    return values[0], values[1]
 
 
 def _factors(found: Any, name: str) -> ShiftFactors:

@@ -29,15 +29,6 @@ if TYPE_CHECKING:
 
 
 _MEGAPASCAL = 1e6
-#: The modulus is drawn so far beyond the frequencies of the contacts, as a factor.
-_BEYOND = 10.0
-_POINTS = 300
-
-
-def drawn_frequencies(found: IdentifiedMaterial) -> Array:
-    """Return the frequencies over which an identified modulus is drawn, rad/s: those of the contacts, and beyond."""
-    (first, last), band = found.frequency_range, found.identified
-    return np.geomspace(min(first, band.low) / _BEYOND, max(last, band.high) * _BEYOND, _POINTS)
 
 
 def plot_identified_modulus(axes: Axes, found: IdentifiedMaterial, known: Material | Master | None = None) -> None:
@@ -52,7 +43,7 @@ def plot_identified_modulus(axes: Axes, found: IdentifiedMaterial, known: Materi
         The same rubber as a DMA knows it, at the same reference temperature: a line, or points.
     """
     low, high = found.identified.low, found.identified.high
-    frequency = drawn_frequencies(found)
+    frequency = found.frequencies
     modulus = np.asarray(found.material.complex_modulus(frequency))
     bounds = modulus_band(found.samples, frequency)
     reference = found.material.reference

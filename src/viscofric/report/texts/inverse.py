@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.shifting.shift_agreement import log10_with_errors
 from viscofric.report.figures.style import degrees
 from viscofric.report.texts.numbers import ABSENT, finite, significant
 from viscofric.report.texts.tables import aligned
@@ -85,7 +86,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
         ["log10 α", *_pairs(found, doubt)],
     ]
     if known is not None and master.found:
-        values, errors = answers(known.at_reference(master.reference), temperatures)
+        values, errors = log10_with_errors(known.at_reference(master.reference), temperatures)
         columns.append(["of the modulus", *_pairs(values, errors)])
         columns.append(["difference", *_pairs(found - values, np.hypot(errors, doubt))])
     return aligned(zip(*columns, strict=True))
@@ -97,30 +98,7 @@ def _factors(master: FrictionMasterCurve) -> tuple[Array, Array, Array]:
         factors = master.shift_factors
         return factors.temperatures, factors.log10_values, factors.standard_errors
     temperatures = master.curves.temperatures
-    return temperatures, *answers(master.shift, temperatures)
-
-
-def answers(law: ShiftLaw, temperatures: Array) -> tuple[Array, Array]:
-    """Return log10 α of a law and its standard error; NaN where the law refuses, errors of exact ones are zero.
-
-    Parameters
-    ----------
-    law : ShiftLaw
-    temperatures : (n,) array
-        K.
-    """
-    values, errors = np.array([_answer(law, float(kelvin)) for kelvin in temperatures]).T
-    return values, errors
-
-
-def _answer(law: ShiftLaw, kelvin: float) -> tuple[float, float]:
-    """Return log10 α and its standard error; NaN where a law refuses, zero for the error of an exact one."""
-    try:
-        value = float(law.log10(kelvin))
-    except InputError:
-        return math.nan, math.nan
-    known = getattr(law, "covariance", None) is not None
-    return value, float(law.standard_error(kelvin)) if known else 0.0
+    return temperatures, *log10_with_errors(master.shift, temperatures)
 
 
 def _pairs(values: Any, errors: Any) -> list[str]:
