@@ -191,20 +191,21 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
 @pytest.mark.parametrize(
     "way_back",
     [
-        "from viscofric.study.sweep import Sweep",
-        "def f():\n    from viscofric.study import sweep",
-        "if TYPE_CHECKING:\n    import viscofric.study.sweep",
+        "from viscofric.study.cases.sweep import Sweep",
+        "def f():\n    from viscofric.study.cases import sweep",
+        "if TYPE_CHECKING:\n    import viscofric.study.cases.sweep",
     ],
     ids=["plain", "within a function", "for types"],
 )
 def test_a_circle_is_found_however_it_is_closed(way_back: str) -> None:
     there = [
-        *own_imports("viscofric.study.sweep", "from viscofric.study.relations import relations"),
-        *own_imports("viscofric.study.relations", "from viscofric.study.table import Table"),
+        *own_imports("viscofric.study.cases.sweep", "from viscofric.study.run_file.relations import relations"),
+        *own_imports("viscofric.study.run_file.relations", "from viscofric.study.run_file.tables import Table"),
     ]
     assert circles(there) == []
-    closed = [*there, *own_imports("viscofric.study.table", way_back)]
-    assert circles(closed) == [[f"viscofric.study.{name}" for name in ("relations", "sweep", "table")]]
+    closed = [*there, *own_imports("viscofric.study.run_file.tables", way_back)]
+    names = ("cases.sweep", "run_file.relations", "run_file.tables")
+    assert circles(closed) == [[f"viscofric.study.{name}" for name in names]]
 
 
 def test_contact_knows_no_temperature_and_rheology_no_files() -> None:
@@ -339,11 +340,11 @@ FOREIGN_TEXT = (
     "viscofric.files",
     "viscofric.contact.arrays.backend",
     "viscofric.literature.basis",
-    "viscofric.study.run_file",
-    "viscofric.study.results_file",
-    "viscofric.study.workbook",
-    "viscofric.study.quantities",
-    "viscofric.study.surface_steps",
+    "viscofric.study.run_file.study",
+    "viscofric.study.results.file",
+    "viscofric.study.results.export",
+    "viscofric.study.run_file.tables",
+    "viscofric.study.cases.surfaces",
     "viscofric.report.figures.saving",
     "viscofric.report.html",
     "viscofric.report.texts.numbers",  # true minus signs

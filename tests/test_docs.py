@@ -13,7 +13,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.cli import main
-from viscofric.study import run_file
+from viscofric.study.run_file import study as run_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -25,7 +25,7 @@ from viscofric.processes import LimitedProcess
 from viscofric.readers.topography import package
 from viscofric.readers.topography.tables import read_heights
 from viscofric.rheology.cards.card_files import LARGEST_CARD
-from viscofric.study.store import CaseStore, Damaged, _sealed
+from viscofric.study.running.store import CaseStore, Damaged, _sealed
 
 if TYPE_CHECKING:
     from pathlib import Path

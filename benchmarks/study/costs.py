@@ -21,8 +21,8 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.study.cases.indenter_case import IndenterCase
+from viscofric.study.cases.solving import Task, solve
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.solving import Task, solve
 
 COLUMNS = (
     ("accuracy", "accuracy", ".0e"),

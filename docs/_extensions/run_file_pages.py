@@ -7,7 +7,7 @@ from typing import Any
 
 from page_parts import cell, table
 
-from viscofric.study.json_schema import json_schema
+from viscofric.study.run_file.json_schema import json_schema
 
 #: A default that says more in words than in numbers.
 _WORDS = {2.718281828459045: "e = 2.718…"}

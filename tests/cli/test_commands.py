@@ -20,7 +20,7 @@ from viscofric.cli import main
 from viscofric.cli.run import tell
 from viscofric.notes import Note
 from viscofric.study import open_results
-from viscofric.study.results_file import save_results
+from viscofric.study.results.file import save_results
 
 if TYPE_CHECKING:
     import xarray
@@ -265,8 +265,8 @@ def test_nothing_asked_is_answered_with_the_help() -> None:
 
 
 def test_template_names_every_key_of_a_run_file() -> None:
-    from viscofric.study.run_file import TABLES, Study
-    from viscofric.study.run_file_errors import keys
+    from viscofric.study.run_file.errors import keys
+    from viscofric.study.run_file.study import TABLES, Study
 
     text = (EXAMPLE / "study.toml").read_text(encoding="utf-8")
     commented = ("# [", *(f"# {key} = " for table in TABLES.values() for key in keys(table)))

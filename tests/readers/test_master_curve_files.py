@@ -12,7 +12,7 @@ from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.dma.read import read_dma
-from viscofric.study.tables import write_master_curve
+from viscofric.study.rubber_results import write_master_curve
 
 ROWS = ["1e-3,5,0.5", "1e3,9,0.7", "1,6,0.9"]
 

@@ -12,11 +12,11 @@ import xarray
 
 import viscofric as vf
 from viscofric.study.cases.indenter_case import IndenterCase
+from viscofric.study.cases.record import ContactFields, Failure, Record
+from viscofric.study.cases.sweep import Axis, Sweep
 from viscofric.study.labels import dataset
-from viscofric.study.record import ContactFields, Failure, Record
-from viscofric.study.results import StudyResults, provenance
-from viscofric.study.results_file import save_results
-from viscofric.study.sweep import Axis, Sweep
+from viscofric.study.results.file import save_results
+from viscofric.study.results.results import StudyResults, provenance
 from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 if TYPE_CHECKING:

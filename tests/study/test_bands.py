@@ -12,9 +12,9 @@ import pytest
 import viscofric as vf
 from viscofric.errors import ConvergenceError
 from viscofric.study import StudyResults, run_study
-from viscofric.study.record import Record
+from viscofric.study.cases.record import Record
 from viscofric.study.rubber import make_rubber
-from viscofric.study.run_file import load_study
+from viscofric.study.run_file.study import load_study
 
 DMA = (Path(str(files("viscofric"))) / "example" / "dma.csv").as_posix()
 STUDY = """
@@ -74,7 +74,7 @@ def test_stored_cases_give_the_same_bands_again(results: StudyResults, monkeypat
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
-    monkeypatch.setattr("viscofric.study.solving.solve_with_sensitivity", refuse)
+    monkeypatch.setattr("viscofric.study.cases.solving.solve_with_sensitivity", refuse)
     again = run_study(results.folder.parent / "study.toml", resume=True)
     for name in ("friction_lower", "friction_upper"):
         for part in ("prediction", "prediction_master"):
@@ -102,7 +102,7 @@ def test_a_rubber_that_was_ready_has_no_bands_and_says_so(tmp_path: Path) -> Non
 
 @pytest.mark.slow
 def test_friction_is_kept_where_only_its_band_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from viscofric.study import solving
+    from viscofric.study.cases import solving
 
     solve = solving.solve_with_sensitivity
 

@@ -12,12 +12,12 @@ import pytest
 import viscofric as vf
 from study.sweeps import made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
-from viscofric.study.results_file import save_results
+from viscofric.study.results.file import save_results
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from viscofric.study.results import StudyResults
+    from viscofric.study.results.results import StudyResults
 
 
 def changed(results: StudyResults, folder: Path, name: str, factor: float, case: int) -> StudyResults:

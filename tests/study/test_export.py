@@ -13,8 +13,8 @@ import xarray
 
 from study.sweeps import friction_of, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
-from viscofric.study import workbook
-from viscofric.study.export import FORMS
+from viscofric.study.results import export
+from viscofric.study.results.export import FORMS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -99,7 +99,7 @@ def test_the_same_results_make_the_same_files(tmp_path: Path) -> None:
 
 
 def test_more_cases_than_a_sheet_has_rows_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workbook, "MOST_ROWS", 10)
+    monkeypatch.setattr(export, "MOST_ROWS", 10)
     with pytest.raises(InputError, match=r"18 rows.*write CSV or netCDF"):
         made_results(tmp_path).to_excel(tmp_path / "all.xlsx")
 
@@ -142,7 +142,7 @@ def test_nothing_else_is_replaced(tmp_path: Path) -> None:
 
 def test_places_of_measured_points_come_first(tmp_path: Path) -> None:
     """Groups that are not over axes hold their places as variables."""
-    from viscofric.study.columns import columns_of
+    from viscofric.study.results.columns import columns_of
 
     places = {"viscoelastic": ("point", [0.1]), "temperature": ("point", [303.15], {"units": "K"})}
     names, units, columns = columns_of(xarray.Dataset({**places, "speed": ("point", [np.nan])}))

@@ -10,9 +10,9 @@ import pytest
 
 from study.json_schema_check import wrong
 from viscofric.cli.new import SCHEMA_LINE, TEMPLATES, template_text
-from viscofric.study.json_schema import json_schema
-from viscofric.study.run_file import TABLES, Study
-from viscofric.study.run_file_errors import keys
+from viscofric.study.run_file.errors import keys
+from viscofric.study.run_file.json_schema import json_schema
+from viscofric.study.run_file.study import TABLES, Study
 
 SCHEMA = json_schema()
 

@@ -13,7 +13,7 @@ import viscofric as vf
 from viscofric.study import StudyResults, run_study
 from viscofric.study.contacts import Contacts
 from viscofric.study.measurement import Measurement
-from viscofric.study.run_file import parse_study
+from viscofric.study.run_file.study import parse_study
 from viscofric.study.study_rubber import StudyRubber
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -159,7 +159,7 @@ def test_a_second_run_solves_nothing_again(results: StudyResults, monkeypatch: p
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
-    monkeypatch.setattr("viscofric.study.solving.solve_with_sensitivity", refuse)
+    monkeypatch.setattr("viscofric.study.cases.solving.solve_with_sensitivity", refuse)
     again = run_study(results.folder.parent / "study.toml", resume=True)
     first, second = (one.tree["prediction"]["friction_coefficient"].values for one in (results, again))
     np.testing.assert_array_equal(first, second)

@@ -18,10 +18,10 @@ import viscofric as vf
 from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
 from viscofric.report.texts.study import grouped_failures
+from viscofric.study.cases.sweep import place, place_in
 from viscofric.study.contacts import Solved
-from viscofric.study.places import place, place_in
-from viscofric.study.results import input_hashes
-from viscofric.study.results_file import save_results
+from viscofric.study.results.file import save_results
+from viscofric.study.results.results import input_hashes
 
 if TYPE_CHECKING:
     from pathlib import Path

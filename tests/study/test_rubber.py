@@ -15,7 +15,7 @@ from viscofric.notes import codes
 from viscofric.study.rubber import make_rubber
 from viscofric.study.rubber_labels import rubber_data
 from viscofric.study.rubber_results import run_material
-from viscofric.study.run_file import material_of
+from viscofric.study.run_file.study import material_of
 
 if TYPE_CHECKING:
     from pathlib import Path

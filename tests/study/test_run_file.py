@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from viscofric.errors import StudyError
-from viscofric.study.run_file import load_study, parse_study
+from viscofric.study.run_file.study import load_study, parse_study
 
 GOOD = """
 title = "a rubber"

@@ -11,7 +11,7 @@ import pytest
 
 from study.run_file_mutations import mutated
 from viscofric.errors import LONGEST_SENTENCE, StudyError
-from viscofric.study.run_file import decoded, parse_study
+from viscofric.study.run_file.study import decoded, parse_study
 
 HOME = files("viscofric")
 SOURCES = [

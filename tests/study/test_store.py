@@ -11,9 +11,9 @@ import pytest
 from study import sweeps
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
-from viscofric.study.cases.keys import _sources, key_of
-from viscofric.study.record import Failure
-from viscofric.study.store import CaseStore, Damaged
+from viscofric.study.cases.record import Failure
+from viscofric.study.cases.solving import _sources, key_of
+from viscofric.study.running.store import CaseStore, Damaged
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -10,14 +10,14 @@ import pytest
 
 import viscofric as vf
 from viscofric.study import open_results, run_study
+from viscofric.study.cases.record import Failure, Record
+from viscofric.study.cases.solving import solve
 from viscofric.study.cases.surface_case import SurfaceCase
+from viscofric.study.cases.surfaces import MadeSurface
 from viscofric.study.checking import check_study
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import Failure, Record
-from viscofric.study.run_file import parse_study
-from viscofric.study.solving import solve
-from viscofric.study.store import CaseStore
-from viscofric.study.surface_source import MadeSurface
+from viscofric.study.run_file.study import parse_study
+from viscofric.study.running.store import CaseStore
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

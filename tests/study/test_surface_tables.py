@@ -13,9 +13,8 @@ import pytest
 import viscofric as vf
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.run_file import load_study, parse_study
-from viscofric.study.surface_source import MadeSurface, ScannedSurface, surface_of, unit_vector
-from viscofric.study.surface_steps import STEPS, step_of
+from viscofric.study.cases.surfaces import STEPS, MadeSurface, ScannedSurface, step_of, surface_of, unit_vector
+from viscofric.study.run_file.study import load_study, parse_study
 
 MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'
 MADE = """[surface]

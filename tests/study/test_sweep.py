@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from viscofric.errors import StudyError
-from viscofric.study.run_file import parse_study
-from viscofric.study.sweep import axes_of, count_cases
+from viscofric.study.cases.sweep import axes_of, count_cases
+from viscofric.study.run_file.study import parse_study
 
 if TYPE_CHECKING:
     from viscofric.study.cases.indenter_case import IndenterCase as Case
-    from viscofric.study.run_file import Study
+    from viscofric.study.run_file.study import Study
 
 MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'
 TWO = (

@@ -13,8 +13,8 @@ from study.sweeps import RECORD, friction_of, made_outcomes, made_sweep
 from viscofric.contact.indenters.indenter import Cylinder
 from viscofric.friction.curves import FrictionCurves
 from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.record import NUMBERS, Record
-from viscofric.study.sweep import Axis, Sweep
+from viscofric.study.cases.record import NUMBERS, Record
+from viscofric.study.cases.sweep import Axis, Sweep
 from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from viscofric.datasets import plain
 from viscofric.errors import DataFileError, StudyError
-from viscofric.study.run_file import TABLES, Study
+from viscofric.study.run_file.study import TABLES, Study
 from viscofric.web.jobs.context import Context
 from viscofric.web.study_files import FILE_KEYS, check_confined, opened_study
 

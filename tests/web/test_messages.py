@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import viscofric as vf
-from viscofric.study.material_table import MaterialTable
 from viscofric.study.rubber import make_rubber
-from viscofric.study.run_file import TABLES
-from viscofric.study.run_file_errors import keys
+from viscofric.study.run_file.errors import keys
+from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.study import TABLES
 
 _ROWS = [f"{T},{f},{2.0 * f**0.2 * 10 ** (-0.01 * T)},0.3" for T in (20, 30, 40) for f in (0.1, 0.3, 1, 3, 10)]
 _TESTS = ["temperature (degC),disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)", "20,100,90,25,0.4"]

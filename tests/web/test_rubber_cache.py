@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from viscofric.errors import DataFileError, InputError, StudyError
-from viscofric.study.run_file import material_of
+from viscofric.study.run_file.study import material_of
 from viscofric.web.jobs import rubbers
 from web.rubber_workspace import EXAMPLE, SWEEPS, workspace_with
 

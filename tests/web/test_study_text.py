@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viscofric.study.run_file import load_study
+from viscofric.study.run_file.study import load_study
 from viscofric.web.start import FIRST_STUDY, start
 from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
 

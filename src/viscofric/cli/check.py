@@ -13,9 +13,9 @@ import click
 from viscofric.cli.errors import tell_notes, told
 
 if TYPE_CHECKING:
+    from viscofric.study.cases.sweep import Axis
     from viscofric.study.checking import CheckedStudy
     from viscofric.study.rubber import Rubber
-    from viscofric.study.sweep import Axis
 
 _STDIN = Path("standard input")
 # Axes that are not told when they stand alone: the materials are listed, and one sample is the best estimate.
@@ -47,7 +47,7 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
     assert study is not None
     with told("run_file"):
         from viscofric.study.checking import check_study
-        from viscofric.study.run_file import decoded, parse_study, read_study_text
+        from viscofric.study.run_file.study import decoded, parse_study, read_study_text
 
         if str(study) == "-":
             study = _STDIN
@@ -67,7 +67,7 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
 def _check_results(folder: Path, as_json: bool) -> None:
     """Say which files of a folder of results are damaged; exit status 1 if any is."""
     with told():
-        from viscofric.study.checking import check_results
+        from viscofric.study.running.folder import check_results
 
         found = check_results(folder)
     if as_json:
@@ -215,6 +215,6 @@ def _span(name: str, values: list[Any], line: bool) -> str:
         return ", ".join(values)
     if name == "sample":
         return f"0 (the best estimate) to {values[-1]}"
-    from viscofric.study.places import shown
+    from viscofric.study.cases.sweep import shown
 
     return " to ".join(shown(name, value, line) for value in dict.fromkeys((values[0], values[-1])))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from viscofric.study.compare import ResultsComparison, VariableDifference
+    from viscofric.study.results.compare import ResultsComparison, VariableDifference
 
 DIFFERENT, TROUBLE = 1, 2
 _MOST_SENTENCES = 12
@@ -36,7 +36,7 @@ def command(first: Path, second: Path, tolerance: float | None, as_json: bool) -
     Exit status: 0 equal, 1 different, 2 not comparable.
     """
     from viscofric.errors import ViscofricError
-    from viscofric.study.results import compare_results
+    from viscofric.study.results.results import compare_results
 
     try:
         found = compare_results(first, second, tolerance=tolerance)
@@ -73,7 +73,7 @@ def _tell(first: Path, second: Path, found: ResultsComparison) -> None:
 
 def _row(one: VariableDifference) -> list[str]:
     from viscofric.report.texts.numbers import ABSENT, significant
-    from viscofric.study.cases_in_common import shown_place
+    from viscofric.study.results.case_table import shown_place
 
     mark = "" if one.equal else " *"
     errors = ABSENT if one.in_errors is None else significant(one.in_errors, 2)

@@ -171,7 +171,7 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
     """Draw the rubber as other sweeps of it might have given it."""
     if count == 0:
         return None
-    from viscofric.study.bands import draw_rubber
+    from viscofric.study.study_rubber import draw_rubber
 
     drawn = None if rubber.made is None else draw_rubber(rubber.made, count)
     if drawn is None:

@@ -51,8 +51,8 @@ def command(results: Path, forms: tuple[str, ...], output: Path | None) -> None:
     check_ending(output, "--output", (_ENDINGS[forms[0]],))
     with told():
         from viscofric.study import open_results
-        from viscofric.study.columns import table_text
-        from viscofric.study.export import FORMS
+        from viscofric.study.results.columns import table_text
+        from viscofric.study.results.export import FORMS
 
         found = open_results(results)
         if output == DASH:

@@ -81,7 +81,7 @@ def _data() -> list[Traversable]:
 
 
 def _schema() -> str:
-    from viscofric.study.json_schema import json_schema
+    from viscofric.study.run_file.json_schema import json_schema
 
     return json.dumps(json_schema(), indent=1, ensure_ascii=False) + "\n"
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from viscofric.study.running import Event
+    from viscofric.study.running.running import Event
 
 _WORDS = {
     "material": "Material: shift factors, master curve, spectrum",

@@ -127,7 +127,7 @@ def chosen_rubber(asked: dict[str, Any]) -> NamedRubber:
 
 def _of_sweeps(asked: dict[str, Any]) -> NamedRubber:
     from viscofric.study.rubber import make_rubber
-    from viscofric.study.run_file import material_of
+    from viscofric.study.run_file.study import material_of
 
     if asked["reference"] is None:
         raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
@@ -143,7 +143,7 @@ def _of_sweeps(asked: dict[str, Any]) -> NamedRubber:
 def _named(name: str) -> NamedRubber:
     if Path(name).suffix.lower() == ".toml":
         from viscofric.study.rubber import make_rubber
-        from viscofric.study.run_file import load_study
+        from viscofric.study.run_file.study import load_study
 
         study = load_study(name)
         rubber = make_rubber(study.material)

@@ -96,7 +96,7 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         from viscofric.errors import ViscofricError
         from viscofric.report import write_figures_and_report
         from viscofric.study import run_study
-        from viscofric.study.running import Event
+        from viscofric.study.running.running import Event
 
         hearer = JsonProgress(sys.stdout) if as_json else Silent() if quiet else TerminalProgress()
         try:

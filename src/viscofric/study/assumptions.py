@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.friction.assumption_check import assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
 from viscofric.notes import Note, note_of
-from viscofric.study.bands import curves_of
+from viscofric.study.study_rubber import curves_of
 from viscofric.study.surface_words import surface_checks
 
 if TYPE_CHECKING:
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from viscofric.friction.assumption_check import AssumptionCheck
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.cases.indenter_case import IndenterCase
+    from viscofric.study.cases.record import Record
     from viscofric.study.contacts import Contacts, Solved
-    from viscofric.study.record import Record
 
 _OF_HALF_SPACES = "half-space"
 # What a run warns of; what else does not hold is told contact by contact, or is no fault.

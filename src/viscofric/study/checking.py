@@ -8,30 +8,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError, StudyError
-from viscofric.notes import Note
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.errors import InputError, StudyError
 from viscofric.study.cases.case import moved
+from viscofric.study.cases.surfaces import surface_of
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
-from viscofric.study.results_file import DIGEST, RESULTS_FILE, open_tree
-from viscofric.study.rubber import make_rubber
-from viscofric.study.running.folder import CASES_FOLDER
-from viscofric.study.store import CaseStore
-from viscofric.study.surface_source import surface_of
+from viscofric.study.rubber import make_rubber, shift_of
 from viscofric.study.surface_words import surface_notes, uncertainty_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.notes import Note
+    from viscofric.study.cases.sweep import Sweep
     from viscofric.study.planning.estimates import Expectation
     from viscofric.study.rubber import Rubber
-    from viscofric.study.run_file import Study
-    from viscofric.study.sweep import Sweep
+    from viscofric.study.run_file.study import Study
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +120,7 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     for number, material in enumerate(study.materials):
         try:
             rubber = make_rubber(material)
-            _check_temperatures(rubber, np.array(study.conditions.temperature))
+            shift_of(rubber)(np.array(study.conditions.temperature))  # raises where one has no shift factor
         except InputError as error:
             wrong.append(error.note.at(f"material[{number}]" if len(study.materials) > 1 else ""))
             field = field or error.field or "material"
@@ -149,88 +143,3 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     if wrong:
         raise StudyError(f"{path}: its data cannot be used:", wrong, field=field)
     return CheckedStudy(study, sweep, tuple(rubbers), measured)
-
-
-@dataclass(frozen=True)
-class CheckedResults:
-    """Whether a folder of results holds what was stored in it.
-
-    Attributes
-    ----------
-    cases : int
-        Stored contacts.
-    finished : bool
-        Whether the results were put together, too.
-    damaged : dict of Path to str
-        Files that do not hold what was stored, and what is wrong with each.
-    unverified : tuple of Path
-        Files without a checksum, which older versions of viscofric wrote: nothing is known of them.
-    """
-
-    cases: int
-    finished: bool
-    damaged: dict[Path, str]
-    unverified: tuple[Path, ...]
-
-
-def check_results(folder: Path) -> CheckedResults:
-    """Compare every file of a study's results with its checksum.
-
-    Raises
-    ------
-    DataFileError
-        If the folder holds no results.
-    """
-    store, target = CaseStore(folder / CASES_FOLDER), folder / RESULTS_FILE
-    cases, finished = sum(1 for _ in store.stored()), target.exists()
-    if not cases and not finished:
-        raise DataFileError(folder, f"holds no results of a study (no {RESULTS_FILE}, no {CASES_FOLDER}).")
-    damaged, unverified = {}, []
-    for key, found in store.damaged().items():
-        file = store.folder / f"{key}.json"
-        if found.older:
-            unverified.append(file)
-        else:
-            damaged[file] = found.reason
-    if finished:
-        try:
-            if DIGEST not in open_tree(folder)[0].attrs:
-                unverified.append(target)
-        except DataFileError as error:
-            damaged[target] = error.problem
-    return CheckedResults(cases, finished, damaged, tuple(unverified))
-
-
-def _check_temperatures(rubber: Rubber, temperatures: Array) -> None:
-    """Raise `InputError` where the rubber has no shift factor at a temperature that is asked for."""
-    shift_of(rubber)(temperatures)
-
-
-def shift_of(rubber: Rubber) -> ShiftLaw:
-    """Return α(T) of a rubber that contacts can be solved with.
-
-    Raises
-    ------
-    StudyError
-        If it has no spectrum, or no shift factors.
-    """
-    material = rubber.material
-    if not isinstance(material.spectrum, RetardationSpectrum):
-        raise StudyError(
-            Note(
-                "no-spectrum",
-                f"{material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball needs "
-                "retardation modes, which fitting a spectrum to the table gives (viscofric material fit).",
-                "material",
-            )
-        )
-    if material.shift is None:
-        raise StudyError(
-            Note(
-                "no-shift",
-                f"{material.name or 'the rubber'} has no shift factors, so that its temperature cannot be chosen; give "
-                "a rubber that has, or sweeps at several temperatures.",
-                "material",
-            )
-        )
-    return material.shift

@@ -9,20 +9,20 @@ import numpy as np
 
 from viscofric.notes import Note
 from viscofric.study.cases.case import moved
-from viscofric.study.places import place, place_in
+from viscofric.study.cases.record import Failure, Record
+from viscofric.study.cases.sweep import place, place_in
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import Failure, Record
 from viscofric.study.study_rubber import all_within
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.study.cases.case import Case
+    from viscofric.study.cases.sweep import Sweep
     from viscofric.study.measurement import Measurement
     from viscofric.study.planning.plan import Plan
-    from viscofric.study.run_file import Study
+    from viscofric.study.run_file.study import Study
     from viscofric.study.study_rubber import StudyRubber
-    from viscofric.study.sweep import Sweep
 
 # A little beyond the speeds asked for, so that rounding leaves no point outside the master curve.
 _ROUNDING = 1e-6

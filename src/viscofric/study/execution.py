@@ -13,16 +13,15 @@ from viscofric.files import file_path
 from viscofric.notes import Note, note_of, records
 from viscofric.study import labels
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
+from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.measurement import Measurement, read_measurement
-from viscofric.study.record import Failure
-from viscofric.study.results import StudyResults, beyond_accuracy, input_hashes, provenance
-from viscofric.study.results_file import save_results
+from viscofric.study.results.file import save_results
+from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
 from viscofric.study.rubber_labels import rubber_data
-from viscofric.study.run_file import parse_study, read_study_text
-from viscofric.study.running import Event, choose_executor, silent
+from viscofric.study.run_file.study import parse_study, read_study_text
 from viscofric.study.running.folder import study_folder
-from viscofric.study.running.running import run_plan
+from viscofric.study.running.running import Event, choose_executor, run_plan, silent
 from viscofric.study.setting import setting
 from viscofric.study.study_rubber import StudyRubber, all_within, band_columns
 from viscofric.study.surface_words import surface_notes, uncertainty_of
@@ -34,8 +33,8 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from viscofric.study.run_file import Study
-    from viscofric.study.running import Progress
+    from viscofric.study.run_file.study import Study
+    from viscofric.study.running.running import Progress
 
     Groups = dict[str, xarray.Dataset]
 

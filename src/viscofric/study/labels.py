@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.study.record import NUMBERS, Record
+from viscofric.study.cases.record import NUMBERS, Record
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from viscofric.friction.agreement import Agreement
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.study.bands import BandColumns
+    from viscofric.study.study_rubber import BandColumns
 
 #: Variable -> unit, long name.
 MEANING = {

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.rheology.material import Material
-    from viscofric.study.bands import FrictionBands
-    from viscofric.study.measurement_table import MeasurementTable
-    from viscofric.study.record import Record
+    from viscofric.study.cases.record import Record
+    from viscofric.study.run_file.measurement import MeasurementTable
+    from viscofric.study.study_rubber import FrictionBands
 
     Groups = dict[str, xarray.Dataset]
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.superposition.result import Superposition
-    from viscofric.study.material_table import MaterialTable
+    from viscofric.study.run_file.material import MaterialTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,3 +254,33 @@ def _law_or_table(wanted: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComp
     if wanted == "best" and laws is not None:
         return laws.best, laws, laws.chosen.kind
     return factors.law(wanted), laws, wanted
+
+
+def shift_of(rubber: Rubber) -> ShiftLaw:
+    """Return α(T) of a rubber that contacts can be solved with.
+
+    Raises
+    ------
+    StudyError
+        If it has no spectrum, or no shift factors.
+    """
+    material = rubber.material
+    if not isinstance(material.spectrum, RetardationSpectrum):
+        raise StudyError(
+            Note(
+                "no-spectrum",
+                f"{material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball needs "
+                "retardation modes, which fitting a spectrum to the table gives (viscofric material fit).",
+                "material",
+            )
+        )
+    if material.shift is None:
+        raise StudyError(
+            Note(
+                "no-shift",
+                f"{material.name or 'the rubber'} has no shift factors, so that its temperature cannot be chosen; give "
+                "a rubber that has, or sweeps at several temperatures.",
+                "material",
+            )
+        )
+    return material.shift

@@ -10,8 +10,8 @@ from viscofric.study.surface_words import surface_setting
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.study.contact_tables import AnyIndenterTable
     from viscofric.study.contacts import Contacts
+    from viscofric.study.run_file.contact import AnyIndenterTable
 
 
 def setting(contacts: Contacts) -> dict[str, Any]:

@@ -1,19 +1,19 @@
-"""A rubber of a study, ready to be solved with: its shift, what is known of its frequencies, its bands."""
+"""A material of a study: its shift, its measured frequencies, and the uncertainty bands of friction."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.errors import StudyError
+from viscofric.errors import InputError, StudyError
+from viscofric.friction.bands import DrawnMaterials, with_material_band
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
-from viscofric.study.bands import BandColumns, FrictionBands, draw_rubber
-from viscofric.study.checking import shift_of
-from viscofric.study.rubber import Rubber, make_rubber
+from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES, sample_materials
+from viscofric.study.rubber import Rubber, make_rubber, shift_of
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -21,10 +21,11 @@ if TYPE_CHECKING:
 
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.study.cases.case import Case
-    from viscofric.study.material_table import MaterialTable
-    from viscofric.study.record import Record
-    from viscofric.study.settings_tables import UncertaintyTable
+    from viscofric.study.cases.record import Record
+    from viscofric.study.run_file.material import MaterialTable
+    from viscofric.study.run_file.settings import UncertaintyTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,3 +159,105 @@ def _members(rubber: Rubber, bands: FrictionBands, uncertainty: UncertaintyTable
             field="uncertainty.members",
         )
     return samples.materials[:count]
+
+
+class BandColumns(NamedTuple):
+    """What the rubber's uncertainty leaves on friction, a column entry for each record; NaN where that is not known."""
+
+    material_error: Any
+    viscoelastic_lower: Any
+    viscoelastic_upper: Any
+
+
+def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples | None:
+    """Draw a rubber as other sweeps of it might have given it; None where there are no sweeps to tell, or no wish.
+
+    Parameters
+    ----------
+    rubber : Rubber
+    samples : int
+        How many; 0 for none.
+    seed : int
+        Of the random numbers.
+
+    Raises
+    ------
+    InputError
+        If its spectrum was not fitted to its sweeps, or there are too few samples.
+    """
+    spectrum = rubber.material.spectrum
+    if samples == 0 or rubber.fit is None or not isinstance(spectrum, RetardationSpectrum):
+        return None
+    law = None if rubber.shift_used == "measured" else rubber.shift_used
+    ratio, name = rubber.material.poisson_ratio, rubber.material.name
+    return sample_materials(rubber.fit, spectrum, samples=samples, seed=seed, law=law, poisson_ratio=ratio, name=name)
+
+
+def curves_of(records: Sequence[Record]) -> FrictionCurves:
+    """Return the friction of solved cases, in their order."""
+    return FrictionCurves(
+        speed=np.array([record.speed for record in records]),
+        temperature=np.array([record.temperature for record in records]),
+        load=np.array([record.load for record in records]),
+        viscoelastic=np.array([record.friction_coefficient for record in records]),
+        viscoelastic_error=np.array([record.friction_error for record in records]),
+        viscoelastic_scatter=np.zeros(len(records)),
+        replicates=np.ones(len(records), dtype=np.int64),
+        source="prediction",
+    )
+
+
+class FrictionBands:
+    """Turns solved cases into friction curves, with bands where the rubber can be drawn.
+
+    Parameters
+    ----------
+    rubber : Rubber
+    count : int
+        Samples of the rubber; 0 for no bands.
+    seed : int
+        Of their random numbers.
+
+    Attributes
+    ----------
+    samples : MaterialSamples or None
+    notes : tuple of str
+        What is to be said of the bands so far: one sentence each.
+    """
+
+    def __init__(self, rubber: Rubber, count: int, seed: int = 0) -> None:
+        self.notes: tuple[str, ...] = ()
+        self.samples: MaterialSamples | None = None
+        try:
+            self.samples = draw_rubber(rubber, count, seed)
+        except InputError as error:
+            self._note(error.note.at("Friction has no 95 % bands").coded("no-bands"))
+        self._drawn = None if self.samples is None else DrawnMaterials(self.samples, rubber.material)
+        if self.samples is not None:
+            self.notes = tuple(self.samples.notes)
+        elif count and rubber.fit is None:
+            text = "Friction has no 95 % bands: only the sweeps that a rubber is made of tell how well it is known."
+            self._note(Note("no-bands", text))
+
+    def curves(self, records: Sequence[Record]) -> FrictionCurves:
+        """Return the friction of solved cases, in their order; without bands if any of them has no sensitivity."""
+        found = curves_of(records)
+        sensitivities = [record.sensitivity for record in records if record.sensitivity is not None]
+        if self._drawn is None or not records:
+            return found
+        if len(sensitivities) < len(records):
+            self._note(
+                Note(
+                    "no-bands",
+                    f"At {len(records) - len(sensitivities)} of {len(records)} cases it could not be found how "
+                    "friction answers to the rubber, so that these friction curves have no bands.",
+                )
+            )
+            return found
+        banded = with_material_band(found, sensitivities, self._drawn)
+        for note in banded.notes:
+            self._note(note)
+        return banded
+
+    def _note(self, note: str) -> None:
+        self.notes = tuple(dict.fromkeys((*self.notes, note)))

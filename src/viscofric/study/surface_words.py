@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.friction.assumption_check import AssumptionCheck
 from viscofric.notes import Note
-from viscofric.study.surface_source import MadeSurface, surface_of
+from viscofric.study.cases.surfaces import MadeSurface, surface_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.study.cases.surface_case import SurfaceCase
-    from viscofric.study.run_file import Study
-    from viscofric.study.settings_tables import UncertaintyTable
-    from viscofric.study.sweep import Sweep
+    from viscofric.study.cases.sweep import Sweep
+    from viscofric.study.run_file.settings import UncertaintyTable
+    from viscofric.study.run_file.study import Study
 
 # The compliance of a wave as long as a bonded or sliding layer is thick is that of a half-space within 1 %.
 _THICKEST_WAVE = 1.0

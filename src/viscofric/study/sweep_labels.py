@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.study.cases.record import Record
 from viscofric.study.labels import MEANING, band
-from viscofric.study.record import Record
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.bands import BandColumns
-    from viscofric.study.record import Failure
-    from viscofric.study.sweep import Axis, Sweep
+    from viscofric.study.cases.record import Failure
+    from viscofric.study.cases.sweep import Axis, Sweep
+    from viscofric.study.study_rubber import BandColumns
 
 #: What a case holds besides its numbers: flags with what stands for a case that failed.
 _FLAGS = {"interpolated": 0, "within_measured_frequencies": -1}

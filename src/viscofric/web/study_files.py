@@ -93,8 +93,8 @@ def opened_study(path: Path) -> tuple[dict[str, Any], dict[str, Path]]:
     DataFileError
         If a file that it names is not there.
     """
-    from viscofric.study.material_table import files_of
-    from viscofric.study.run_file import parse_study, read_study_text
+    from viscofric.study.run_file.material import files_of
+    from viscofric.study.run_file.study import parse_study, read_study_text
 
     text = read_study_text(path)
     study = parse_study(text, path)

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import StudyError, brief
 from viscofric.notes import Note
-from viscofric.study.run_file import FIELDS, TABLES, parse_study
-from viscofric.study.run_file_errors import keys
+from viscofric.study.run_file.errors import keys
+from viscofric.study.run_file.study import FIELDS, TABLES, parse_study
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from viscofric.study.run_file import Study
+    from viscofric.study.run_file.study import Study
 
 #: What the exported run file is called.
 RUN_FILE = "study.toml"

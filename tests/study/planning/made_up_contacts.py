@@ -9,8 +9,8 @@ import viscofric as vf
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.record import Failure, Record
-from viscofric.study.solving import Task, solve
+from viscofric.study.cases.record import Failure, Record
+from viscofric.study.cases.solving import Task, solve
 
 if TYPE_CHECKING:
     from collections.abc import Callable

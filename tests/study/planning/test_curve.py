@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from study.planning.made_up_contacts import BALL, SLS, case_of, made_up
 from viscofric.contact.free.scale import Scale
+from viscofric.study.cases.interpolation import FRICTION, Node
 from viscofric.study.planning.curve import STEP, Curve
-from viscofric.study.planning.numbers import FRICTION, Node
 from viscofric.study.planning.plan import plan_cases
 
 RECORD = made_up(plan_cases([case_of(0.1)], [SLS], each=True).wanted()[0])

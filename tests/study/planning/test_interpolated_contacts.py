@@ -9,12 +9,12 @@ import pytest
 
 import viscofric as vf
 from study.planning.made_up_contacts import carry_out, case_of, solved
+from viscofric.study.cases.record import Record
+from viscofric.study.cases.solving import solve
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import Record
-from viscofric.study.solving import solve
 
 if TYPE_CHECKING:
-    from viscofric.study.sweep import Case
+    from viscofric.study.cases.sweep import Case
 
 FLUOROELASTOMER = vf.synthetic_fluoroelastomer()
 

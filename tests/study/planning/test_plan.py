@@ -12,9 +12,9 @@ import pytest
 import viscofric as vf
 from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from viscofric.errors import InputError
+from viscofric.study.cases.record import Failure, Record
+from viscofric.study.cases.solving import solve
 from viscofric.study.planning.plan import plan_cases
-from viscofric.study.record import Failure, Record
-from viscofric.study.solving import solve
 
 
 def test_equal_cases_are_solved_once() -> None:

@@ -12,8 +12,8 @@ import viscofric as vf
 from viscofric.errors import ConvergenceError
 from viscofric.study.cases.case import Settings
 from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.record import Failure, Record
-from viscofric.study.solving import Task, solve
+from viscofric.study.cases.record import Failure, Record
+from viscofric.study.cases.solving import Task, solve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,12 +10,11 @@ import pytest
 
 from study.running.tasks import TwoWaves
 from viscofric.errors import InputError
-from viscofric.study.running import Event, choose_executor
+from viscofric.study.run_file.settings import ClusterTable
 from viscofric.study.running.cluster import BatchJobs, Dask
 from viscofric.study.running.executors import Serial
-from viscofric.study.running.running import run_plan
-from viscofric.study.settings_tables import ClusterTable
-from viscofric.study.store import CaseStore
+from viscofric.study.running.running import Event, choose_executor, run_plan
+from viscofric.study.running.store import CaseStore
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from viscofric.errors import DataFileError, StudyError
-from viscofric.study.record import Failure
+from viscofric.study.cases.record import Failure
 from viscofric.study.running.folder import _holder_is_alive, study_folder
 
 if TYPE_CHECKING:

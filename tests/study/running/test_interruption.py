@@ -17,12 +17,12 @@ import xarray
 from study.running.kills import STUDY
 from viscofric.errors import DataFileError, InputError
 from viscofric.study import open_results, run_study
-from viscofric.study.checking import check_results
+from viscofric.study.running.folder import check_results
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from viscofric.study.running import Event
+    from viscofric.study.running.running import Event
 
 
 @pytest.mark.apart

@@ -10,13 +10,11 @@ import pytest
 
 from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
-from viscofric.study.record import Failure, Record
-from viscofric.study.running import Event
-from viscofric.study.running import task as doing
-from viscofric.study.running.executors import Processes, Serial
-from viscofric.study.running.running import run_plan
-from viscofric.study.solving import solve
-from viscofric.study.store import CaseStore, Damaged
+from viscofric.study.cases.record import Failure, Record
+from viscofric.study.cases.solving import solve
+from viscofric.study.running.executors import Processes, Serial, take
+from viscofric.study.running.running import Event, run_plan
+from viscofric.study.running.store import CaseStore, Damaged
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -167,7 +165,7 @@ def test_worker_with_another_solver_is_refused(
     pair: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with pytest.raises(ViscofricError, match="must be the same on all machines"):
-        doing.take(solve, task(1.0), "another")
+        take(solve, task(1.0), "another")
     monkeypatch.setattr("viscofric.study.running.executors.solver_fingerprint", lambda: "another")
     with pytest.raises(ViscofricError, match="must be the same on all machines"):
         run_plan(TwoWaves(), CaseStore(tmp_path), pair)

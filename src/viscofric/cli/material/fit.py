@@ -16,8 +16,8 @@ from viscofric.cli.material.options import reading_options
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
     from viscofric.rheology.material import Material
-    from viscofric.study.material_table import MaterialTable
-    from viscofric.study.results import StudyResults
+    from viscofric.study.results.results import StudyResults
+    from viscofric.study.run_file.material import MaterialTable
 
 _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
 
@@ -143,7 +143,7 @@ def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw
 
 def _table(files: tuple[Path, ...], asked: dict[str, Any]) -> MaterialTable:
     """Check what was asked for as a run file's [material] is checked."""
-    from viscofric.study.run_file import material_of
+    from viscofric.study.run_file.study import material_of
 
     values: dict[str, Any] = {"reference_temperature": asked["reference"]}
     if asked["master_curve"]:

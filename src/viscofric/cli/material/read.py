@@ -47,7 +47,7 @@ def command(
             click.echo(line)
         tell_notes(sweeps.notes)
         if table is not None:
-            from viscofric.study.tables import write_sweeps
+            from viscofric.study.rubber_results import write_sweeps
 
             click.echo(f"table    {write_sweeps(sweeps, table)}")
 

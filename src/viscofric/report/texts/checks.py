@@ -29,7 +29,7 @@ from viscofric.report.results import (
 from viscofric.report.sweeps import solved_cases
 from viscofric.report.texts.friction import CONSISTENT_WITHIN, consistency_words
 from viscofric.report.texts.numbers import percent, several, significant
-from viscofric.study.results import beyond_accuracy
+from viscofric.study.results.results import beyond_accuracy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

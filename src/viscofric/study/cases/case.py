@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
-from viscofric.study.record import Failure
+from viscofric.study.cases.record import Failure
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.study.cases.interpolation import Node
+    from viscofric.study.cases.record import Record
+    from viscofric.study.cases.solving import Task
     from viscofric.study.planning.curve import Curve, Interval
-    from viscofric.study.planning.numbers import Node
-    from viscofric.study.record import Record
-    from viscofric.study.solving import Task
 
 
 @dataclass(frozen=True)

@@ -23,10 +23,10 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.study.cases.case import Case, Place
-from viscofric.study.planning.numbers import ERRORS, FRICTION, LOGARITHMIC, NAMES, Node, units_of
-from viscofric.study.planning.sensitivities import Sensitivities
-from viscofric.study.record import Failure, Record, indenter_record
-from viscofric.study.solving import Task, solve_indenter
+from viscofric.study.cases.interpolation import ERRORS, FRICTION, LOGARITHMIC, NAMES, Node, units_of
+from viscofric.study.cases.record import Failure, Record, indenter_record
+from viscofric.study.cases.sensitivities import Sensitivities
+from viscofric.study.cases.solving import Task, solve_indenter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Rubbers, Settings
+    from viscofric.study.cases.interpolation import Interpolated
     from viscofric.study.planning.curve import Curve, Interval
-    from viscofric.study.planning.stencils import Interpolated
 
 
 # Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.

@@ -15,11 +15,11 @@ import numpy as np
 
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.study.cases.case import Case, Place
+from viscofric.study.cases.interpolation import FRICTION, Node
+from viscofric.study.cases.record import Record, surface_record
+from viscofric.study.cases.solving import Task, solve_surface, surface_solution
+from viscofric.study.cases.surfaces import surface_of
 from viscofric.study.planning.curve import SHARE
-from viscofric.study.planning.numbers import FRICTION, Node
-from viscofric.study.record import Record, surface_record
-from viscofric.study.solving import Task, solve_surface, surface_solution
-from viscofric.study.surface_source import surface_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Rubbers, Settings
+    from viscofric.study.cases.surfaces import SurfaceSource
     from viscofric.study.planning.curve import Curve, Interval
-    from viscofric.study.surface_source import SurfaceSource
 
 # Number of a record, and whether it is interpolated by its logarithm: forces across the motion have either sign.
 _COLUMNS = (

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.contact.free.estimates import FRICTION_FLOOR
-from viscofric.study.planning.numbers import FRICTION, LOGARITHMIC, Node
-from viscofric.study.planning.stencils import Interpolated, Stencil, interpolate, stencil
+from viscofric.study.cases.interpolation import FRICTION, LOGARITHMIC, Interpolated, Node, Stencil, interpolate, stencil
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

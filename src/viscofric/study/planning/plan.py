@@ -10,16 +10,16 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.study.cases.case import Rubbers, Settings
+from viscofric.study.cases.record import Failure, Record
 from viscofric.study.planning.curve import STEP, Curve
-from viscofric.study.record import Failure, Record
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
     from viscofric.rheology.material import Material
     from viscofric.study.cases.case import Case, Place
-    from viscofric.study.planning.numbers import Node
-    from viscofric.study.solving import Task
+    from viscofric.study.cases.interpolation import Node
+    from viscofric.study.cases.solving import Task
 
 Outcome: TypeAlias = Record | Failure
 

@@ -14,18 +14,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError, ViscofricError, not_imported
-from viscofric.study.cases.keys import solver_fingerprint
-from viscofric.study.running.executors import Executor, Waiting
-from viscofric.study.running.task import Lost, take_on_cluster
+from viscofric.study.cases.solving import solver_fingerprint
+from viscofric.study.running.executors import Executor, Lost, Waiting, take_on_cluster
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from types import ModuleType, TracebackType
     from typing import Self
 
-    from viscofric.study.running.executors import Answers
-    from viscofric.study.running.task import Outcome, Solve, Task
-    from viscofric.study.settings_tables import ClusterTable
+    from viscofric.study.run_file.settings import ClusterTable
+    from viscofric.study.running.executors import Answers, Outcome, Solve, Task
 
 _PATIENCE = 30.0  # s
 _BETWEEN_LOOKS = 1.0  # s

@@ -1,21 +1,23 @@
-"""Where tasks are done: in this process, or in several of this machine."""
+"""Where tasks are solved: in this process, or in several processes of this machine."""
 
 from __future__ import annotations
 
 import contextlib
+import functools
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
+from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.processes import Workers, as_they_come
-from viscofric.study.cases.keys import solver_fingerprint
-from viscofric.study.running.task import Lost, attempt, take
+from viscofric.study.cases.record import Failure, Record
+from viscofric.study.cases.solving import solver_fingerprint
+from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
     from types import TracebackType
     from typing import Self
-
-    from viscofric.study.running.task import Outcome, Solve, Task
 
 
 @dataclass(frozen=True)
@@ -130,3 +132,74 @@ class Processes(Executor):
                 if kind == "error":
                     raise value
                 yield task.key, Lost.by(value, task) if kind == "ended" else value
+
+
+Outcome: TypeAlias = Record | Failure
+Solve: TypeAlias = Callable[[Any], Record]
+
+
+class Task(Protocol):
+    """What running needs to know of a task; all of it can be pickled."""
+
+    @property
+    def key(self) -> str:
+        """Changes with all that decides the answer."""
+
+    @property
+    def label(self) -> str:
+        """For people."""
+
+    @property
+    def fields(self) -> bool:
+        """Whether its record has fields."""
+
+
+class Lost(Failure):
+    """A task that was given up for a reason that may lie outside it; it may well be solved another time."""
+
+    @classmethod
+    def by(cls, error: BaseException, task: Task) -> Self:
+        """Tell of what came between."""
+        kind = "" if isinstance(error, ViscofricError) else f"unexpectedly, {type(error).__name__}: "
+        return cls(f"{kind}{error}", task.label)
+
+
+@one_blas_thread
+def attempt(solve: Solve, task: Task) -> Outcome:
+    """Return the record of a task, or why there is none."""
+    try:
+        return solve(task)
+    except (ConvergenceError, InputError) as error:
+        return Failure.of(error, task.label)
+    except Exception as error:  # noqa: BLE001 - one case of many, over a weekend: the others go on
+        return Lost.by(error, task)
+
+
+def take(solve: Solve, task: Task, fingerprint: str) -> Outcome:
+    """Do a task of another process or machine, if the solver here is the same as there.
+
+    Raises
+    ------
+    ViscofricError
+        If it is another one: its answers would be stored as those of the first.
+    """
+    if fingerprint != solver_fingerprint():
+        raise ViscofricError(
+            "the solver that a worker has is not that of the study: viscofric must be the same on all machines, and "
+            "must not be changed while a study runs."
+        )
+    return attempt(solve, task)
+
+
+def take_on_cluster(solve: Solve, task: Task, fingerprint: str) -> Outcome:
+    """Do a task in a process that may do several at a time, in threads."""
+    _keep_blas_to_one_thread()
+    return take(solve, task, fingerprint)
+
+
+@functools.cache
+def _keep_blas_to_one_thread() -> None:
+    """Limit BLAS for good: limits that end do so in the middle of what other threads of the process do."""
+    from threadpoolctl import threadpool_limits
+
+    threadpool_limits(limits=1, user_api="blas")

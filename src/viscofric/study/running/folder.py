@@ -9,12 +9,13 @@ import platform
 import shutil
 import stat
 import sys
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import IO, TYPE_CHECKING
 
 from viscofric.errors import DataFileError, StudyError, not_written
-from viscofric.study.results_file import RESULTS_FILE
-from viscofric.study.store import CaseStore
+from viscofric.study.results.file import DIGEST, RESULTS_FILE, open_tree
+from viscofric.study.running.store import CaseStore
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -58,6 +59,56 @@ def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
         for left in folder.glob(".results.*"):  # a results file that was not finished; of a link nothing is removed
             shutil.rmtree(left, ignore_errors=True)
         yield store
+
+
+@dataclass(frozen=True)
+class CheckedResults:
+    """Whether a folder of results holds what was stored in it.
+
+    Attributes
+    ----------
+    cases : int
+        Stored contacts.
+    finished : bool
+        Whether the results were put together, too.
+    damaged : dict of Path to str
+        Files that do not hold what was stored, and what is wrong with each.
+    unverified : tuple of Path
+        Files without a checksum, which older versions of viscofric wrote: nothing is known of them.
+    """
+
+    cases: int
+    finished: bool
+    damaged: dict[Path, str]
+    unverified: tuple[Path, ...]
+
+
+def check_results(folder: Path) -> CheckedResults:
+    """Compare every file of a study's results with its checksum.
+
+    Raises
+    ------
+    DataFileError
+        If the folder holds no results.
+    """
+    store, target = CaseStore(folder / CASES_FOLDER), folder / RESULTS_FILE
+    cases, finished = sum(1 for _ in store.stored()), target.exists()
+    if not cases and not finished:
+        raise DataFileError(folder, f"holds no results of a study (no {RESULTS_FILE}, no {CASES_FOLDER}).")
+    damaged, unverified = {}, []
+    for key, found in store.damaged().items():
+        file = store.folder / f"{key}.json"
+        if found.older:
+            unverified.append(file)
+        else:
+            damaged[file] = found.reason
+    if finished:
+        try:
+            if DIGEST not in open_tree(folder)[0].attrs:
+                unverified.append(target)
+        except DataFileError as error:
+            damaged[target] = error.problem
+    return CheckedResults(cases, finished, damaged, tuple(unverified))
 
 
 def _refuse_links(folder: Path) -> None:

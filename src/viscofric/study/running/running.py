@@ -1,26 +1,121 @@
-"""A plan carried out: what is stored is taken, the rest is solved, and each case is stored as it comes in."""
+"""Carrying out a plan: stored contacts are taken, the others solved, and each is stored as soon as it is solved."""
 
 from __future__ import annotations
 
 import contextlib
 import math
 import time
-from typing import TYPE_CHECKING, Protocol
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from viscofric.errors import DataFileError
-from viscofric.study.running.events import Event, silent
-from viscofric.study.running.executors import Waiting
-from viscofric.study.running.task import Lost
-from viscofric.study.solving import solve
-from viscofric.study.store import Damaged
+from viscofric.errors import DataFileError, InputError
+from viscofric.study.cases.solving import solve
+from viscofric.study.running.executors import Executor, Lost, Nobody, Processes, Serial, Waiting
+from viscofric.study.running.store import Damaged
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.study.running.events import Progress
-    from viscofric.study.running.executors import Executor
-    from viscofric.study.running.task import Outcome, Solve, Task
-    from viscofric.study.store import CaseStore
+    from viscofric.study.run_file.settings import ClusterTable
+    from viscofric.study.running.executors import Outcome, Solve, Task
+    from viscofric.study.running.store import CaseStore
+
+    Value: TypeAlias = str | int | float | bool
+
+
+@dataclass(frozen=True)
+class Event:
+    """One thing that happened.
+
+    Attributes
+    ----------
+    event : str
+        ``"stage"``: a stage began or took a step; ``"solving"``: a contact is begun; ``"solved"``: it is solved and
+        stored; ``"stored"``: it had been before; ``"damaged"``: what had been stored cannot be used; ``"failed"``: it
+        could not be solved; ``"waiting"``: a cluster has no workers for the time being.
+    stage : str, optional
+        Of the study: "measurement", "material", "contacts", "report" …
+    done, total : int, optional
+        Steps of the stage; of contacts, the cases that are known and those that are asked for.
+    solves : int, optional
+        Contacts solved for that, so far: many cases may come from few of them, or a case from several.
+    label : str, optional
+        The contact, for people.
+    key : str, optional
+        The contact, for programs: the name of its file.
+    seconds : float, optional
+        What it took.
+    reason : str, optional
+        Why it failed, what is wrong with what was stored, or what is waited for.
+    """
+
+    event: str
+    stage: str | None = None
+    done: int | None = None
+    total: int | None = None
+    solves: int | None = None
+    label: str | None = None
+    key: str | None = None
+    seconds: float | None = None
+    reason: str | None = None
+
+    def as_dict(self) -> dict[str, Value]:
+        """Return what is known of it."""
+        told = ((field.name, getattr(self, field.name)) for field in fields(self))
+        return {name: value for name, value in told if value is not None}
+
+
+class Progress(Protocol):
+    """What hears of a study's progress."""
+
+    def __call__(self, event: Event) -> object:
+        """Hear of one event."""
+
+
+def silent(event: Event) -> None:
+    """Hear, and say nothing."""
+
+
+def choose_executor(
+    workers: int | None, scheduler: str | None, cluster: ClusterTable | None, finished_only: bool = False
+) -> Executor:
+    """Return the executor that is asked for; what is asked for now counts more than the run file.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Processes of this machine.
+    scheduler : str, optional
+        Address of a Dask scheduler.
+    cluster : ClusterTable, optional
+        Of the run file.
+    finished_only : bool
+        Whether nothing is to be done any more.
+
+    Raises
+    ------
+    InputError
+        If both are asked for, the number is none, or Dask is not installed.
+    """
+    if finished_only:
+        if workers is not None or scheduler is not None:
+            raise InputError("finished_only: nothing is solved, so that neither workers nor a scheduler are of use.")
+        return Nobody()
+    if scheduler is not None:
+        if workers is not None:
+            raise InputError("workers and scheduler: only one of them; a scheduler has workers of its own.")
+        from viscofric.study.running.cluster import Dask
+
+        return Dask(scheduler)
+    if workers is not None:
+        executor = Processes(workers)
+        return Serial() if workers == 1 else executor
+    if cluster is not None:
+        from viscofric.study.running.cluster import BatchJobs, Dask
+
+        return Dask(BatchJobs.of(cluster))
+    return Serial()
+
 
 STAGE = "contacts"
 _BETWEEN_COUNTS = 0.1  # s

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.contacts import Contacts
-    from viscofric.study.running import Event
+    from viscofric.study.running.running import Event
     from viscofric.web.jobs.context import Context
 
 #: Tables of the run file that the comparison rests on; what else is asked for is of other steps.
@@ -62,7 +62,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     from viscofric.study.execution import tree_of
     from viscofric.study.running.executors import Serial
     from viscofric.study.running.running import run_plan
-    from viscofric.study.store import CaseStore
+    from viscofric.study.running.store import CaseStore
     from viscofric.web.jobs.friction_data import texts
     from viscofric.web.jobs.friction_input import friction_curves
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from viscofric.study.places import others_in
+from viscofric.study.cases.sweep import others_in
 from viscofric.web.jobs.context import JobError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from viscofric.study.cases.case import Case
-    from viscofric.study.run_file import Study
-    from viscofric.study.sweep import Sweep
+    from viscofric.study.cases.sweep import Sweep
+    from viscofric.study.run_file.study import Study
 
 #: Cases that the page solves at most; a browser shows no more.
 MOST_CASES = 2_000

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viscofric.study.cases.case import Case
     from viscofric.study.cases.indenter_case import IndenterCase
     from viscofric.study.cases.surface_case import SurfaceCase
-    from viscofric.study.run_file import Study
+    from viscofric.study.run_file.study import Study
     from viscofric.study.study_rubber import StudyRubber
 
 

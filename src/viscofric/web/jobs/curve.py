@@ -12,11 +12,11 @@ from pydantic import BaseModel, ConfigDict
 from viscofric.datasets import plain
 from viscofric.notes import note_of
 from viscofric.study.assumptions import assumption_checks
+from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, doubts
-from viscofric.study.record import Failure
 from viscofric.study.running.executors import Serial
 from viscofric.study.running.running import run_plan
-from viscofric.study.store import CaseStore
+from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import band_columns
 from viscofric.study.surface_words import surface_notes
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
@@ -27,11 +27,11 @@ from viscofric.web.study_text import study_of
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from viscofric.study.cases.record import Record
     from viscofric.study.contacts import Solved
     from viscofric.study.planning.plan import Outcome
-    from viscofric.study.record import Record
-    from viscofric.study.run_file import Study
-    from viscofric.study.running import Event
+    from viscofric.study.run_file.study import Study
+    from viscofric.study.running.running import Event
     from viscofric.study.study_rubber import StudyRubber
     from viscofric.web.jobs.context import Context
 

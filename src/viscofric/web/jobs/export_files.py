@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-    from viscofric.study.run_file import Study
+    from viscofric.study.run_file.study import Study
 
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest that archives can tell: the same files give the same bytes
 

@@ -13,7 +13,7 @@ from viscofric.web.jobs.export_files import archive, missing_files, offered
 from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
 
 if TYPE_CHECKING:
-    from viscofric.study.run_file import Study
+    from viscofric.study.run_file.study import Study
     from viscofric.web.jobs.context import Context
 
 ARCHIVE = "study.zip"

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from viscofric.study import StudyResults
-    from viscofric.study.running import Event
+    from viscofric.study.running.running import Event
     from viscofric.web.jobs.context import Context
 
 _MOST_TOLD = 8

@@ -11,11 +11,11 @@ from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_text
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.notes import Note, note_of
-from viscofric.study.contact_tables import IndenterTable  # noqa: TC001 - pydantic looks at it
-from viscofric.study.measurement_table import MeasurementTable
-from viscofric.study.run_file import TABLES
-from viscofric.study.run_file_errors import wrong_tables
-from viscofric.study.table import Table
+from viscofric.study.run_file.contact import IndenterTable  # noqa: TC001 - pydantic looks at it
+from viscofric.study.run_file.errors import wrong_tables
+from viscofric.study.run_file.measurement import MeasurementTable
+from viscofric.study.run_file.study import TABLES
+from viscofric.study.run_file.tables import Table
 from viscofric.web.jobs.rubbers import insist_on_uploads, kept, named_without_folder, without_folder
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.measurement_table import MeasurementTable
+    from viscofric.study.run_file.measurement import MeasurementTable
     from viscofric.traction import TractionRuns
     from viscofric.web.jobs.rubbers import Folders
 

@@ -9,7 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from viscofric.datasets import plain
 from viscofric.rheology.superposition.overlap import LogSweep, join_at
-from viscofric.study.quantities import kelvin
+from viscofric.study.run_file.tables import kelvin
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import made_rubber
 

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from viscofric.datasets import plain
-from viscofric.study.quantities import kelvin
+from viscofric.study.run_file.tables import kelvin
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import friction_bands, made_rubber
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, moduli

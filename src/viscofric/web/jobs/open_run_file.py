@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from viscofric.datasets import plain
 from viscofric.errors import StudyError
 from viscofric.files import parse_toml
-from viscofric.study.run_file import LONGEST_RUN_FILE, parse_study
+from viscofric.study.run_file.study import LONGEST_RUN_FILE, parse_study
 from viscofric.web.study_files import named_files
 from viscofric.web.study_text import RUN_FILE
 

@@ -14,19 +14,18 @@ from pydantic import Field, ValidationError
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_bytes, write_atomically
 from viscofric.notes import Note
-from viscofric.study.material_table import MaterialTable, files_of
 from viscofric.study.rubber import Rubber, make_rubber
-from viscofric.study.run_file import TABLES
-from viscofric.study.run_file_errors import wrong_tables
-from viscofric.study.settings_tables import UncertaintyTable
-from viscofric.study.table import Table
+from viscofric.study.run_file.errors import wrong_tables
+from viscofric.study.run_file.material import MaterialTable, files_of
+from viscofric.study.run_file.settings import UncertaintyTable
+from viscofric.study.run_file.study import TABLES
+from viscofric.study.run_file.tables import Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
-    from viscofric.study.bands import FrictionBands
-    from viscofric.study.study_rubber import StudyRubber
+    from viscofric.study.study_rubber import FrictionBands, StudyRubber
 
 Made = TypeVar("Made")
 
@@ -120,7 +119,7 @@ def friction_bands(study: Mapping[str, Any], folders: Folders) -> FrictionBands:
     FrictionBands
         Its `samples` (a `MaterialSamples`) is None where nothing tells how well the rubber is known.
     """
-    from viscofric.study.bands import FrictionBands
+    from viscofric.study.study_rubber import FrictionBands
 
     table, wanted = checked_tables(study, folders)
     rubber = made_rubber(study, folders)
@@ -146,7 +145,7 @@ def study_rubber(study: Mapping[str, Any], folders: Folders, temperatures: Seque
     """
     import numpy as np
 
-    from viscofric.study.checking import shift_of
+    from viscofric.study.rubber import shift_of
     from viscofric.study.study_rubber import StudyRubber
 
     rubber = made_rubber(study, folders)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from viscofric.readers.dma.isotherms import TracedSweeps
     from viscofric.readers.dma.readings import Readings
-    from viscofric.study.material_table import MaterialTable
+    from viscofric.study.run_file.material import MaterialTable
 
 #: More readings that were left out are counted, not drawn.
 _MOST_FLAGGED = 2_000

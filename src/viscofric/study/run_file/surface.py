@@ -8,22 +8,21 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from viscofric.errors import InputError
-from viscofric.study.axis_values import Seeds  # noqa: TC001 - pydantic looks at it
 from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.quantities import (
+from viscofric.study.cases.surfaces import MadeSurface, ScannedSurface, file_digest, step_of
+from viscofric.study.run_file.tables import (
     Count,
     Direction,
     FileName,
     Length,
     Modulus,
     Number,
+    Seeds,
+    Table,
     Words,
     listed,
     one_or_more,
 )
-from viscofric.study.surface_source import MadeSurface, ScannedSurface, file_digest
-from viscofric.study.surface_steps import step_of
-from viscofric.study.table import Table
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
@@ -31,8 +30,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from viscofric.study.cases.case import Case
-    from viscofric.study.surface_source import SurfaceSource
-    from viscofric.study.table import Problem
+    from viscofric.study.cases.surfaces import SurfaceSource
+    from viscofric.study.run_file.tables import Problem
 
 _MOST_POINTS, _MOST_STEPS = 16_384, 50
 _FEWEST_POINTS = 4

@@ -9,8 +9,8 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, file_path, read_text
-from viscofric.study.columns import PLACES, TITLE, over_all_dimensions, read_table_text
-from viscofric.study.results_file import cases_of, open_tree
+from viscofric.study.results.columns import PLACES, TITLE, over_all_dimensions, read_table_text
+from viscofric.study.results.file import cases_of, open_tree
 from viscofric.units import celsius
 
 if TYPE_CHECKING:

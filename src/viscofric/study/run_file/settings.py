@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
-from viscofric.study.quantities import BIGGEST_SEED, MOST_POINTS, VALUE, Count, Number, with_unit
-from viscofric.study.table import Table
+from viscofric.study.run_file.tables import BIGGEST_SEED, MOST_POINTS, VALUE, Count, Number, Table, with_unit
 from viscofric.units import positive
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from viscofric.study.table import Problem
+    from viscofric.study.run_file.tables import Problem
 
 _MOST_SAMPLES = 10_000
 _MOST_MEMBERS = 1_000

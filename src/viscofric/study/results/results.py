@@ -17,10 +17,10 @@ from viscofric.arguments import number
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, note_of
-from viscofric.study.cases_in_common import CaseTable
-from viscofric.study.compare import compare_tables
-from viscofric.study.export import export_results
-from viscofric.study.results_file import cases_of, open_tree, rubbers_of
+from viscofric.study.results.case_table import CaseTable
+from viscofric.study.results.compare import compare_tables
+from viscofric.study.results.export import export_results
+from viscofric.study.results.file import cases_of, open_tree, rubbers_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Mask
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.compare import ResultsComparison
-    from viscofric.study.export import Form
+    from viscofric.study.results.compare import ResultsComparison
+    from viscofric.study.results.export import Form
 
 _ROUNDING = 1e-9
 
@@ -78,7 +78,7 @@ class StudyResults:
         return {} if kept is None else {int(number): node.to_dataset() for number, node in kept.children.items()}
 
     def export(self, form: Form, path: str | Path | None = None) -> Path:
-        """Write for other programs; see `viscofric.study.export.FORMS`.
+        """Write for other programs; see `viscofric.study.results.export.FORMS`.
 
         Parameters
         ----------

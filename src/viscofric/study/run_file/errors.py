@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import StudyError, brief
 from viscofric.notes import Note
-from viscofric.study.quantities import VALUE, as_written
+from viscofric.study.run_file.tables import VALUE, as_written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
+from viscofric.study.cases.interpolation import weights
 from viscofric.study.planning.curve import STEP
-from viscofric.study.planning.stencils import weights
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.contact.free.scale import Scale
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Place
-    from viscofric.study.record import Record
+    from viscofric.study.cases.record import Record
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,29 +10,28 @@ from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationE
 
 from viscofric.errors import InputError, StudyError
 from viscofric.files import file_path, parse_toml
-from viscofric.study.axis_values import RANGE, SEED_RANGE, SeedRange, SpeedRange
-from viscofric.study.contact_tables import (
+from viscofric.study.cases.sweep import Sweep, sweep_of
+from viscofric.study.run_file.contact import (
     SHAPES,
     ConditionsTable,
     IndenterTable,
     LayerTable,
 )
-from viscofric.study.material_table import MaterialTable
-from viscofric.study.measurement_table import MeasurementTable
-from viscofric.study.relations import relations
-from viscofric.study.run_file_errors import place, problems, told, wrong_tables
-from viscofric.study.settings_tables import ClusterTable, OutputsTable, SolverTable, SweepTable, UncertaintyTable
-from viscofric.study.surface_table import SurfaceTable
-from viscofric.study.sweep import Sweep, sweep_of
-from viscofric.study.table import Table
+from viscofric.study.run_file.errors import place, problems, told, wrong_tables
+from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.measurement import MeasurementTable
+from viscofric.study.run_file.relations import relations
+from viscofric.study.run_file.settings import ClusterTable, OutputsTable, SolverTable, SweepTable, UncertaintyTable
+from viscofric.study.run_file.surface import SurfaceTable
+from viscofric.study.run_file.tables import RANGE, SEED_RANGE, SeedRange, SpeedRange, Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
     from viscofric.notes import Note
-    from viscofric.study.contact_tables import AnyIndenterTable
-    from viscofric.study.table import Problem
+    from viscofric.study.run_file.contact import AnyIndenterTable
+    from viscofric.study.run_file.tables import Problem
 
 #: A run file is far shorter; what is longer is something else.
 LONGEST_RUN_FILE = 1_000_000  # characters

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import InputError
-from viscofric.study.quantities import (
+from viscofric.study.run_file.tables import (
     MOST_POINTS,
     Count,
     FileName,
     FileNames,
     Number,
+    Table,
     Temperature,
     Words,
     kelvin,
@@ -23,13 +24,12 @@ from viscofric.study.quantities import (
     one_or_more,
     schema_of,
 )
-from viscofric.study.table import Table
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from viscofric.study.table import Problem
+    from viscofric.study.run_file.tables import Problem
 
 _MOST_FILES = MOST_POINTS
 #: Keys that say where the rubber comes from, one of them in every run file.

@@ -10,17 +10,27 @@ from pydantic import Discriminator, Field, Tag
 
 from viscofric.contact.indenters.indenter import Ball, Cylinder
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid
-from viscofric.study.axis_values import Angles, Directions, Lengths, Loads, Pressures, Speeds, Temperatures  # noqa: TC001 - pydantic looks at them
 from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.quantities import Length, Modulus, Number  # noqa: TC001 - likewise
-from viscofric.study.table import Table
+from viscofric.study.run_file.tables import (
+    Angles,
+    Directions,
+    Length,
+    Lengths,
+    Loads,
+    Modulus,
+    Number,
+    Pressures,
+    Speeds,
+    Table,
+    Temperatures,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.study.cases.case import Case
-    from viscofric.study.table import Problem
+    from viscofric.study.run_file.tables import Problem
 
 _SHAPE = "Its shape; each has lengths or an angle of its own."
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.notes import note_of
-from viscofric.study.results_file import rubbers_of
+from viscofric.study.results.file import rubbers_of
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:

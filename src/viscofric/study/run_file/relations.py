@@ -6,14 +6,14 @@ import difflib
 from collections import Counter
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from viscofric.study.contact_tables import BallTable
-from viscofric.study.quantities import PerLength
-from viscofric.study.sweep import CONDITIONS, MOST_CASES, axes_of, body_of, coordinates, count_cases
+from viscofric.study.cases.sweep import CONDITIONS, MOST_CASES, axes_of, body_of, coordinates, count_cases
+from viscofric.study.run_file.contact import BallTable
+from viscofric.study.run_file.tables import PerLength
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from viscofric.study.table import Problem
+    from viscofric.study.run_file.tables import Problem
 
     #: Tables that are right in themselves, by their names in the file; what is wrong or left out is not there.
     Tables: TypeAlias = Mapping[str, Any]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from viscofric.study.run_file import Study
+from viscofric.study.run_file.study import Study
 
 DIALECT = "http://json-schema.org/draft-07/schema#"
 _WITHOUT_MEANING: dict[str, type] = {"title": str, "default": type(None)}

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import brief
-from viscofric.study.material_table import files_of
-from viscofric.study.quantities import (
+from viscofric.study.run_file.material import files_of
+from viscofric.study.run_file.tables import (
     MOST_POINTS,
     Count,
     FileName,
@@ -17,17 +17,17 @@ from viscofric.study.quantities import (
     Force,
     Number,
     SignedForce,
+    Table,
     TemperatureStep,
     listed,
     one_or_more,
 )
-from viscofric.study.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from viscofric.study.table import Problem
+    from viscofric.study.run_file.tables import Problem
 
 
 def _number_or_word(value: object) -> object:

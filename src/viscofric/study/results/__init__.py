@@ -1,0 +1,1 @@
+"""Results of a study: their tree and file, export and comparison."""

@@ -1,0 +1,1 @@
+"""The run file: its tables, validated, and its errors."""

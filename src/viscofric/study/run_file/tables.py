@@ -1,0 +1,342 @@
+"""Tables of a run file: their base class, and the kinds of their fields: text with a unit in, SI out."""
+
+from __future__ import annotations
+
+import os
+import re
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeAlias
+
+import numpy as np
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    PlainValidator,
+    Strict,
+    Tag,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
+
+from viscofric.errors import InputError, brief
+from viscofric.units import Quantity, positive, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from pydantic import GetCoreSchemaHandler
+
+
+#: A key within the table, such as "load" or "load.2", and a sentence about it; "" is the table as a whole.
+Problem: TypeAlias = tuple[str, str]
+
+
+class Table(BaseModel):
+    """A table of the run file: no unknown keys, no changes afterwards."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        found = list(self.problems())
+        if found:
+            raise all_at_once(type(self).__name__, found)
+        return self
+
+
+def all_at_once(title: str, problems: list[Problem]) -> ValidationError:
+    """Return the error that tells several problems, each at its key."""
+    details = [
+        InitErrorDetails(
+            type=PydanticCustomError("relation", "{words}", {"words": words}),
+            loc=tuple(int(part) if part.isdigit() else part for part in key.split(".")) if key else (),
+            input=None,
+        )
+        for key, words in problems
+    ]
+    return ValidationError.from_exception_data(title, details)
+
+
+# Stands for the field's name in messages about units; the location says it better.
+VALUE = "value"
+MOST_POINTS = 10_000
+_LONGEST_NAME = 255  # bytes between two slashes, on all common file systems
+_SPACE = 32
+
+
+def as_written(value: object) -> str:
+    """Return how a value is written, on one line and cut where it is too long for a sentence."""
+    return str(value).lower() if isinstance(value, bool) else brief(value)
+
+
+def with_unit(value: object) -> Quantity:
+    """Refuse bare numbers: in a run file every quantity carries its unit."""
+    if not isinstance(value, str):
+        raise ValueError(f"{as_written(value)} has no unit; write text such as '25 N', '100 mm/s', '30 degC'")
+    return value
+
+
+def kelvin(value: object) -> float:
+    """Return a temperature, given as text with its unit, in K."""
+    found = to_si(with_unit(value), "K", VALUE)
+    if found <= 0.0:
+        raise ValueError(f"{brief(value)} lies below absolute zero")
+    return found
+
+
+class PerLength(float):
+    """A load per length, N/m, as that of a cylinder; any other load is a plain float in N."""
+
+
+def _load(value: object) -> float:
+    text = with_unit(value)
+    try:
+        return positive(text, "N", VALUE)
+    except InputError as error:
+        try:
+            return PerLength(positive(text, "N/m", VALUE))
+        except InputError as other:
+            # A load per length below zero is told as such, all else as a force.
+            raise (other if "above zero" in str(other) else error) from None
+
+
+def _positive(unit: str) -> BeforeValidator:
+    return BeforeValidator(lambda value: positive(with_unit(value), unit, VALUE))
+
+
+def _text(*units: str) -> WithJsonSchema:
+    """JSON schema of a quantity: a number and a unit, such as those."""
+    number = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?\s*[^0-9\s.,+\-].*$"
+    return WithJsonSchema({"type": "string", "pattern": number, "examples": list(units)})
+
+
+# A user's value, already turned into SI.
+Length = Annotated[float, _positive("m"), _text("9.525 mm")]
+Force = Annotated[float, _positive("N"), _text("25 N")]
+Speed = Annotated[float, _positive("m/s"), _text("100 mm/s")]
+Angle = Annotated[float, _positive("rad"), _text("5 deg")]
+Modulus = Annotated[float, _positive("Pa"), _text("200 GPa")]
+Pressure = Annotated[float, _positive("Pa"), _text("50 kPa")]
+Direction = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "rad", VALUE)), _text("30 deg")]
+# Plain, for else pydantic makes a bare float of a load per length.
+Load = Annotated[float, PlainValidator(_load), _text("25 N", "2 N/mm")]
+Temperature = Annotated[float, BeforeValidator(kelvin), _text("30 degC")]
+TemperatureStep = Annotated[float, _positive("delta_degC"), _text("1 delta_degC")]
+SignedForce = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "N", VALUE)), _text("0.12 N")]
+
+#: Of random numbers.
+BIGGEST_SEED = 2**63 - 1
+#: Numbers as TOML writes them: no text, no true or false in their place.
+Count = Annotated[int, Strict()]
+Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
+
+Seed = Annotated[
+    int,
+    Strict(),
+    Field(ge=0, le=BIGGEST_SEED),
+    WithJsonSchema({"type": "integer", "minimum": 0, "maximum": BIGGEST_SEED}),
+]
+
+
+def listed(value: object) -> object:
+    """Let one entry stand for a list of one."""
+    return [value] if isinstance(value, str | int | float) else value
+
+
+def one_or_more(entry: dict[str, Any], most: int = MOST_POINTS) -> WithJsonSchema:
+    """Return the JSON schema of a field that may be one entry or a list of them; see `listed`."""
+    return WithJsonSchema({"anyOf": [entry, {"type": "array", "items": entry, "minItems": 1, "maxItems": most}]})
+
+
+def _file_name(value: object) -> object:
+    if isinstance(value, str):
+        if not value.strip():
+            raise ValueError("is empty; the name of a file is wanted")
+        parts = re.split(r"[/\\]", value)
+        if max(len(os.fsencode(part)) for part in parts) > _LONGEST_NAME or any(ord(mark) < _SPACE for mark in value):
+            raise ValueError(f"{brief(value)} cannot be the name of a file")
+        if "**" in value:
+            raise ValueError(f"{brief(value)} looks into all folders; write a pattern such as 'sweeps/*.txt'")
+    return value
+
+
+def schema_of(kind: Any) -> dict[str, Any]:
+    """Return the JSON schema of a kind of quantity."""
+    (found,) = [mark.json_schema for mark in kind.__metadata__ if isinstance(mark, WithJsonSchema)]
+    return dict(found or {})
+
+
+#: The name of a file, and one or more of them or patterns that stand for them.
+FileName = Annotated[Path, BeforeValidator(_file_name), WithJsonSchema({"type": "string", "minLength": 1})]
+FileNames = Annotated[
+    tuple[FileName, ...],
+    BeforeValidator(listed),
+    Field(min_length=1, max_length=MOST_POINTS),
+    one_or_more({"type": "string", "minLength": 1}),
+]
+#: A few words on one line.
+Words = Annotated[str, Field(max_length=300, pattern=r"^[^\x00-\x1f\x7f]*$")]
+
+
+# Branches of a choice between types appear in pydantic's locations, not in the file: no key looks like these.
+RANGE, LIST, SEED_RANGE = "<range>", "<list>", "<seeds>"
+
+
+class _Span(Table, ABC):
+    """What stands for several values."""
+
+    @abstractmethod
+    def values(self) -> tuple[Any, ...]:
+        """Return all values."""
+
+
+class _Range(_Span):
+    """From one value to another; its ends are those of a subclass."""
+
+    first: float
+    last: float
+    points: Count = Field(ge=2, le=MOST_POINTS, description="How many values, both ends included.")
+    spacing: Literal["log", "linear"] = Field(
+        "log", description="Between the values: equal ratios (log) or equal steps (linear)."
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        if self.first == self.last:
+            yield "to", "is the same as from; give one value instead of a range"
+        if type(self.first) is not type(self.last):
+            yield "to", "is not of the same kind as from"
+
+    def values(self) -> tuple[float, ...]:
+        """Return all values; the ends are exactly those given."""
+        spread = (np.geomspace if self.spacing == "log" else np.linspace)(self.first, self.last, self.points)
+        kind = type(self.first)
+        return (self.first, *(kind(value) for value in spread[1:-1]), self.last)
+
+
+class _EvenRange(_Range):
+    """From one value to another in equal steps."""
+
+    spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
+
+
+_FROM, _TO = "First value.", "Last value."
+
+
+class SpeedRange(_Range):
+    """Speeds from one to another."""
+
+    first: Speed = Field(alias="from", description=_FROM)
+    last: Speed = Field(alias="to", description=_TO)
+
+
+class LengthRange(_Range):
+    """Lengths from one to another."""
+
+    first: Length = Field(alias="from", description=_FROM)
+    last: Length = Field(alias="to", description=_TO)
+
+
+class AngleRange(_Range):
+    """Angles from one to another."""
+
+    first: Angle = Field(alias="from", description=_FROM)
+    last: Angle = Field(alias="to", description=_TO)
+
+
+class LoadRange(_Range):
+    """Loads from one to another."""
+
+    first: Load = Field(alias="from", description=_FROM)
+    last: Load = Field(alias="to", description=_TO)
+
+
+class PressureRange(_Range):
+    """Pressures from one to another."""
+
+    first: Pressure = Field(alias="from", description=_FROM)
+    last: Pressure = Field(alias="to", description=_TO)
+
+
+class DirectionRange(_EvenRange):
+    """Directions from one to another, in equal steps."""
+
+    first: Direction = Field(alias="from", description=_FROM)
+    last: Direction = Field(alias="to", description=_TO)
+
+
+class SeedRange(_Span):
+    """All whole numbers from one to another."""
+
+    first: Seed = Field(alias="from", description=_FROM)
+    last: Seed = Field(alias="to", description=_TO)
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what does not fit together within the table."""
+        if not 0 < self.last - self.first < MOST_POINTS:
+            yield "to", f"must lie above from, by less than {MOST_POINTS:,}"
+
+    def values(self) -> tuple[int, ...]:
+        """Return all of them."""
+        return tuple(range(self.first, self.last + 1))
+
+
+class TemperatureRange(_EvenRange):
+    """Temperatures from one to another, in equal steps."""
+
+    first: Temperature = Field(alias="from", description=_FROM)
+    last: Temperature = Field(alias="to", description=_TO)
+
+
+@dataclass(frozen=True)
+class _Many:
+    """Marks a field whose values may be one, a list or a range; it holds all of them as a tuple."""
+
+    one: Any
+    span: type[_Span]
+    tag: str = RANGE
+
+    most: ClassVar[int] = MOST_POINTS
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        several = Annotated[
+            tuple[self.one, ...],  # type: ignore[name-defined]
+            Field(min_length=1, max_length=self.most),
+            BeforeValidator(listed),
+            one_or_more(schema_of(self.one)),
+        ]
+
+        def kind(value: object) -> str:
+            return self.tag if isinstance(value, dict | _Span) else LIST
+
+        either = Annotated[
+            Annotated[self.span, Tag(self.tag)] | Annotated[several, Tag(LIST)],  # type: ignore[name-defined]
+            Discriminator(kind),
+        ]
+        return core_schema.no_info_after_validator_function(_values, handler.generate_schema(either))
+
+
+def _values(found: _Span | tuple[float, ...]) -> tuple[float, ...]:
+    return found.values() if isinstance(found, _Span) else found
+
+
+#: One value, a list of them, or ``{ from, to, points, spacing }``: all of them, SI.
+Lengths = Annotated[tuple[float, ...], _Many(Length, LengthRange)]
+Angles = Annotated[tuple[float, ...], _Many(Angle, AngleRange)]
+Loads = Annotated[tuple[float, ...], _Many(Load, LoadRange)]
+Pressures = Annotated[tuple[float, ...], _Many(Pressure, PressureRange)]
+Directions = Annotated[tuple[float, ...], _Many(Direction, DirectionRange)]
+Seeds = Annotated[tuple[int, ...], _Many(Seed, SeedRange, SEED_RANGE)]
+Speeds = Annotated[tuple[float, ...], _Many(Speed, SpeedRange)]
+Temperatures = Annotated[tuple[float, ...], _Many(Temperature, TemperatureRange)]
