@@ -10,14 +10,13 @@ import numpy as np
 
 from viscofric.arguments import flag, number, whole_number
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.counterface import indenter_compliance
+from viscofric.contact.bodies import Layer, indenter_compliance, unit_direction
 from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
-from viscofric.contact.free.control import GivenIndentation, GivenLoad
 from viscofric.contact.free.estimates import friction_estimate
 from viscofric.contact.free.given_grid import COARSEST, LEAST_FINEST, GivenGrid
 from viscofric.contact.free.nested import find_window, refine
-from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.problem import GivenIndentation, GivenLoad, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.indenters.indenter import (
     SMALL_STRAIN,
@@ -25,8 +24,6 @@ from viscofric.contact.indenters.indenter import (
     insist_on_indenter,
     insist_on_round_edges,
 )
-from viscofric.contact.layers import Layer
-from viscofric.contact.motion import unit_direction
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.errors import InputError, brief
@@ -40,8 +37,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.contact.derivatives.friction import FrictionDerivatives
-    from viscofric.contact.free.control import Control
     from viscofric.contact.free.grids import Extent
+    from viscofric.contact.free.problem import Control
     from viscofric.contact.free.stage import Stage
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.modulus_table import ModulusTable

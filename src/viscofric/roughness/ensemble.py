@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import Backend
-    from viscofric.contact.layers import Layer
+    from viscofric.contact.bodies import Layer
 
 
 #: Of the complementarity: what the grid does to friction is a thousand times more.

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.arguments import check_cost, flag, numbers, whole_number
-from viscofric.contact.periodic.waves import hermitian_factor, wave_number
+from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum, hurst_exponent, wanted_rms
 from viscofric.roughness.topography import Topography

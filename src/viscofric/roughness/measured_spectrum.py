@@ -8,7 +8,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.arguments import MOST_PER_DECADE, whole_number
-from viscofric.contact.periodic.waves import hermitian_factor, wave_number
+from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
 

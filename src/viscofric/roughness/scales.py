@@ -11,7 +11,7 @@ import scipy.fft
 
 from viscofric.arguments import MOST_PER_DECADE, whole_number
 from viscofric.contact.periodic.solution import PeriodicSolution
-from viscofric.contact.periodic.waves import hermitian_factor, wave_number, without_nyquist
+from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 from viscofric.errors import InputError, brief
 from viscofric.units import Quantities, to_si_array
 

@@ -8,14 +8,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import numbers
 from viscofric.errors import InputError
-from viscofric.roughness import power_law
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
+
+
+#: Weight of the second differences of the surface's density, which matter only where the lines leave it open.
+_SMOOTHNESS = 0.03
+#: Least density, as a share of the median.
+_FLOOR = 1e-2
+_NODES = 12  # of the quadrature in each segment
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +65,7 @@ class PowerSpectrum:
     density: Array
 
     def __post_init__(self) -> None:
-        q, density = power_law.checked(self.wave_number, self.density, "m⁴")
+        q, density = _checked(self.wave_number, self.density, "m⁴")
         object.__setattr__(self, "wave_number", q)
         object.__setattr__(self, "density", density)
 
@@ -105,7 +114,7 @@ class PowerSpectrum:
 
     def __call__(self, wave_number: ArrayLike) -> Array:
         """Return C at any wave numbers (rad/m), m⁴; zero beyond the points."""
-        return power_law.value(self.wave_number, self.density, wave_number)
+        return _interpolated(self.wave_number, self.density, wave_number)
 
     @property
     def longest(self) -> float:
@@ -120,7 +129,7 @@ class PowerSpectrum:
     def moment(self, order: float) -> float:
         """Return ∫ d²q q^order C(q): ⟨h²⟩ for 0, ⟨|∇h|²⟩ for 2, ⟨(∇²h)²⟩ for 4."""
         power = to_si(order, "dimensionless", "order") + 1.0
-        return 2.0 * math.pi * power_law.integral(self.wave_number, self.density, power)
+        return 2.0 * math.pi * _integral(self.wave_number, self.density, power)
 
     def limited(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> PowerSpectrum:
         """Return the part between two wavelengths, m.
@@ -132,7 +141,7 @@ class PowerSpectrum:
         """
         first = 0.0 if longest is None else 2.0 * math.pi / positive(longest, "m", "longest")
         last = math.inf if shortest is None else 2.0 * math.pi / positive(shortest, "m", "shortest")
-        return PowerSpectrum(*power_law.cut_out(self.wave_number, self.density, first, last))
+        return PowerSpectrum(*_cut_out(self.wave_number, self.density, first, last))
 
     def rms_height(self, shortest: Quantity | None = None) -> float:
         """Return the rms height, m, of all waves, or of those not shorter than a wavelength."""
@@ -209,17 +218,17 @@ class LineSpectrum:
     density: Array
 
     def __post_init__(self) -> None:
-        q, density = power_law.checked(self.wave_number, self.density, "m³")
+        q, density = _checked(self.wave_number, self.density, "m³")
         object.__setattr__(self, "wave_number", q)
         object.__setattr__(self, "density", density)
 
     def __call__(self, wave_number: ArrayLike) -> Array:
         """Return C at any wave numbers (rad/m), m³; zero beyond the points."""
-        return power_law.value(self.wave_number, self.density, wave_number)
+        return _interpolated(self.wave_number, self.density, wave_number)
 
     def moment(self, order: float) -> float:
         """Return 2 ∫ q^order C(q) dq: ⟨h²⟩ for 0, ⟨(dh/dx)²⟩ for 2, ⟨(d²h/dx²)²⟩ for 4."""
-        return 2.0 * power_law.integral(self.wave_number, self.density, to_si(order, "dimensionless", "order"))
+        return 2.0 * _integral(self.wave_number, self.density, to_si(order, "dimensionless", "order"))
 
     def rms_height(self) -> float:
         """Return the rms height, m."""
@@ -235,13 +244,93 @@ class LineSpectrum:
         Returns
         -------
         PowerSpectrum
-            C of C₁(q) = ∫ dp C(√(q² + p²)), by non-negative least squares (`viscofric.roughness.isotropy`).
+            C of C₁(q) = ∫ dp C(√(q² + p²)), by non-negative least squares.
 
         Notes
         -----
         A line crosses waves obliquely, so that long wavelengths of a line are in part short waves of the surface.  What
         waves there are beyond the shortest of the lines is not known and taken to be none.
         """
-        from viscofric.roughness.isotropy import isotropic_density
+        return PowerSpectrum(self.wave_number, _isotropic_density(self.wave_number, self))
 
-        return PowerSpectrum(self.wave_number, isotropic_density(self.wave_number, self))
+
+def _checked(q: ArrayLike, density: ArrayLike, unit: str) -> tuple[Array, Array]:
+    """Return wave numbers and densities as read-only rows: positive, finite, increasing; two at least."""
+    found = (
+        np.atleast_1d(np.array(numbers(q, "wave_number", infinite=True))),
+        np.atleast_1d(np.array(numbers(density, "density", infinite=True))),
+    )
+    if found[0].ndim != 1 or found[0].shape != found[1].shape or found[0].size < 2:
+        raise InputError(
+            f"a power spectrum must be two rows of equal length, two points at least, not {np.shape(q)} wave numbers "
+            f"and {np.shape(density)} densities."
+        )
+    for values, name in zip(found, ("wave numbers (rad/m)", f"densities ({unit})"), strict=True):
+        if not np.all(np.isfinite(values) & (values > 0.0)):
+            raise InputError(f"a power spectrum's {name} must be finite and above zero.")
+        values.flags.writeable = False
+    if not np.all(np.diff(found[0]) > 0.0):
+        raise InputError("a power spectrum's wave numbers must increase from point to point.")
+    return found
+
+
+def _interpolated(q: Array, density: Array, at: ArrayLike) -> Array:
+    """Return the density at any wave numbers; zero outside the points (up to rounding)."""
+    where = numbers(at, "wave_number")
+    inside = (where >= q[0] * (1.0 - 1e-12)) & (where <= q[-1] * (1.0 + 1e-12))
+    logs = np.interp(np.log(np.where(inside, where, q[0])), np.log(q), np.log(density))
+    return np.asarray(np.where(inside, np.exp(logs), 0.0))
+
+
+def _integral(q: Array, density: Array, power: float) -> float:
+    """Return ∫ q^power C(q) dq from the first to the last point."""
+    # C q^power dq = C q^(power+1) d ln q: an exponential in ln q within each segment.
+    logs = np.log(density) + (power + 1.0) * np.log(q)
+    width = np.diff(np.log(q))
+    rise = np.diff(logs)
+    # (e^r − 1)/r, which is one where nothing rises
+    mean = np.where(np.abs(rise) < 1e-12, 1.0, np.expm1(rise) / np.where(rise == 0.0, 1.0, rise))
+    return float(np.sum(width * np.exp(logs[:-1]) * mean))
+
+
+def _cut_out(q: Array, density: Array, first: float, last: float) -> tuple[Array, Array]:
+    """Return the points between two wave numbers, with new ones at these."""
+    first, last = max(first, float(q[0])), min(last, float(q[-1]))
+    if not first < last:
+        raise InputError(
+            f"the power spectrum reaches from wavelength {2.0 * np.pi / q[-1]:.4g} to {2.0 * np.pi / q[0]:.4g} m; "
+            "nothing of it lies between the cut-offs."
+        )
+    within = q[(q > first) & (q < last)]
+    kept = np.concatenate([[first], within, [last]])
+    return kept, _interpolated(q, density, kept)
+
+
+def _isotropic_density(q: Array, line: Callable[[Array], Array]) -> Array:
+    """Solve C₁(q) = ∫ dp C(√(q² + p²)) for the density C of a surface at the points of that of its lines, C₁.
+
+    C is sought as C₁(k)/k times a factor that is linear in ln k between the points, not below zero, by least squares of
+    the relative misfit.  For C ∝ k^(−s) the factor is constant, Γ(s/2)/(√π Γ((s−1)/2)).
+    """
+    from scipy.optimize import nnls
+
+    logs, count = np.log(q), len(q)
+    place, weight = np.polynomial.legendre.leggauss(_NODES)
+    rows = np.zeros((count - 1, count))
+    for row in range(count - 1):
+        # Ends of the segments of ln k, as distances p along the other axis, in which the integrand is smooth.
+        ends = np.sqrt(np.maximum(np.square(q[row:]) - q[row] ** 2, 0.0))
+        half = 0.5 * np.diff(ends)
+        p = (0.5 * (ends[:-1] + ends[1:]))[:, None] + half[:, None] * place
+        k = np.sqrt(q[row] ** 2 + np.square(p))
+        values = 2.0 * half[:, None] * weight * line(k) / k
+        segment = row + np.arange(len(half))[:, None]
+        part = (np.log(k) - logs[segment]) / (logs[segment + 1] - logs[segment])
+        np.add.at(rows[row], segment + np.zeros(k.shape, int), (1.0 - part) * values)
+        np.add.at(rows[row], segment + 1 + np.zeros(k.shape, int), part * values)
+    rows /= line(q[:-1])[:, None]
+    bends = _SMOOTHNESS * np.diff(np.eye(count), 2, axis=0)
+    right = np.concatenate([np.ones(count - 1), np.zeros(len(bends))])
+    factor, _ = nnls(np.concatenate([rows, bends]), right)
+    factor = np.maximum(factor, _FLOOR * float(np.median(factor)))
+    return np.asarray(factor * line(q) / q)

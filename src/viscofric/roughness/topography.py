@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.arguments import check_cost, flag, numbers, sentences, text
 from viscofric.errors import InputError, check_choice
-from viscofric.roughness import filling, preparation, waves
+from viscofric.roughness import preparation, waves
 from viscofric.units import Quantity, two_lengths
 
 if TYPE_CHECKING:
@@ -167,7 +167,7 @@ class Topography:
         check_choice(method, "method", "harmonic", "nearest")
         if not self.missing:
             return self
-        filled = filling.filled(self.heights, self.spacing, self.periodic, method)
+        filled = preparation.filled(self.heights, self.spacing, self.periodic, method)
         share = 100.0 * self.missing / self.heights.size
         return self._with(filled, f"{self.missing} missing heights ({share:.2g} %) filled: {method}")
 
@@ -335,9 +335,7 @@ class Topography:
             If heights are missing, the shape is a line contact under a map or the other way round, or the grid
             reaches beyond the shape.
         """
-        from viscofric.roughness.indenters import rough_indenter
-
-        return rough_indenter(self.complete(), self.spacing, shape)
+        return preparation.rough_indenter(self.complete(), self.spacing, shape)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the heights as labelled data with units, and the history, in its attributes."""

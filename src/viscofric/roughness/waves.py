@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.periodic.waves import wave_number, without_nyquist
+from viscofric.contact.periodic.surface import wave_number, without_nyquist
 from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 

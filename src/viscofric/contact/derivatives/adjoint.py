@@ -28,8 +28,8 @@ import numpy as np
 
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.free.balance import CUTS, free_gap, lag, lag_changes, neighbours
-from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.estimates import friction_estimate
+from viscofric.contact.free.problem import GivenLoad
 from viscofric.contact.influence.moments import correlation, memory_moments
 from viscofric.contact.operators.convolution import bent_share
 from viscofric.errors import ConvergenceError

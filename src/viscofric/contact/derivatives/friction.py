@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.contact.derivatives.adjoint import Way, friction_way
 from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
-from viscofric.contact.free.control import GivenLoad
+from viscofric.contact.free.problem import GivenLoad
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

@@ -1,15 +1,15 @@
 """What plots show around a solved contact: the surface beside and behind it, where power flows, stresses below."""
 
-from viscofric.contact.fields.highest import HighestStress, highest_von_mises
-from viscofric.contact.fields.power import surface_power
 from viscofric.contact.fields.stress import Stress
 from viscofric.contact.fields.subsurface import (
+    HighestStress,
+    highest_von_mises,
     line_stress,
     stress_at,
     stress_layer,
     stress_plane,
 )
-from viscofric.contact.fields.trail import SurfaceDisplacement, surface_displacement
+from viscofric.contact.fields.surface import SurfaceDisplacement, surface_displacement, surface_power
 
 __all__ = [
     "HighestStress",

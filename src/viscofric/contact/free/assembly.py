@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.estimates import FRICTION_FLOOR, FootprintErrors, error_of, friction_estimate
+from viscofric.contact.free.problem import GivenLoad
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
 
 if TYPE_CHECKING:

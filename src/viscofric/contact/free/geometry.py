@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from viscofric.contact.free.grids import Grid, Strip, Window
 from viscofric.contact.operators.convolution import ConvolutionOperator, HalfSpaceOperator
-from viscofric.contact.operators.line import LineOperator
+from viscofric.contact.operators.half_space import LineOperator
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.free.control import GivenLoad
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.free.given_grid import COARSEST
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.contact.free.control import Control
     from viscofric.contact.free.geometry import Geometry
     from viscofric.contact.free.grids import Grid
-    from viscofric.contact.operators.convolution import SteadyMaterial
+    from viscofric.contact.operators.convolution import ConvolutionOperator, SteadyMaterial
     from viscofric.contact.operators.layer import ScaledLayer
 
 
@@ -90,3 +89,71 @@ class Problem:
     def height_on(self, window: Grid, shift: float) -> Array:
         """Height of the indenter where the gap is looked at: so many cells behind the cell centres."""
         return self.shape.height((window.x - shift * window.spacing)[:, None], window.y)
+
+
+class Control(Protocol):
+    """How the contact problem on one grid is closed."""
+
+    def solve(
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
+    ) -> ComplementaritySolution:
+        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
+
+
+@dataclass(frozen=True)
+class GivenLoad:
+    """The load is given.
+
+    Parameters
+    ----------
+    load : float
+    """
+
+    load: float
+
+    def solve(
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
+    ) -> ComplementaritySolution:
+        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
+        load, inner = self.load / operator.window.cell_area, operator.for_corrections()
+        found = solve_complementarity(
+            operator,
+            height,
+            load,
+            guess,
+            tolerance=tolerance,
+            patience=patience,
+            inner=inner,
+            extension=operator.extension(inner.dtype),
+        )
+        return found.on_numpy(operator.backend)
+
+
+@dataclass(frozen=True)
+class GivenIndentation:
+    """The indentation is given.
+
+    Parameters
+    ----------
+    indentation : float
+    """
+
+    indentation: float
+
+    def solve(
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
+    ) -> ComplementaritySolution:
+        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
+        inner = operator.for_corrections()
+        found = solve_complementarity(
+            operator,
+            height,
+            None,
+            guess,
+            indentation=self.indentation,
+            tolerance=tolerance,
+            patience=patience,
+            inner=inner,
+            extension=operator.extension(inner.dtype),
+        )
+        return found.on_numpy(operator.backend)

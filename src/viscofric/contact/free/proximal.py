@@ -26,7 +26,7 @@ import numpy as np
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.free.control import Control
+    from viscofric.contact.free.problem import Control
     from viscofric.contact.operators.convolution import ConvolutionOperator
 
 

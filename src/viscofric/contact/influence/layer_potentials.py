@@ -1,7 +1,7 @@
 """Potential of a loaded cell of a layer on a rigid base: that of the half-space, and what the base takes from it.
 
 A point load on an elastic layer of thickness H moves the surface at the distance r by (1−ν²)/(πE) g(r), and a line
-load that at the distance x by 2(1−ν²)/(πE) g(x), with Θ from `viscofric.contact.layers`::
+load that at the distance x by 2(1−ν²)/(πE) g(x), with Θ from `viscofric.contact.bodies`::
 
     point    g = ∫_0^∞ Θ(qH) J0(qr) dq          = 1/r + ∫_0^∞ (Θ − 1) J0(qr) dq
     line     g = ∫_0^∞ Θ(qH) cos(qx)/q dq       = −ln(x/H) + ∫_0^∞ [(Θ(Q) − 1) cos(Qx/H) + e^(−Q)]/Q dQ
@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from viscofric.contact.bodies import Layer
 from viscofric.contact.influence.line import strip_potential
 from viscofric.contact.influence.potentials import cell_potential, cell_potential_xx
-from viscofric.contact.layers import Layer
 
 if TYPE_CHECKING:
     from collections.abc import Callable

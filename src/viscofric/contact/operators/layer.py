@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.contact.bodies import Layer
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
 from viscofric.contact.influence.line import strip_potential
 from viscofric.contact.influence.potentials import cell_potential
-from viscofric.contact.layers import Layer
 from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, cell_influence
 from viscofric.errors import ConvergenceError
 

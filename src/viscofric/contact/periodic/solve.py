@@ -12,10 +12,8 @@ import scipy.fft
 
 from viscofric.arguments import number, whole_number
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.counterface import indenter_compliance
+from viscofric.contact.bodies import Layer, indenter_compliance, unit_direction
 from viscofric.contact.indenters.indenter import too_steep
-from viscofric.contact.layers import Layer
-from viscofric.contact.motion import unit_direction
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from viscofric.contact.periodic.waves import hermitian_factor, wave_number, without_nyquist
+from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.layers import Layer
+    from viscofric.contact.bodies import Layer
 
 
 class Compliant(Protocol):

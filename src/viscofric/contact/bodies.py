@@ -31,15 +31,19 @@ References
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import flag, numbers
+from viscofric.arguments import flag, numbers, real
+from viscofric.errors import InputError
 from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
@@ -141,3 +145,52 @@ def _scaled_excess_of_sinh(x: Array) -> Array:
     near = square * np.minimum(x, 1.0) / 3.0 * series * np.exp(-np.minimum(x, 1.0))
     far = -np.expm1(-2.0 * x) - 2.0 * x * np.exp(-x)
     return np.where(x < 1.0, near, far)
+
+
+def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
+    """Return the compliance of an elastic indenter.
+
+    Parameters
+    ----------
+    modulus : float, str or pint.Quantity, optional
+        Young's modulus E_i, Pa; of a rigid indenter None.
+    poisson_ratio : float
+        ν_i.
+
+    Returns
+    -------
+    float
+        (1 − ν_i²)/E_i, 1/Pa; zero if rigid (K. L. Johnson, Contact Mechanics (1985), Eq. 4.6).
+
+    Raises
+    ------
+    InputError
+        If the modulus is not above zero, or the ratio not from −1 to 0.5.
+    """
+    if modulus is None:
+        return 0.0
+    ratio = checked_poisson_ratio(poisson_ratio, "indenter_poisson_ratio", above=-1.0)
+    return (1.0 - ratio**2) / positive(modulus, "Pa", "indenter_modulus")
+
+
+def unit_direction(direction: Sequence[float]) -> tuple[float, float]:
+    """Return a direction in the plane at length one.
+
+    Parameters
+    ----------
+    direction : (float, float)
+        Of any length but zero.
+
+    Raises
+    ------
+    InputError
+        If it is not two finite numbers, or both are zero.
+    """
+    try:
+        x, y = real(direction).tolist()
+        length = math.hypot(x, y)
+    except (TypeError, ValueError):
+        length = math.nan
+    if not (math.isfinite(length) and length > 0.0):
+        raise InputError(f"direction = {direction!r}: must be two numbers, not both zero, such as (1.0, 0.0).")
+    return x / length, y / length
