@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Ball, Cylinder
+from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material

@@ -11,6 +11,7 @@ from viscofric.lazy import loaded_when_used
 
 if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import Backend as Backend
+    from viscofric.contact.bodies import Layer as Layer
     from viscofric.contact.derivatives.friction import FrictionDerivatives as FrictionDerivatives
     from viscofric.contact.fields import highest_von_mises as highest_von_mises
     from viscofric.contact.fields import line_stress as line_stress
@@ -21,12 +22,11 @@ if TYPE_CHECKING:
     from viscofric.contact.fields import surface_power as surface_power
     from viscofric.contact.indenters.height_map import HeightMap as HeightMap
     from viscofric.contact.indenters.height_map import Profile as Profile
-    from viscofric.contact.indenters.indenter import Ball as Ball
-    from viscofric.contact.indenters.indenter import Cylinder as Cylinder
+    from viscofric.contact.indenters.shapes import Ball as Ball
     from viscofric.contact.indenters.shapes import Cone as Cone
+    from viscofric.contact.indenters.shapes import Cylinder as Cylinder
     from viscofric.contact.indenters.shapes import Ellipsoid as Ellipsoid
     from viscofric.contact.indenters.shapes import FlatPunch as FlatPunch
-    from viscofric.contact.layers import Layer as Layer
     from viscofric.contact.periodic.solution import PeriodicDiagnostics as PeriodicDiagnostics
     from viscofric.contact.periodic.solution import PeriodicSolution as PeriodicSolution
     from viscofric.contact.periodic.solve import solve_periodic as solve_periodic
@@ -143,9 +143,9 @@ _HOME = {
     "surface_power": "viscofric.contact.fields",
     "HeightMap": "viscofric.contact.indenters.height_map",
     "Profile": "viscofric.contact.indenters.height_map",
-    "Ball": "viscofric.contact.indenters.indenter",
-    "Cylinder": "viscofric.contact.indenters.indenter",
-    "Layer": "viscofric.contact.layers",
+    "Ball": "viscofric.contact.indenters.shapes",
+    "Cylinder": "viscofric.contact.indenters.shapes",
+    "Layer": "viscofric.contact.bodies",
     "PeriodicDiagnostics": "viscofric.contact.periodic.solution",
     "PeriodicSolution": "viscofric.contact.periodic.solution",
     "solve_periodic": "viscofric.contact.periodic.solve",

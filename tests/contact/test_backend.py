@@ -17,7 +17,8 @@ from contact.made_surfaces import self_affine
 from viscofric.contact.arrays.backend import THREADS_VARIABLE, Backend
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Window
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.errors import InputError

@@ -10,14 +10,14 @@ import pytest
 import viscofric as vf
 from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
 from viscofric.contact.free.balance import CUTS, lag, opening
-from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.free.nested import find_window, refine
-from viscofric.contact.free.problem import Problem
-from viscofric.contact.indenters.indenter import Ball, Cylinder
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial, bent_share, second_difference
+from viscofric.contact.free.problem import Control, Problem
+from viscofric.contact.indenters.shapes import Ball, Cylinder
+from viscofric.contact.operators.convolution import SteadyMaterial, bent_share, second_difference
+from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.reference import hunter_line
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def contact(geometry: Geometry, modulus_ratio: float, shares: list[float], memor
     """Return a ball or a cylinder of unit radius in units of the Hertz contact at E0."""
     compliances = (1.0 - 1.0 / modulus_ratio) * np.asarray(shares) / np.sum(shares)
     solid = SteadyMaterial(1.0 / modulus_ratio, compliances, np.asarray(memory_lengths))
-    return Problem(geometry, solid, INDENTERS[geometry.name], GivenLoad(geometry.parabolic_load), 1e-9)
+    return Problem(geometry, solid, INDENTERS[geometry.name], Control(load=geometry.parabolic_load), 1e-9)
 
 
 def coarse_stage(problem: Problem) -> Stage:

@@ -31,10 +31,11 @@ from gallery import (
     standard_linear_solid,
 )
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.free import control
+from viscofric.contact.free import problem as free_problem
 from viscofric.contact.free.grids import Window
-from viscofric.contact.indenters.indenter import Ball
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.indenters.shapes import Ball
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError, InputError
@@ -428,7 +429,7 @@ def test_second_attempt_solves_for_the_same_material(monkeypatch: pytest.MonkeyP
         result = solve_complementarity(*arguments, **settings)
         return replace(result, converged=result.converged and attempts > 1)
 
-    monkeypatch.setattr(control, "solve_complementarity", first_one_fails)
+    monkeypatch.setattr(free_problem, "solve_complementarity", first_one_fails)
     solution = problem.solve(accuracy=0.02)
     assert attempts > 1
     # Another path to the same discrete problem, solved to 1e-8.

@@ -14,7 +14,8 @@ from contact.dense_reference import (
 from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference, standard_linear_solid
 from viscofric.contact.complementarity import solve_complementarity, solve_on_contact
 from viscofric.contact.free.grids import Window
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.periodic.operator import PeriodicOperator
 
 MATERIALS = {

@@ -11,24 +11,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from viscofric.contact.bodies import Layer
 from viscofric.contact.derivatives.adjoint import friction_adjoint
 from viscofric.contact.derivatives.moving_cells import Motion
 from viscofric.contact.free.balance import lag, lag_changes
-from viscofric.contact.free.control import GivenIndentation, GivenLoad
 from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.grids import Window
 from viscofric.contact.free.nested import find_window
-from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.stage import Stage
-from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
-from viscofric.contact.indenters.shapes import Cone
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder
 from viscofric.contact.influence.layer_potentials import LayerCell
 from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence
 from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.moments import correlation, memory_moments
 from viscofric.contact.influence.potentials import HalfSpaceCell
-from viscofric.contact.layers import Layer
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.reference import hunter_line
 from viscofric.contact.steady import solve_steady
@@ -43,6 +42,7 @@ if TYPE_CHECKING:
 
     from viscofric.contact.derivatives.friction import FrictionDerivatives
     from viscofric.contact.free.geometry import Geometry
+    from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.influence.potentials import CellPotential
 
     Array = NDArray[np.float64]
@@ -158,7 +158,7 @@ def converged(
     """Solve on the window's first grid, as exactly as doubles allow."""
     compliances = (1.0 - 1.0 / k) * np.array([0.6, 0.4])
     solid = SteadyMaterial(1.0 / k, compliances, np.array([0.2 * length, length]), 0.1 if layered else 0.0)
-    control = GivenLoad(geometry.parabolic_load) if held == "load" else GivenIndentation(1.0)
+    control = Control(load=geometry.parabolic_load) if held == "load" else Control(indentation=1.0)
     layer = ScaledLayer(0.8, bonded=True, poisson_ratio=0.45) if layered else None
     if layer is not None:
         # In plane strain, without a counterface: a given indentation then has a meaning.
@@ -172,7 +172,9 @@ def friction(stage: Stage, way: str, **changed: float | Array) -> float:
     """Friction coefficient of a neighbouring problem on the same cells, which stay in contact."""
     held = changed.pop("held", None)
     solid = replace(stage.operator.material, **changed)  # type: ignore[arg-type]
-    control = stage.problem.control if held is None else type(stage.problem.control)(held)  # type: ignore[call-arg]
+    control = stage.problem.control
+    if held is not None:
+        control = Control(load=held) if control.indentation is None else Control(indentation=held)  # type: ignore[arg-type]
     operator = stage.problem.geometry.operator(stage.window, solid, stage.operator.shift)
     x = stage.window.x - stage.operator.shift * stage.window.spacing
     height = stage.problem.shape.height(x[:, None], stage.window.y)

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from viscofric.contact.indenters.height_map import HeightMap, Profile
-from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
-from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.contact.reference import hertz_ellipse
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 
 if TYPE_CHECKING:
+    from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
 
 RUBBER = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)

@@ -8,9 +8,9 @@ import pytest
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.influence.layer_potentials import LayerCell, LayerStrip
 from viscofric.contact.influence.potentials import cell_potential, cell_potential_xx
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.contact.operators.layer import LayerOperator, LineLayerOperator, ScaledLayer
-from viscofric.contact.operators.line import LineOperator
 from viscofric.errors import ConvergenceError
 
 TWO_MODES = SteadyMaterial(0.1, np.array([0.5, 0.4]), np.array([0.3, 3.0]))

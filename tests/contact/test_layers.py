@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg
 
 import viscofric as vf
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 

@@ -23,10 +23,10 @@ from gallery import (
 )
 from viscofric.contact.free.grids import Strip
 from viscofric.contact.indenters.height_map import Profile
-from viscofric.contact.indenters.indenter import Cylinder
+from viscofric.contact.indenters.shapes import Cylinder
 from viscofric.contact.influence.line import line_memory_influence, scaled_exponential_integral, strip_potential
 from viscofric.contact.operators.convolution import SteadyMaterial
-from viscofric.contact.operators.line import LineOperator
+from viscofric.contact.operators.half_space import LineOperator
 from viscofric.contact.reference import HunterContact, high_speed_line_friction, hunter_line
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError

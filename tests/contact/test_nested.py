@@ -4,27 +4,30 @@ from __future__ import annotations
 
 import logging
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 import viscofric as vf
 from gallery import standard_linear_solid
-from viscofric.contact.free.control import GivenIndentation, GivenLoad
 from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, settled
 from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.free.nested import find_window, refine
-from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.proximal import proximal_points
-from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
+from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.errors import ConvergenceError
 
+if TYPE_CHECKING:
+    from viscofric.contact.indenters.indenter import Indenter
+
 # A standard linear solid in units of the Hertz contact at E0, and indenters whose radius is one there.
 SOLID = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))
-PROBLEM = Problem(POINT, SOLID, Ball(radius=1.0), GivenLoad(POINT.parabolic_load), 1e-8)
-LINE_PROBLEM = Problem(LINE, SOLID, Cylinder(radius=1.0), GivenLoad(LINE.parabolic_load), 1e-8)
+PROBLEM = Problem(POINT, SOLID, Ball(radius=1.0), Control(load=POINT.parabolic_load), 1e-8)
+LINE_PROBLEM = Problem(LINE, SOLID, Cylinder(radius=1.0), Control(load=LINE.parabolic_load), 1e-8)
 
 
 @pytest.mark.parametrize("problem", [PROBLEM, LINE_PROBLEM], ids=["point", "line"])
@@ -85,7 +88,7 @@ def test_first_size_is_that_of_the_hertz_contact(indenter: Indenter) -> None:
     hard = SteadyMaterial(1e-3, np.empty(0), np.empty(0))
     geometry = indenter.geometry
     for solid, size in ((soft, 1.0), (hard, 1e-3 ** (1.0 / (geometry.dimension + 1.0)))):
-        problem = Problem(geometry, solid, indenter, GivenLoad(geometry.parabolic_load), 1e-8)
+        problem = Problem(geometry, solid, indenter, Control(load=geometry.parabolic_load), 1e-8)
         assert problem.first_size == pytest.approx(size, rel=1e-9)  # a fixed point: round-off
         # On 32 cells the contact ends within a cell of its true edge.
         stage = find_window(problem, problem.first_size)
@@ -96,7 +99,7 @@ def test_given_indentation_finds_the_load() -> None:
     stage = find_window(PROBLEM, 0.7)
     guess = 3.0 * stage.result.pressure  # a load three times too large
     height = PROBLEM.shape.height(stage.window.x[:, None], stage.window.y)
-    found = GivenIndentation(stage.indentation).solve(stage.operator, height, guess, 1e-9)
+    found = Control(indentation=stage.indentation).solve(stage.operator, height, guess, 1e-9)
     assert found.converged
     assert found.indentation == stage.indentation
     # Gaps of 1e-8 and 1e-9 of the indentation, over which the load grows with an exponent near 3/2.

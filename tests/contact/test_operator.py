@@ -8,7 +8,8 @@ import pytest
 import viscofric as vf
 from contact.dense_reference import displacement_coefficients, displacement_matrix
 from viscofric.contact.free.grids import Window
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial, collocation_shift
+from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
+from viscofric.contact.operators.half_space import HalfSpaceOperator
 
 WINDOW = Window(spacing=0.25, behind=6, ahead=5, beside=4)
 ONE_MODE = SteadyMaterial(0.1, np.array([0.9]), np.array([0.7]))

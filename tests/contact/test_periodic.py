@@ -11,7 +11,7 @@ import pytest
 import viscofric as vf
 from contact.dense_reference import solve_dense_contact
 from contact.made_surfaces import refined, self_affine
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.splitting import split_steps

@@ -11,8 +11,7 @@ import pytest
 from gallery import BALL_RADIUS, HERTZ_RADIUS, LOAD, POISSON_RATIO, RUBBER_MODULUS, SPEED, standard_linear_solid
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.height_map import HeightMap, Profile
-from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
-from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ellipse, sneddon_cone
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
@@ -20,6 +19,7 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
+    from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
 
 RUBBER = standard_linear_solid(10.0, 1.0).material

@@ -22,8 +22,8 @@ from gallery import (
 )
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Strip, Window
-from viscofric.contact.operators.convolution import HalfSpaceOperator, SteadyMaterial
-from viscofric.contact.operators.line import LineOperator
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.contact.reference import hunter_line
 from viscofric.errors import ConvergenceError
 

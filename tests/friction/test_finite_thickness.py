@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.friction.finite_thickness import ContactOnLayers
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum

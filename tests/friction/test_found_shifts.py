@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from friction.synthetic_curves import curves_of, noisy, planted_law, synthetic_curves
-from viscofric.contact.indenters.indenter import Ball
+from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.prediction import predict_friction
 from viscofric.friction.shifting.selection import widened, widening

@@ -10,8 +10,7 @@ import pytest
 
 from friction.synthetic_curves import curves_of
 from viscofric.contact.indenters.height_map import HeightMap
-from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
-from viscofric.contact.indenters.shapes import Cone
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.agreement import compare
@@ -25,6 +24,8 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from viscofric.contact.indenters.indenter import Indenter
 
     Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import pytest
 import xarray
 
 from study.sweeps import RECORD, friction_of, made_outcomes, made_sweep
-from viscofric.contact.indenters.indenter import Cylinder
+from viscofric.contact.indenters.shapes import Cylinder
 from viscofric.friction.curves import FrictionCurves
 from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.cases.record import NUMBERS, Record

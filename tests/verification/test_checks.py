@@ -10,10 +10,10 @@ import pytest
 
 from viscofric.contact import steady
 from viscofric.contact.arrays.transforms import ScipyTransforms
+from viscofric.contact.bodies import Layer
 from viscofric.contact.free.scale import Scale, ScaledIndenter
-from viscofric.contact.layers import Layer
-from viscofric.contact.operators.convolution import ConvolutionOperator, HalfSpaceOperator
-from viscofric.contact.operators.line import LineOperator
+from viscofric.contact.operators.convolution import ConvolutionOperator
+from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.contact.periodic.transfer import SlidingSolid
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.rheology import material

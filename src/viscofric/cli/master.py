@@ -106,7 +106,7 @@ def _shifted(
     curves: FrictionCurves, known: ShiftLaw | None, vertical: VerticalShift | None, asked: dict[str, Any]
 ) -> FrictionMasterCurve:
     """Shift friction curves by their own factors, or by those of the modulus where they have none."""
-    from viscofric.contact.indenters.indenter import Ball
+    from viscofric.contact.indenters.shapes import Ball
     from viscofric.errors import SuperpositionError
     from viscofric.friction.shifting.shift import shift_friction
 

@@ -14,7 +14,7 @@ from viscofric.cli.indenter_options import option
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.contact.layers import Layer
+    from viscofric.contact.bodies import Layer
     from viscofric.rheology.material import Material
     from viscofric.study.rubber import Rubber
 
@@ -174,7 +174,7 @@ def chosen_layer(asked: dict[str, Any]) -> Layer | None:
         if asked["sliding_base"]:
             raise click.UsageError("--sliding-base is for --layer only; a half-space has no base.")
         return None
-    from viscofric.contact.layers import Layer
+    from viscofric.contact.bodies import Layer
 
     return Layer(asked["layer"], not asked["sliding_base"])
 

@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arguments import flag, number, whole_number
-from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.bodies import Layer, indenter_compliance, unit_direction
+from viscofric.arguments import flag
 from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.estimates import friction_estimate
-from viscofric.contact.free.given_grid import COARSEST, LEAST_FINEST, GivenGrid
-from viscofric.contact.free.nested import find_window, refine
-from viscofric.contact.free.problem import GivenIndentation, GivenLoad, Problem
+from viscofric.contact.free.nested import GivenGrid, find_window, refine
+from viscofric.contact.free.problem import COARSEST, Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.indenters.indenter import (
     SMALL_STRAIN,
@@ -26,6 +23,7 @@ from viscofric.contact.indenters.indenter import (
 )
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
+from viscofric.contact.settings import ContactSettings
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
@@ -36,9 +34,10 @@ from viscofric.units import Quantity, positive, to_si, velocity
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from viscofric.contact.arrays.backend import Backend
+    from viscofric.contact.bodies import Layer
     from viscofric.contact.derivatives.friction import FrictionDerivatives
     from viscofric.contact.free.grids import Extent
-    from viscofric.contact.free.problem import Control
     from viscofric.contact.free.stage import Stage
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.modulus_table import ModulusTable
@@ -48,7 +47,6 @@ __all__ = ["SMALL_STRAIN", "solve_steady"]
 
 LONGEST_MEMORY = 1e100  # in contact radii; its square must not overflow
 _LOOSE = 5e-3  # accuracy that grids half as fine as usual mostly reach
-TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
 
 
 @one_blas_thread
@@ -151,65 +149,44 @@ def solve_steady(
     >>> round(solution.friction_coefficient, 4)
     0.0576
     """
-    if flag(derivatives, "derivatives"):
-        _check_derivatives(velocity(speed))
-    solved = _solved(
-        material, indenter, speed=speed, load=load, indentation=indentation, temperature=temperature,
+    settings = ContactSettings(
         accuracy=accuracy, tolerance=tolerance, finest=finest, window=window, grid=grid,
         indenter_modulus=indenter_modulus, indenter_poisson_ratio=indenter_poisson_ratio, layer=layer,
         backend=backend, direction=direction,
     )  # fmt: skip
-    solution = _solution(solved, material, indenter, temperature, layer)
-    return replace(solution, derivatives=_derivatives(solved)) if derivatives else solution
+    differentiated = flag(derivatives, "derivatives")
+    if differentiated:
+        _check_derivatives(velocity(speed))
+    solved = _solve(material, indenter, speed, load, indentation, temperature, settings)
+    solution = solved.solution()
+    return replace(solution, derivatives=solved.derivatives()) if differentiated else solution
 
 
 @one_blas_thread
 def solve_and_differentiate(
-    material: Material, indenter: Indenter, *, speed: Quantity, temperature: Quantity | None = None, **settings: Any
+    material: Material,
+    indenter: Indenter,
+    *,
+    speed: Quantity,
+    load: Quantity,
+    temperature: Quantity | None = None,
+    **settings: Any,
 ) -> ContactSolution:
     """Solve a contact as `solve_steady` does with derivatives, but without their error estimate.
 
-    That estimate takes an adjoint solve on each of the last grids; without it, theirs is infinite, and one enough.
-
-    Parameters
-    ----------
-    material, indenter, speed, temperature
-        As of `solve_steady`; the speed is neither zero nor infinite.
-    **settings
-        Likewise, but for `derivatives`.
-
-    Raises
-    ------
-    InputError, ConvergenceError
-        As `solve_steady`.
+    That estimate takes an adjoint solve on each of the last grids; without it, the error is infinite, and one solve
+    enough.  The speed is neither zero nor infinite; settings and errors as of `solve_steady`.
     """
     _check_derivatives(velocity(speed))
-    solved = _solved(material, indenter, speed=speed, temperature=temperature, **settings)
-    solution = _solution(solved, material, indenter, temperature, settings.get("layer"))
-    return replace(solution, derivatives=_derivatives(solved, with_error=False))
-
-
-def _solution(
-    solved: _Solved, material: Material, indenter: Indenter, temperature: Quantity | None, layer: Layer | None
-) -> ContactSolution:
-    kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
-    # What was given comes back as it was given, free of the rounding of sums and units.
-    solution = replace(assemble(solved.stages, solved.scale, solved.velocity, solved.toward, kelvin), **solved.given)
-    doubts = _doubts(solution, indenter, layer, solved.contact)
-    said = (*material.notes_on_modes, *_beyond_table(solution, material.spectrum, solved.spectrum))
-    return replace(solution, warnings=(*doubts, *said))
-
-
-def _derivatives(solved: _Solved, *, with_error: bool = True) -> FrictionDerivatives:
-    of_what = solved.stages, solved.scale, solved.spectrum, solved.plane_strain, solved.velocity
-    return differentiate(*of_what, with_error=with_error)
+    solved = _solve(material, indenter, speed, load, None, temperature, ContactSettings(**settings))
+    return replace(solved.solution(), derivatives=solved.derivatives(with_error=False))
 
 
 @one_blas_thread
 def friction_and_derivatives(
     material: Material, indenter: Indenter, *, speed: float, load: float, accuracy: float, **settings: Any
 ) -> tuple[float, float, FrictionDerivatives]:
-    """Solve a contact for its friction alone: what a fit that solves many of them needs, in half the time.
+    """Solve a contact for its friction alone, in half the time: for fits that solve many of them.
 
     Parameters
     ----------
@@ -226,107 +203,93 @@ def friction_and_derivatives(
         Its estimate.
     derivatives : FrictionDerivatives
         Those of `solve_steady`, without an error estimate, which takes adjoint solves on three grids: it is infinite.
-
-    Raises
-    ------
-    InputError, ConvergenceError
-        As `solve_steady`.
     """
     _check_derivatives(velocity(speed))
     coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
-    solved = _solved(material, indenter, speed=speed, load=load, accuracy=accuracy, coarsest=coarsest, **settings)
-    estimate, scale = friction_estimate(solved.stages), solved.scale
-    value, error = math.copysign(scale.slope, solved.velocity) * estimate.value, scale.slope * estimate.error
-    return value, error, _derivatives(solved, with_error=False)
+    chosen = ContactSettings(accuracy=accuracy, **settings)
+    solved = _solve(material, indenter, speed, load, None, None, chosen, coarsest)
+    estimate, slope = friction_estimate(solved.stages), solved.scale.slope
+    value, error = math.copysign(slope, solved.velocity) * estimate.value, slope * estimate.error
+    return value, error, solved.derivatives(with_error=False)
 
 
 class _Solved(NamedTuple):
-    """A contact on nested grids, what it was solved with, and where it lies along the indenter's own axes."""
+    """A contact on nested grids, with the material and the units in which it was solved."""
 
-    stages: list[Stage]
+    material: Material
+    indenter: Indenter
+    settings: ContactSettings
+    velocity: float  # m/s
+    temperature: float | None  # K
+    spectrum: RetardationSpectrum  # at this temperature
     scale: Scale
-    spectrum: RetardationSpectrum
-    plane_strain: float
-    velocity: float
-    toward: tuple[float, float]
-    given: dict[str, Any]
-    contact: Extent
+    given: dict[str, Any]  # load or indentation, SI
+    stages: list[Stage]
+    contact: Extent  # along the indenter's own axes, m
+
+    def solution(self) -> ContactSolution:
+        """Return the solution in SI units, with its warnings."""
+        found = assemble(self.stages, self.scale, self.velocity, self.settings.toward, self.temperature)
+        # What was given comes back as it was given, free of the rounding of sums and units.
+        found = replace(found, **self.given)
+        notes = _large_strains(found, self.indenter, self.settings.layer, self.contact)
+        extrapolated = _beyond_table(found, self.material.spectrum, self.spectrum)
+        return replace(found, warnings=(*notes, *self.material.notes_on_modes, *extrapolated))
+
+    def derivatives(self, *, with_error: bool = True) -> FrictionDerivatives:
+        """Return the derivatives of the friction coefficient; without an error estimate, it is infinite."""
+        plane_strain = 1.0 - self.material.poisson_ratio**2
+        return differentiate(self.stages, self.scale, self.spectrum, plane_strain, self.velocity, with_error=with_error)
 
 
-def _solved(
+def _solve(
     material: Material,
     indenter: Indenter,
-    *,
     speed: Quantity,
-    load: Quantity | None = None,
-    indentation: Quantity | None = None,
-    temperature: Quantity | None = None,
-    accuracy: float = 1e-3,
-    tolerance: float = 1e-8,
-    finest: int | None = None,
-    window: Sequence[Quantity] | None = None,
-    grid: int | None = None,
-    indenter_modulus: Quantity | None = None,
-    indenter_poisson_ratio: float = 0.3,
-    layer: Layer | None = None,
-    backend: Backend | str = "scipy",
-    direction: Sequence[float] = (1.0, 0.0),
+    load: Quantity | None,
+    indentation: Quantity | None,
+    temperature: Quantity | None,
+    settings: ContactSettings,
     coarsest: int = COARSEST,
 ) -> _Solved:
-    """Check, and solve on nested grids; parameters as of `solve_steady`."""
+    """Solve on nested grids, from so many cells along the longer edge of the coarsest; other arguments as given."""
     insist_on_indenter(indenter)
-    sliding = velocity(speed)
-    geometry = indenter.geometry
-    finest = geometry.finest if finest is None else finest
-    _check_settings(accuracy, tolerance, finest)
     insist_on_material(material)
+    sliding = velocity(speed)
+    kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
+    geometry, layer = indenter.geometry, settings.layer
+    toward = _toward(settings, indenter)
     spectrum = material.modes_at(temperature)
-    counterface = indenter_compliance(indenter_modulus, indenter_poisson_ratio)
-    plane_strain = 1.0 - material.poisson_ratio**2
+    plane_strain, counterface = 1.0 - material.poisson_ratio**2, settings.counterface
     compliance = plane_strain / spectrum.E0 + counterface
-    toward = _toward(direction, indenter)
-    if layer is not None and not isinstance(layer, Layer):
-        raise InputError(f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').")
     levelled = geometry.has_far_field or (layer is not None and counterface == 0.0)
     scale, control, given, held = _held(indenter, 1.0 / compliance, load, indentation, levelled)
     solid = _steady_material(spectrum, abs(sliding) / scale.length, plane_strain / compliance, counterface / compliance)
-    ahead = math.copysign(1.0, sliding)
     if len(solid.compliances):
         insist_on_round_edges(indenter)
+    ahead = math.copysign(1.0, sliding)
     shape = ScaledIndenter(indenter, scale, (ahead * toward[0], ahead * toward[1]))
-    problem = Problem(geometry, solid, shape, control, tolerance, Backend.of(backend), coarsest=coarsest)
+    problem = Problem(geometry, solid, shape, control, settings.tolerance, settings.where, coarsest=coarsest)
     if layer is not None:
         scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)
         problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)
-    given_grid = GivenGrid.of(window, grid, scale)
+    given_grid = GivenGrid.of(settings.window, settings.grid, scale)
     first = find_window(problem, problem.first_size)
     indenter.check(shape.extent(first.window, first.result.pressure > 0.0), held)
     given_grid.check(first.extent, first.window.spacing, scale.length)
-    stages = refine(first, accuracy, finest, given_grid)
+    finest = geometry.finest if settings.finest is None else settings.finest
+    stages = refine(first, settings.accuracy, finest, given_grid)
     contact = shape.extent(stages[-1].window, stages[-1].result.pressure > 0.0)
-    return _Solved(stages, scale, spectrum, plane_strain, sliding, toward, given, contact)
+    return _Solved(material, indenter, settings, sliding, kelvin, spectrum, scale, given, stages, contact)
 
 
-def _toward(direction: Sequence[float], indenter: Indenter) -> tuple[float, float]:
-    toward = unit_direction(direction)
-    if toward[1] != 0.0 and indenter.geometry.dimension == 1:
+def _toward(settings: ContactSettings, indenter: Indenter) -> tuple[float, float]:
+    if settings.toward[1] != 0.0 and indenter.geometry.dimension == 1:
         raise InputError(
-            f"direction = {brief(direction)}: a {indenter.noun} makes a line contact, which moves along x only; "
-            "right would be (1.0, 0.0) or (-1.0, 0.0)."
+            f"direction = {brief(settings.direction)}: a {indenter.noun} makes a line contact, which moves along x "
+            "only; give (1.0, 0.0) or (-1.0, 0.0)."
         )
-    return toward
-
-
-def _check_settings(accuracy: float, tolerance: float, finest: int) -> None:
-    least = TIGHTEST / LOOSEST
-    if not least <= number(accuracy, "accuracy") < 1.0:
-        raise InputError(f"accuracy = {brief(accuracy)}: must be a number from {least:g} to below 1, such as 1e-3.")
-    if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST * accuracy:
-        raise InputError(
-            f"tolerance = {brief(tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the accuracy, "
-            f"which is {LOOSEST * accuracy:g} for accuracy = {accuracy:g}, so that it does not spoil the friction."
-        )
-    whole_number(finest, "finest", LEAST_FINEST)
+    return settings.toward
 
 
 def _check_derivatives(velocity: float) -> None:
@@ -347,8 +310,9 @@ def _held(
         raise InputError(f"load and indentation: {both} given; give exactly one of them.")
     if load is not None:
         force = positive(load, geometry.load_unit, "load")
-        scale = Scale.for_load(indenter, stiffness, force)
-        return scale, GivenLoad(geometry.parabolic_load), {"load": force}, f"under {force:g} {geometry.load_unit}"
+        control = Control(load=geometry.parabolic_load)
+        held = f"under {force:g} {geometry.load_unit}"
+        return Scale.for_load(indenter, stiffness, force), control, {"load": force}, held
     if not levelled:
         raise InputError(
             f"indentation = {indentation!r}: has no meaning in plane strain, where the surface far away is infinitely "
@@ -356,7 +320,7 @@ def _held(
         )
     depth = positive(indentation, "m", "indentation")  # type: ignore[arg-type]
     scale = Scale.for_indentation(indenter, stiffness, depth)
-    return scale, GivenIndentation(1.0), {"indentation": depth}, f"{1e3 * depth:g} mm deep"
+    return scale, Control(indentation=1.0), {"indentation": depth}, f"{1e3 * depth:g} mm deep"
 
 
 def _steady_material(
@@ -386,22 +350,24 @@ def _steady_material(
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 
 
-def _doubts(solution: ContactSolution, indenter: Indenter, layer: Layer | None, contact: Extent) -> tuple[Note, ...]:
-    doubts = {"large-strain": indenter.doubt(contact, solution.indentation)}
+def _large_strains(
+    solution: ContactSolution, indenter: Indenter, layer: Layer | None, contact: Extent
+) -> tuple[Note, ...]:
+    found = {"large-strain": indenter.doubt(contact, solution.indentation)}
     if layer is not None:
-        doubts["deep-in-layer"] = layer.doubt(solution.indentation)
-    return tuple(Note(code, doubt) for code, doubt in doubts.items() if doubt)
+        found["deep-in-layer"] = layer.doubt(solution.indentation)
+    return tuple(Note(code, sentence) for code, sentence in found.items() if sentence)
 
 
 def _beyond_table(
     solution: ContactSolution, known: RetardationSpectrum | ModulusTable, modes: RetardationSpectrum
 ) -> tuple[str, ...]:
-    """Tell where the modes fitted to a table of moduli answer for frequencies that it refuses to tell."""
+    """Return a note where the friction rests on modes beyond the frequencies of a table that refuses to extrapolate."""
     if isinstance(known, RetardationSpectrum) or known.extrapolate != "refuse" or modes.fit is None:
         return ()
     low, high = modes.fit.frequency_range
     frequency = abs(solution.speed) / (0.5 * (solution.front + solution.rear))
-    # The elastic limits rest on E0 or E_inf alone, of which the fit tells by itself whether they are extrapolated.
+    # The elastic limits rest on E0 or E_inf alone; the fit's own notes say whether these are extrapolated.
     if frequency == 0.0 or math.isinf(frequency) or low <= frequency <= high:
         return ()
     said = (

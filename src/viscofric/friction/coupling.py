@@ -1,7 +1,7 @@
 """Whether Coulomb friction leaves the pressure alone: how far tangential and normal displacements are coupled.
 
 Under a wave of shear of unit amplitude the surface of a layer of thickness H on a bonded base moves up and down by X
-times what a wave of pressure moves a half-space's, where it moves the layer's by Θ (see `viscofric.contact.layers`).
+times what a wave of pressure moves a half-space's, where it moves the layer's by Θ (see `viscofric.contact.bodies`).
 With Q = qH and κ = 3 − 4ν, by the same equations ::
 
     X = [2κ(κ−1)/(κ+1) (cosh 2Q − 1) − 8Q²/(κ+1)] / [2κ cosh 2Q + 1 + κ² + 4Q²]
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.friction.assumption_check import AssumptionCheck, verdict
 from viscofric.friction.contact_size import place_of
 from viscofric.notes import Note

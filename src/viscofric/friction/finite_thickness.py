@@ -1,7 +1,7 @@
 """What the finite thickness of the rubber does to friction and indentation, estimated without solving a layer.
 
 Waves of pressure longer than the layer is thick move its surface by Θ(qH) of what they move a half-space's (see
-`viscofric.contact.layers`).  What the base takes from the displacement under the half-space's own pressure is a
+`viscofric.contact.bodies`).  What the base takes from the displacement under the half-space's own pressure is a
 smooth hollow as wide as the layer is thick; across a small contact it is a level, a slope and a curvature ::
 
     Δδ = ∫ d²q/(2π)² 2(1−ν²)/q (1 − Θ(qH)) Re S(q·v) p̂ p̂₀/F
@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

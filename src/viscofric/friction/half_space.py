@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.friction.assumption_check import AssumptionCheck, verdict
 from viscofric.friction.finite_thickness import THINNEST, ContactOnLayers
 from viscofric.notes import Note, Remedy

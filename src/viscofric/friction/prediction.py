@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypedDict, Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
 from viscofric.arguments import insist_on_function
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
+from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
@@ -18,26 +19,10 @@ from viscofric.rheology.material import insist_on_material
 from viscofric.units import Quantities, Quantity, positive, to_si_array
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
 
-    from viscofric.contact.arrays.backend import Backend
-    from viscofric.contact.layers import Layer
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-
-
-class ContactSettings(TypedDict, total=False):
-    """Settings of `viscofric.contact.steady.solve_steady` that may be passed on, by the same names."""
-
-    layer: Layer | None
-    direction: Sequence[float]
-    indenter_modulus: Quantity | None
-    indenter_poisson_ratio: float
-    tolerance: float
-    finest: int | None
-    window: Sequence[Quantity] | None
-    grid: int | None
-    backend: Backend | str
 
 
 def predict_friction(
@@ -51,7 +36,7 @@ def predict_friction(
     accuracy: float = 1e-3,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
-    **settings: Unpack[ContactSettings],
+    **settings: Unpack[ContactOptions],
 ) -> FrictionCurves:
     """Predict the viscoelastic friction at every one of the speeds and temperatures by solving the contact.
 
@@ -111,7 +96,7 @@ def predict_friction(
     """
     velocities = to_si_array(speeds, "m/s", "speeds")
     kelvins = to_si_array(temperatures, "K", "temperatures")
-    if unknown := settings.keys() - ContactSettings.__annotations__.keys():
+    if unknown := settings.keys() - ContactOptions.__annotations__.keys():
         raise TypeError(f"predict_friction() got an unexpected keyword argument {min(unknown)!r}")
     insist_on_material(material)
     insist_on_indenter(indenter)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.contact.counterface import indenter_compliance
+from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.steady import solve_and_differentiate
 from viscofric.rheology.spectra.retardation import RetardationSpectrum

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import singledispatch
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Ball
+    from viscofric.contact.indenters.shapes import Ball
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.rheology.material import Material

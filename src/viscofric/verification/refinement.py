@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.geometry import LINE, POINT
-from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
 from viscofric.errors import ConvergenceError
@@ -76,7 +75,7 @@ class _Parabola:
 
 def stages(geometry: Geometry, solid: SteadyMaterial, extent: tuple[float, float, float], grids: int) -> list[Stage]:
     """Solve on nested grids of 32, 64, … cells over −rear … front and ±side, in units of Hertz's contact at E0."""
-    problem = Problem(geometry, solid, _Parabola(), GivenLoad(geometry.parabolic_load), 1e-9, backend())
+    problem = Problem(geometry, solid, _Parabola(), Control(load=geometry.parabolic_load), 1e-9, backend())
     window = geometry.grid.around(*extent, 32)
     pressure = np.ones(window.shape)
     found: list[Stage] = []

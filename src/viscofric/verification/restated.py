@@ -9,8 +9,8 @@ import numpy as np
 
 from viscofric.contact import steady
 from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.shapes import Ellipsoid
-from viscofric.contact.layers import Layer
 from viscofric.contact.periodic import solve as periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.rheology.material import Material

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.indenters.height_map import Profile
-from viscofric.contact.indenters.indenter import Ball
+from viscofric.contact.indenters.shapes import Ball
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF

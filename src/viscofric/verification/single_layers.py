@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from viscofric.contact.indenters.indenter import Ball, Cylinder
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
+from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.reference import (
     foundation_modulus,
     rolling_foundation_ball,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.reference import (
     crossed_waves,

@@ -9,9 +9,8 @@ import pytest
 
 import viscofric as vf
 from viscofric.contact.derivatives.adjoint import friction_adjoint, friction_way
-from viscofric.contact.free.control import GivenLoad
 from viscofric.contact.free.nested import find_window, refine
-from viscofric.contact.free.problem import Problem
+from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -56,7 +55,7 @@ def solid(scale: Scale, logarithms: Array, contact: Contact) -> SteadyMaterial:
 def friction_on_its_cells(stage: Stage, way: str, scale: Scale, logarithms: Array, contact: Contact) -> float:
     """Friction coefficient of a neighbouring problem, found anew on the same cells, which stay in contact."""
     problem = stage.problem
-    control = GivenLoad(problem.geometry.parabolic_load * float(np.exp(logarithms[-1])))
+    control = Control(load=problem.geometry.parabolic_load * float(np.exp(logarithms[-1])))
     operator = problem.geometry.operator(stage.window, solid(scale, logarithms, contact), stage.operator.shift)
     height = problem.height_on(stage.window, stage.operator.shift)
     result = control.solve(operator, height, stage.result.pressure, 1e-13)
@@ -72,7 +71,7 @@ def test_adjoint_is_the_gradient_of_the_friction_on_its_cells(seed: int) -> None
     indenter, spectrum = {"ball": BALL, "cylinder": CYLINDER}[name], contact.spectrum
     scale = Scale.for_load(indenter, spectrum.E0 / PLANE_STRAIN, LOADS[name])
     none = np.zeros(len(spectrum.C) + 3)
-    control = GivenLoad(indenter.geometry.parabolic_load)
+    control = Control(load=indenter.geometry.parabolic_load)
     shape = ScaledIndenter(indenter, scale)
     problem = Problem(indenter.geometry, solid(scale, none, contact), shape, control, 1e-13, coarsest=16)
     stages = refine(find_window(problem, problem.first_size), 0.5, 512)

@@ -29,7 +29,6 @@ import numpy as np
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.free.balance import CUTS, free_gap, lag, lag_changes, neighbours
 from viscofric.contact.free.estimates import friction_estimate
-from viscofric.contact.free.problem import GivenLoad
 from viscofric.contact.influence.moments import correlation, memory_moments
 from viscofric.contact.operators.convolution import bent_share
 from viscofric.errors import ConvergenceError
@@ -206,7 +205,7 @@ def _adjoint_field(stage: Stage, by_pressure: Array, value: float, held: Array) 
     """
     total = float(stage.result.pressure.sum())
     each = value / total
-    if not isinstance(stage.problem.control, GivenLoad):
+    if stage.problem.control.load is None:
         field, _ = _field_and_level(stage, by_pressure - each, held, fixed_load=False)
         return field, 0.0, float(field.sum())
     field, level = _field_and_level(stage, by_pressure, held, fixed_load=True)

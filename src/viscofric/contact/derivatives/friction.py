@@ -10,7 +10,6 @@ import numpy as np
 
 from viscofric.contact.derivatives.adjoint import Way, friction_way
 from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
-from viscofric.contact.free.problem import GivenLoad
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -162,7 +161,7 @@ def _in_si(
     tau = (slope * abs(velocity) / scale.length) * gradient.memory_lengths
     log_tau = spectrum.tau * tau
     log_speed = float(log_tau.sum())
-    loaded = isinstance(stage.problem.control, GivenLoad)
+    loaded = stage.problem.control.load is not None
     unit, value = (scale.force, stage.load) if loaded else (scale.depth, stage.indentation)
     held, log_held = slope * gradient.held / unit, slope * gradient.held * value
     return FrictionDerivatives(

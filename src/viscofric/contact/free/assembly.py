@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from viscofric.contact.free.estimates import FRICTION_FLOOR, FootprintErrors, error_of, friction_estimate
-from viscofric.contact.free.problem import GivenLoad
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
 
 if TYPE_CHECKING:
@@ -75,7 +74,7 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
     linear = sum(one.linear_iterations for one in results)
     lean, energy = fine.pressure_friction, fine.energy_friction
     errors = FootprintErrors.of(stages)
-    loaded = isinstance(fine.problem.control, GivenLoad)
+    loaded = fine.problem.control.load is not None
     # The level that an indentation is counted from may be that of the leading edge, and is known no better than it.
     indentation = max(error_of(stages, "indentation"), fine.level_slope * errors.edge)
     return Diagnostics(

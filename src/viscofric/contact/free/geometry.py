@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from viscofric.contact.free.grids import Grid, Strip, Window
-from viscofric.contact.operators.convolution import ConvolutionOperator, HalfSpaceOperator
-from viscofric.contact.operators.half_space import LineOperator
+from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from viscofric.contact.operators.convolution import ConvolutionOperator
 
 
 @dataclass(frozen=True)

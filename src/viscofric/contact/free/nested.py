@@ -15,17 +15,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import check_cost
 from viscofric.contact.free.estimates import FEWEST_GRIDS, friction_estimate, least_error
-from viscofric.contact.free.given_grid import GivenGrid
+from viscofric.contact.free.grids import Extent
 from viscofric.contact.free.proximal import proximal_points
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import collocation_shift
-from viscofric.errors import ConvergenceError, InputError
+from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from viscofric.arrays import Array
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.free.problem import Problem
+    from viscofric.contact.free.scale import Scale
 
 
 logger = logging.getLogger(__name__)
@@ -253,3 +258,61 @@ def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
         f"{result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for.",
         code="not-converged",
     )
+
+
+@dataclass(frozen=True)
+class GivenGrid:
+    """A window and cells that the user gives instead of an accuracy; what is None is found.
+
+    Attributes
+    ----------
+    window : Extent or None
+        In the units of the problem.
+    cells : int or None
+        Along the window's longer edge on the finest grid.
+    """
+
+    window: Extent | None = None
+    cells: int | None = None
+
+    @classmethod
+    def of(cls, window: Sequence[Quantity] | None, cells: int | None, scale: Scale) -> GivenGrid:
+        """Return a user's window (three lengths, m, or two) and cells in the units of the problem."""
+        if cells is not None:
+            check_cost([cells] * scale.geometry.dimension, f"grid = {brief(cells)}: the window")
+        return cls(None if window is None else _extent(window, scale), cells)
+
+    def halvings(self, coarsest: int) -> int:
+        """How often cells are halved from a grid of about so many along the longer edge; at least twice."""
+        return 0 if self.cells is None else max(2, int(math.log2(self.cells / coarsest)))
+
+    def start(self, coarsest: int) -> int:
+        """Cells along the window's longer edge of the first grid, where one would start from so many."""
+        return coarsest if self.cells is None else math.ceil(self.cells / 2 ** self.halvings(coarsest))
+
+    def check(self, contact: Extent, cell: float, unit: float) -> None:
+        """Refuse a window that a contact reaches beyond, as a coarse grid saw it (in the units of the problem)."""
+        if self.window is None:
+            return
+        beyond = [there - edge for there, edge in zip(contact, self.window, strict=True)]
+        if max(beyond) > cell:
+            rear, front, side = (1e3 * unit * distance for distance in contact)
+            sides = f" and {side:.4g} mm to either side" if self.window.side > 0.0 else ""
+            raise InputError(
+                f"window: the contact reaches about {rear:.4g} mm behind the axis, {front:.4g} mm ahead of it{sides}; "
+                "give a window that leaves some space around it."
+            )
+
+
+def _extent(window: Sequence[Quantity], scale: Scale) -> Extent:
+    names = ("rear", "front", "side")[: scale.geometry.dimension + 1]
+    each = list(window) if isinstance(window, (list, tuple)) or np.ndim(window) == 1 else []
+    if len(each) != len(names):
+        raise InputError(f"window = {brief(window)}: must be {len(names)} lengths ({', '.join(names)}).")
+    lengths = [
+        to_si(length, "m", f"{name} of the window") / scale.length for length, name in zip(each, names, strict=True)
+    ]
+    found = Extent(*lengths, *([0.0] if len(lengths) == 2 else []))
+    if not (found.rear + found.front > 0.0 and (len(lengths) == 2 or found.side > 0.0)):
+        raise InputError(f"window = {brief(window)}: is empty; the front must lie ahead of the rear, the sides apart.")
+    return found

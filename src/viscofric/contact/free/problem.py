@@ -10,15 +10,18 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.free.given_grid import COARSEST
+from viscofric.contact.complementarity import solve_complementarity
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
+    from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.free.geometry import Geometry
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.operators.convolution import ConvolutionOperator, SteadyMaterial
     from viscofric.contact.operators.layer import ScaledLayer
+
+
+COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
 
 
 class Shape(Protocol):
@@ -38,6 +41,32 @@ class Shape(Protocol):
         """Slope of the height along y."""
 
 
+@dataclass(frozen=True)
+class Control:
+    """What holds the indenter: a given load or a given indentation; the other is None."""
+
+    load: float | None = None
+    indentation: float | None = None
+
+    def solve(
+        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
+    ) -> ComplementaritySolution:
+        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
+        inner = operator.for_corrections()
+        found = solve_complementarity(
+            operator,
+            height,
+            None if self.load is None else self.load / operator.window.cell_area,
+            guess,
+            indentation=self.indentation,
+            tolerance=tolerance,
+            patience=patience,
+            inner=inner,
+            extension=operator.extension(inner.dtype),
+        )
+        return found.on_numpy(operator.backend)
+
+
 @dataclass(frozen=True, eq=False)
 class Problem:
     """What is to be solved on every grid.
@@ -49,7 +78,6 @@ class Problem:
     solid : SteadyMaterial
     shape : Shape
     control : Control
-        Given load or given indentation.
     tolerance : float
         How exactly the contact conditions hold.
     backend : Backend
@@ -77,7 +105,7 @@ class Problem:
         hardly leaves the size a choice.
         """
         size = 1.0
-        if isinstance(self.control, GivenLoad):
+        if self.control.load is not None:
             for _ in range(60):
                 wave = np.array([1.0 / size])
                 yielding = 1.0 if self.layer is None else self.layer.yielding(wave)
@@ -89,71 +117,3 @@ class Problem:
     def height_on(self, window: Grid, shift: float) -> Array:
         """Height of the indenter where the gap is looked at: so many cells behind the cell centres."""
         return self.shape.height((window.x - shift * window.spacing)[:, None], window.y)
-
-
-class Control(Protocol):
-    """How the contact problem on one grid is closed."""
-
-    def solve(
-        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
-    ) -> ComplementaritySolution:
-        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
-
-
-@dataclass(frozen=True)
-class GivenLoad:
-    """The load is given.
-
-    Parameters
-    ----------
-    load : float
-    """
-
-    load: float
-
-    def solve(
-        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
-    ) -> ComplementaritySolution:
-        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
-        load, inner = self.load / operator.window.cell_area, operator.for_corrections()
-        found = solve_complementarity(
-            operator,
-            height,
-            load,
-            guess,
-            tolerance=tolerance,
-            patience=patience,
-            inner=inner,
-            extension=operator.extension(inner.dtype),
-        )
-        return found.on_numpy(operator.backend)
-
-
-@dataclass(frozen=True)
-class GivenIndentation:
-    """The indentation is given.
-
-    Parameters
-    ----------
-    indentation : float
-    """
-
-    indentation: float
-
-    def solve(
-        self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
-    ) -> ComplementaritySolution:
-        """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
-        inner = operator.for_corrections()
-        found = solve_complementarity(
-            operator,
-            height,
-            None,
-            guess,
-            indentation=self.indentation,
-            tolerance=tolerance,
-            patience=patience,
-            inner=inner,
-            extension=operator.extension(inner.dtype),
-        )
-        return found.on_numpy(operator.backend)

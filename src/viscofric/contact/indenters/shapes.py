@@ -1,4 +1,4 @@
-"""Other shapes of indenters: ellipsoid, cone, flat punch."""
+"""Smooth shapes of indenters: ball, cylinder, ellipsoid, cone, flat punch."""
 
 from __future__ import annotations
 
@@ -8,13 +8,116 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Indenter, too_steep
+from viscofric.contact.free.geometry import LINE, Geometry
+from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, too_steep
 from viscofric.errors import InputError
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.free.grids import Extent
+
+
+@dataclass(frozen=True)
+class Ball(Indenter):
+    """A ball, as contact mechanics takes it: the paraboloid r²/2R.
+
+    Parameters
+    ----------
+    radius : float, str or pint.Quantity
+        Radius of curvature R at the lowest point, m.
+
+    Raises
+    ------
+    InputError
+        If the radius is not a length above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> ball = vf.Ball("9.525 mm")
+    >>> float(ball.height(1e-3, 0.0)) == 1e-6 / (2 * 9.525e-3)
+    True
+    """
+
+    noun: ClassVar[str] = "ball"
+    radius: Quantity
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the lowest point at (x, y), in m."""
+        return (x**2 + y**2) / (2.0 * self.radius)  # type: ignore[operator]
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y)."""
+        return x / self.radius + 0.0 * y  # type: ignore[operator]
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y)."""
+        return 0.0 * x + y / self.radius  # type: ignore[operator]
+
+    @property
+    def reach(self) -> float:
+        """Half the largest width that a contact can have, m."""
+        return float(self.radius)
+
+    def doubt(self, contact: Extent, indentation: float) -> str | None:
+        """Return what is doubtful about small strain, if anything."""
+        return _too_wide(max(contact) / self.reach, self.noun)
+
+
+@dataclass(frozen=True)
+class Cylinder(Indenter):
+    """A long cylinder with its axis across the motion, as contact mechanics takes it: x²/2R, in plane strain.
+
+    Its load is per unit of length (N/m).
+
+    Parameters
+    ----------
+    radius : float, str or pint.Quantity
+        Radius of curvature R at the lowest point, m.
+
+    Raises
+    ------
+    InputError
+        If the radius is not a length above zero.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> vf.Cylinder("10 mm").radius
+    0.01
+    """
+
+    geometry: ClassVar[Geometry] = LINE
+    noun: ClassVar[str] = "cylinder"
+    radius: Quantity
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the lowest point at (x, y), in m."""
+        return x**2 / (2.0 * self.radius) + 0.0 * y  # type: ignore[operator]
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y)."""
+        return x / self.radius + 0.0 * y  # type: ignore[operator]
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y): zero."""
+        return 0.0 * x + 0.0 * y
+
+    @property
+    def reach(self) -> float:
+        """Half the largest width that a contact can have, m."""
+        return float(self.radius)
+
+    def doubt(self, contact: Extent, indentation: float) -> str | None:
+        """Return what is doubtful about small strain, if anything."""
+        return _too_wide(max(contact) / self.reach, self.noun)
 
 
 @dataclass(frozen=True)
@@ -169,3 +272,12 @@ class FlatPunch(Indenter):
     def doubt(self, contact: Extent, indentation: float) -> str | None:
         """Return what is doubtful about small strain, if anything."""
         return too_steep(indentation / float(self.radius))
+
+
+def _too_wide(ratio: float, noun: str) -> str | None:
+    if ratio <= SMALL_STRAIN:
+        return None
+    return (
+        f"The contact reaches {ratio:.2f} {noun} radii from the axis; above {SMALL_STRAIN} the assumption of "
+        f"small strain and of a parabolic {noun} is doubtful."
+    )

@@ -1,4 +1,4 @@
-"""The steady viscoelastic half-space as a linear operator: pressure to displacement by FFT, zero-padded."""
+"""The steady viscoelastic solid as a linear operator: pressure to displacement by FFT, zero-padded."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ import scipy.fft
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.extension import Extension, lag
 from viscofric.contact.influence.mixtures import memory_influence
-from viscofric.contact.influence.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
     from typing import Self
@@ -278,22 +277,6 @@ class ConvolutionOperator(ABC):
         damped._transfer = self._transfer + compliance
         damped._inverse_symbol = self._inverse_symbol / (1.0 + compliance * self._inverse_symbol)
         return damped
-
-
-@dataclass
-class HalfSpaceOperator(ConvolutionOperator):
-    """Displacement of the free half-space under pressures on rectangular cells (paper Eqs. 7 and 8)."""
-
-    unit = 1.0 / np.pi
-
-    @property
-    def cell(self) -> HalfSpaceCell:
-        """Potential of a cell, in units of the cell's length."""
-        return HalfSpaceCell(self.window.width / self.window.spacing)
-
-    def _influence(self) -> Influence:
-        instant = self.material.glassy + self.material.counterface
-        return cell_influence(self, self.cell, instant).times(self.unit, self.window.spacing)
 
 
 def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: float) -> Influence:

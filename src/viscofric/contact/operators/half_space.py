@@ -1,4 +1,4 @@
-"""The steady viscoelastic half-space in plane strain: pressure to displacement along a strip of cells."""
+"""The viscoelastic half-space: pressure to displacement, for point and line contacts."""
 
 from __future__ import annotations
 
@@ -8,10 +8,33 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence, strip_potential
-from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, bent_share, second_difference
+from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.contact.operators.convolution import (
+    ConvolutionOperator,
+    Influence,
+    bent_share,
+    cell_influence,
+    second_difference,
+)
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
+
+
+@dataclass
+class HalfSpaceOperator(ConvolutionOperator):
+    """Displacement of the free half-space under pressures on rectangular cells (paper Eqs. 7 and 8)."""
+
+    unit = 1.0 / np.pi
+
+    @property
+    def cell(self) -> HalfSpaceCell:
+        """Potential of a cell, in units of the cell's length."""
+        return HalfSpaceCell(self.window.width / self.window.spacing)
+
+    def _influence(self) -> Influence:
+        instant = self.material.glassy + self.material.counterface
+        return cell_influence(self, self.cell, instant).times(self.unit, self.window.spacing)
 
 
 @dataclass

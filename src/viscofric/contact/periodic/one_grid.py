@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import AnyArray, Backend
-    from viscofric.contact.complementarity import ComplementaritySolution
 
 
 _PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
@@ -38,6 +37,13 @@ _SHARES_OF_LAG = (1.0, 0.5)  # in turn, with more directions: oblique motions in
 _SHORT_WAVES = (2.7, 6.5)
 _ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the smallest and the largest
 _GROWTH = 2.0  # of the splitting's steps from round to round
+# Of the continuation through softer contacts: the part of the relaxed compliance that is added first; the largest and
+# the least factor from one added compliance to the next, and how much longer its logarithm grows after a success;
+# the tolerance and the products of each contact on the way; the part of the least compliance of any wave below which
+# nothing is added.
+_ADDED_FIRST, _ADDED_LAST = 0.3, 0.3
+_FACTOR, _LEAST_FACTOR, _LONGER = 1.8, 1.02, 1.3
+_SOFTER_TOLERANCE, _SOFTER_PRODUCTS = 1e-4, 300
 
 
 @dataclass(frozen=True)
@@ -240,14 +246,6 @@ class OneGrid:
         return self.backend.positive_part(pressure - low)
 
 
-_FIRST = 0.3  # of the relaxed compliance that is added
-_FACTOR, _LEAST_FACTOR = 1.8, 1.02  # from one added compliance to the next
-_LONGER = 1.3  # times as long in its logarithm is each step after one that succeeded
-_TOLERANCE = 1e-4  # on the way
-_PRODUCTS = 300  # for each contact on the way
-_LAST = 0.3  # added compliance over the least of any wave, below which nothing is added
-
-
 class Solve(Protocol):
     """Solves a contact with another operator."""
 
@@ -287,13 +285,15 @@ def continued(
     """
     transfer = operator.backend.to_numpy(operator.transfer)
     least = float((transfer.real.ravel()[1:] / relaxed.ravel()[1:]).min())
-    added, good, step, start = _FIRST, _FIRST * _FACTOR, math.log(_FACTOR), operator.products
+    added, good, step, start = _ADDED_FIRST, _ADDED_FIRST * _FACTOR, math.log(_FACTOR), operator.products
     while True:
-        last = added < _LAST * least
+        last = added < _ADDED_LAST * least
         softer = transfer if last else transfer + added * relaxed
         soft = operator if last else PeriodicOperator(softer, operator.shape, operator.precision, operator.backend)
         left = max(most_products - (operator.products - start), 1)
-        result = solve(soft, pressure, None if last else _TOLERANCE, left if last else min(_PRODUCTS, left))
+        result = solve(
+            soft, pressure, None if last else _SOFTER_TOLERANCE, left if last else min(_SOFTER_PRODUCTS, left)
+        )
         if soft is not operator:
             operator.products += soft.products
             operator.ffts += soft.ffts

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from viscofric.arrays import Array
-    from viscofric.friction.prediction import ContactSettings
+    from viscofric.contact.settings import ContactOptions
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
@@ -67,7 +67,7 @@ def friction_response(
     accuracy: float = 1e-3,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
-    **settings: Unpack[ContactSettings],
+    **settings: Unpack[ContactOptions],
 ) -> FrictionResponse:
     """Solve a contact at each of the speeds, and tell how friction changes with every mode, glass, speed and load.
 
@@ -150,7 +150,7 @@ def friction_response(
 
 
 def respond(
-    material: Material, indenter: Indenter, speed: float, load: float, accuracy: float, settings: ContactSettings
+    material: Material, indenter: Indenter, speed: float, load: float, accuracy: float, settings: ContactOptions
 ) -> Array:
     """Solve one contact: friction coefficient, its error, its derivatives by ln E_inf, ln v, ln F and each C_k."""
     try:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Ball, Cylinder, Indenter
-from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:

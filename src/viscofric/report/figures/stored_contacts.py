@@ -167,7 +167,7 @@ def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
 
     Notes
     -----
-    The kept pressure is convolved with the moving half-space (`viscofric.contact.fields.trail`), in cells that are
+    The kept pressure is convolved with the moving half-space (`viscofric.contact.fields.surface`), in cells that are
     merged down to about 64 along an edge.
     """
     found = [_calculated_trail(tree, contact, conditions) for contact, conditions in shown]
@@ -191,7 +191,7 @@ def _calculated_trail(tree: xr.DataTree, contact: Contact, conditions: dict[str,
 
 
 def _trail(contact: Contact, reduced_speed: float, spectrum: xr.Dataset, poisson_ratio: float) -> tuple[Array, Array]:
-    from viscofric.contact.fields.trail import surface_displacement
+    from viscofric.contact.fields.surface import surface_displacement
 
     x, y, pressure = _merged(contact)
     rear, front = contact.edges

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from viscofric.arrays import Mask
+    from viscofric.contact.bodies import Layer
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.layers import Layer
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material

@@ -14,11 +14,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from viscofric.contact.counterface import indenter_compliance
+from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.geometry import LINE
 from viscofric.contact.free.grids import Extent
-from viscofric.contact.indenters.indenter import Ball, Cylinder
-from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
@@ -32,9 +31,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from viscofric.arrays import Mask
+    from viscofric.contact.bodies import Layer
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.layers import Layer
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Rubbers, Settings

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from viscofric.arrays import Mask
-    from viscofric.contact.layers import Layer
+    from viscofric.contact.bodies import Layer
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Rubbers, Settings

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from scipy.ndimage import uniform_filter
 
-from viscofric.contact.fields.trail import surface_displacement
+from viscofric.contact.fields.surface import surface_displacement
 from viscofric.datasets import plain
 
 if TYPE_CHECKING:

@@ -1,0 +1,105 @@
+"""Settings of a free contact, checked when they are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, TypedDict
+
+from viscofric.arguments import number, whole_number
+from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.bodies import Layer, indenter_compliance, unit_direction
+from viscofric.errors import InputError, brief
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.units import Quantity
+
+LEAST_FINEST = 128  # three grids, so that the friction has an error estimate
+TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
+
+
+class ContactOptions(TypedDict, total=False):
+    """Settings of `viscofric.contact.steady.solve_steady` that may be passed on, by the same names."""
+
+    layer: Layer | None
+    direction: Sequence[float]
+    indenter_modulus: Quantity | None
+    indenter_poisson_ratio: float
+    tolerance: float
+    finest: int | None
+    window: Sequence[Quantity] | None
+    grid: int | None
+    backend: Backend | str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactSettings:
+    """What a contact has besides material, indenter, speed and load, and how it is solved.
+
+    Parameters
+    ----------
+    accuracy, tolerance, finest, window, grid, indenter_modulus, indenter_poisson_ratio, layer, backend, direction
+        As of `viscofric.contact.steady.solve_steady`.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, whatever the indenter.
+    """
+
+    accuracy: float = 1e-3
+    tolerance: float = 1e-8
+    finest: int | None = None
+    window: Sequence[Quantity] | None = None
+    grid: int | None = None
+    indenter_modulus: Quantity | None = None
+    indenter_poisson_ratio: float = 0.3
+    layer: Layer | None = None
+    backend: Backend | str = "scipy"
+    direction: Sequence[float] = (1.0, 0.0)
+
+    def __post_init__(self) -> None:
+        least, loosest = TIGHTEST / LOOSEST, LOOSEST * number(self.accuracy, "accuracy")
+        if not least <= self.accuracy < 1.0:
+            raise InputError(
+                f"accuracy = {brief(self.accuracy)}: must be a number from {least:g} to below 1, such as 1e-3."
+            )
+        if not TIGHTEST <= number(self.tolerance, "tolerance") <= loosest:
+            raise InputError(
+                f"tolerance = {brief(self.tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the "
+                f"accuracy, which is {loosest:g} for accuracy = {self.accuracy:g}, so that it does not spoil the "
+                "friction."
+            )
+        if self.finest is not None:
+            whole_number(self.finest, "finest", LEAST_FINEST)
+        if self.grid is not None:
+            right = f"the number of cells along the window's longer edge, {LEAST_FINEST} or more"
+            whole_number(self.grid, "grid", LEAST_FINEST, right=right)
+        if not (self.layer is None or isinstance(self.layer, Layer)):
+            raise InputError(f"layer = {brief(self.layer)}: must be a Layer, such as Layer(thickness='2 mm').")
+        self._derived  # noqa: B018  raises where indenter, direction or backend cannot be used
+
+    @property
+    def counterface(self) -> float:
+        """(1 − ν_i²)/E_i of the indenter, 1/Pa; zero where it is rigid."""
+        return self._derived[0]
+
+    @property
+    def toward(self) -> tuple[float, float]:
+        """Direction of the motion, of length one."""
+        return self._derived[1]
+
+    @property
+    def where(self) -> Backend:
+        """Arrays and FFTs that the contact is solved with."""
+        return self._derived[2]
+
+    @cached_property
+    def _derived(self) -> tuple[float, tuple[float, float], Backend]:
+        return (
+            indenter_compliance(self.indenter_modulus, self.indenter_poisson_ratio),
+            unit_direction(self.direction),
+            Backend.of(self.backend),
+        )
