@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from viscofric.contact.layers import Layer
+from viscofric.contact.bodies import Layer
 from viscofric.units import celsius, plain, told_speed
 
 if TYPE_CHECKING:

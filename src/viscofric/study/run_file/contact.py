@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from viscofric.contact.indenters.indenter import Ball, Cylinder
-from viscofric.contact.indenters.shapes import Cone, Ellipsoid
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.run_file.tables import (
     Angles,
