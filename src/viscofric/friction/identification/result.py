@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import flag, numbers
-from viscofric.friction.shifting.shift_agreement import log10_with_errors
 from viscofric.notes import codes
 from viscofric.units import celsius
 
@@ -235,7 +234,7 @@ class IdentifiedMaterial:
         if law is None:
             return None
         kelvin = getattr(law, "temperatures", self.friction.temperatures)
-        log10, error = log10_with_errors(law, kelvin)
+        log10, error = law.values_at(kelvin)
         return dataset(
             "temperature",
             {

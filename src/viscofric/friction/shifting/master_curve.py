@@ -109,13 +109,7 @@ class FrictionMasterCurve:
         if isinstance(self.shift, ShiftFactors):
             return self.shift
         kelvin = self.curves.temperatures
-        gradient = getattr(self.shift, "gradient", None)
-        covariance = getattr(self.shift, "covariance", None)
-        spread = None
-        if gradient is not None and covariance is not None:
-            slopes = gradient(kelvin)
-            spread = slopes @ covariance @ slopes.T
-        return ShiftFactors(kelvin, self.shift.log10(kelvin), self.reference, spread)
+        return ShiftFactors(kelvin, self.shift.log10(kelvin), self.reference, self.shift.covariance_at(kelvin))
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the points as a labelled data set along ``point``, with units and long names.

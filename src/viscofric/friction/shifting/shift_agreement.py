@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.shift_factors import ShiftFactors, referenced_covariance
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.arrays import Array, Mask
+    from viscofric.arrays import Array
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
@@ -85,7 +84,7 @@ class ShiftAgreement:
         from viscofric.datasets import dataset
 
         factors = self.found
-        known, known_error = log10_with_errors(self.other, factors.temperatures)
+        known, known_error = self.other.values_at(factors.temperatures)
         return dataset(
             "temperature",
             {
@@ -170,7 +169,7 @@ def compare_shift_factors(
     if not hasattr(law, "at_reference"):
         raise InputError(f"other must be ShiftFactors, a law, or what has them, not {type(other).__name__}.")
     law = law.at_reference(reference)
-    keep &= _known(law, table.temperatures)
+    keep &= law.valid_at(table.temperatures)
     if not np.any(keep):
         raise InputError(
             f"the shift factors to compare have no temperature in common beside the reference, "
@@ -178,7 +177,7 @@ def compare_shift_factors(
         )
     kelvin = table.temperatures[keep]
     y, y_spread = table.log10_values[keep], table.covariance[np.ix_(keep, keep)]
-    x, x_spread = np.asarray(law.log10(kelvin)), _covariance(law, kelvin)
+    x, x_spread = np.asarray(law.log10(kelvin)), law.covariance_at(kelvin)
     difference, spread = y - x, x_spread + y_spread
     told = _told(spread)
     chi2, freedom = _chi2(told @ difference, told @ spread @ told.T), len(told)
@@ -199,19 +198,6 @@ def compare_shift_factors(
     )
 
 
-def log10_with_errors(law: ShiftLaw, temperatures: Array) -> tuple[Array, Array]:
-    """Return log10 α (n,) of a law and its standard error at temperatures (n,), K.
-
-    Both are NaN where the law does not hold; the error of an exact law is zero.
-    """
-    values = np.full((2, len(temperatures)), np.nan)
-    exact = getattr(law, "covariance", None) is None
-    for row, kelvin in enumerate(np.asarray(temperatures).tolist()):
-        with suppress(InputError):
-            values[:, row] = law.log10(kelvin), 0.0 if exact else law.standard_error(kelvin)
-    return values[0], values[1]
-
-
 def _factors(found: Any, name: str) -> ShiftFactors:
     table = getattr(found, "shift_factors", found)
     if not isinstance(table, ShiftFactors):
@@ -220,31 +206,6 @@ def _factors(found: Any, name: str) -> ShiftFactors:
             f"{type(found).__name__}."
         )
     return table
-
-
-def _known(law: Any, kelvin: Array) -> Mask:
-    """Say at which temperatures (n,) a law answers."""
-    try:
-        law.log10(kelvin)
-    except InputError:
-        if kelvin.size == 1:
-            return np.array([False])
-        return np.concatenate([_known(law, kelvin[place : place + 1]) for place in range(kelvin.size)])
-    return np.full(kelvin.shape, True)
-
-
-def _covariance(law: Any, kelvin: Array) -> Array:
-    """Return the covariance of log10 α at temperatures (n,); zero of a law without one."""
-    if isinstance(law, ShiftFactors):
-        # Carried through linear interpolation in 1/T, and less that of the reference between temperatures.
-        inverse = 1.0 / law.temperatures[::-1]
-        weights = np.stack([np.interp(1.0 / kelvin, inverse, unit) for unit in np.eye(len(inverse))[::-1]], axis=-1)
-        return np.asarray(weights @ referenced_covariance(law.temperatures, law.covariance, law.reference) @ weights.T)
-    covariance = getattr(law, "covariance", None)
-    if covariance is None:
-        return np.zeros((len(kelvin), len(kelvin)))
-    gradient = law.gradient(kelvin)
-    return np.asarray(gradient @ covariance @ gradient.T)
 
 
 def _told(spread: Array) -> Array:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from viscofric.arrays import Array, Mask
+    from viscofric.arrays import Array
     from viscofric.report.data import Shifts, ShiftTable
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
@@ -131,10 +131,10 @@ def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLa
     axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
     every = []
     for law, look in zip(laws, looks(len(laws)), strict=True):
-        answered = _answered(law, table.temperature)
-        left = table.log10[answered] - np.asarray(law.log10(table.temperature[answered]))
+        valid = law.valid_at(table.temperature, above_pole=_NEAR_POLE)
+        left = table.log10[valid] - np.asarray(law.log10(table.temperature[valid]))
         handles += axes.plot(
-            warm[answered],
+            warm[valid],
             left,
             color=look.colour,
             marker=look.marker,
@@ -244,33 +244,20 @@ def bars(log10: Array, error: Array) -> Array:
 def draw_law(axes: Axes, law: ShiftLaw, temperatures: Array, whose: str = "") -> list[Any]:
     """Draw a law with its 95 % band over a range of temperatures (K), and return what the legend shows of them."""
     line = np.linspace(temperatures.min(), temperatures.max(), 400)
-    line = line[_answered(law, line)]
+    line = line[law.valid_at(line, above_pole=_NEAR_POLE)]
     if not line.size:
         return []
     warm, log10 = line - CELSIUS_ZERO, np.asarray(law.log10(line))
     handles: list[Any] = axes.plot(
         warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=VERMILION, label=f"{whose}{_described(law)}"
     )
-    if getattr(law, "covariance", None) is not None:
+    if law.has_standard_error:
         doubt = LEVEL_95 * np.asarray(law.standard_error(line))
         lower, upper = (10.0 ** np.clip(log10 + side * doubt, -_LARGEST, _LARGEST) for side in (-1.0, 1.0))
         handles.append(
             axes.fill_between(warm, lower, upper, color=VERMILION, alpha=0.25, linewidth=0, label="its 95 % band")
         )
     return handles
-
-
-def _answered(law: ShiftLaw, temperatures: Array) -> Mask:
-    """Say where a law answers, with some room to its pole."""
-    measured = getattr(law, "temperatures", None)
-    if measured is not None:
-        low, high = measured[0], measured[-1]
-        return np.asarray((temperatures >= low) & (temperatures <= high))
-    low, high = getattr(law, "extrapolation_limits", (0.0, np.inf))
-    pole = getattr(law, "pole", None)
-    if pole is not None:
-        low = max(low, pole + _NEAR_POLE)
-    return np.asarray((temperatures >= low) & (temperatures <= high))
 
 
 def _described(law: ShiftLaw) -> str:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.shifting.shift_agreement import log10_with_errors
 from viscofric.report.figures.style import degrees
 from viscofric.report.texts.numbers import ABSENT, finite, significant
 from viscofric.report.texts.tables import aligned
@@ -86,7 +85,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
         ["log10 α", *_pairs(found, doubt)],
     ]
     if known is not None and master.found:
-        values, errors = log10_with_errors(known.at_reference(master.reference), temperatures)
+        values, errors = known.at_reference(master.reference).values_at(temperatures)
         columns.append(["of the modulus", *_pairs(values, errors)])
         columns.append(["difference", *_pairs(found - values, np.hypot(errors, doubt))])
     return aligned(zip(*columns, strict=True))
@@ -98,7 +97,7 @@ def _factors(master: FrictionMasterCurve) -> tuple[Array, Array, Array]:
         factors = master.shift_factors
         return factors.temperatures, factors.log10_values, factors.standard_errors
     temperatures = master.curves.temperatures
-    return temperatures, *log10_with_errors(master.shift, temperatures)
+    return temperatures, *master.shift.values_at(temperatures)
 
 
 def _pairs(values: Any, errors: Any) -> list[str]:

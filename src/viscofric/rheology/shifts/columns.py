@@ -1,7 +1,8 @@
-"""Columns of a table of shifts, horizontal or vertical: checked alike."""
+"""Columns of a table of shifts, horizontal or vertical: checked alike; and shifts as plain records."""
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,3 +54,8 @@ def checked_covariance(values: Any, size: int, what: str) -> Array:
     if covariance.shape != (size, size) or np.any(np.diag(covariance) < 0.0):
         raise InputError(f"covariance of {what} must be {size} × {size} numbers, no variance below zero.")
     return covariance
+
+
+def as_record(value: Any) -> dict[str, Any]:
+    """Return a frozen dataclass as its class's name (``kind``) and its fields."""
+    return {"kind": type(value).__name__} | {field.name: getattr(value, field.name) for field in fields(value)}

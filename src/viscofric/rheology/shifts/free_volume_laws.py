@@ -77,8 +77,14 @@ class WLF(ParametricLaw):
         return self.reference - self.C2
 
     @property
-    def _divergence(self) -> float:
+    def _divergence(self) -> float:  # type: ignore[override]
         return self.pole
+
+    def _attributes(self) -> dict[str, Any]:
+        errors = {}
+        if self.standard_errors is not None:
+            errors = {"wlf_C1_error": self.standard_errors[0], "wlf_C2_error": self.standard_errors[1]}
+        return super()._attributes() | {"wlf_C1": self.C1, "wlf_C2": self.C2} | errors
 
     def _log10(self, kelvin: Array) -> Array:
         warmer = kelvin - self.reference
@@ -187,7 +193,7 @@ class VFT(ParametricLaw):
         self._set_fit(covariance, fitted_range, bounded)
 
     @property
-    def _divergence(self) -> float:
+    def _divergence(self) -> float:  # type: ignore[override]
         return self.T0
 
     def _log10(self, kelvin: Array) -> Array:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts import law_fitting
@@ -14,6 +16,8 @@ from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.rheology.shifts.law_fitting import FactorTable
     from viscofric.rheology.shifts.laws import ParametricLaw
 
@@ -123,6 +127,41 @@ class LawComparison:
     def explanation(self) -> str:
         """The notes as one text."""
         return " ".join(self.notes)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the laws that could be fitted as a labelled data set.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``law``, ``constants``, ``information_criterion``, ``akaike_weight`` and ``law_scatter`` along
+            ``fitted_law``.  Attributes: ``chosen`` and ``explanation``; ``refused``, the other laws, each with the
+            reason, as JSON.
+        """
+        fitted = [row for row in self.rows if row.law is not None]
+        lowest = min(row.aic for row in fitted)
+        weight = "Akaike weight among the laws of physics; zero for a polynomial that is not chosen"
+        scatter = "scatter of log10 of the shift factors about the law beyond their uncertainties"
+        refused = {row.title: row.refusal for row in self.rows if row.law is None}
+        return dataset(
+            "fitted_law",
+            {
+                "law": ([row.title for row in fitted], "1", "shift law"),
+                "constants": ([str(row.law) for row in fitted], "1", "constants of the law"),
+                "information_criterion": (
+                    [row.aic - lowest for row in fitted],
+                    "1",
+                    "Akaike information criterion above the lowest",
+                ),
+                "akaike_weight": ([row.weight for row in fitted], "1", weight),
+                "law_scatter": ([row.scatter for row in fitted], "1", scatter),
+            },
+            attributes={
+                "chosen": self.chosen.title,
+                "explanation": self.explanation,
+                "refused": json.dumps(refused, ensure_ascii=False),
+            },
+        )
 
 
 def compare_laws(table: FactorTable) -> LawComparison:

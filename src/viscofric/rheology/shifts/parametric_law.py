@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
@@ -9,8 +10,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 import numpy as np
 
 from viscofric.arguments import flag, numbers
+from viscofric.datasets import plain
 from viscofric.errors import InputError, brief
-from viscofric.rheology.shifts.columns import checked_covariance
+from viscofric.rheology.shifts.columns import as_record, checked_covariance
 from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
 from viscofric.units import CELSIUS_ZERO, celsius, kelvin_hint, positive, to_si_array
 
@@ -139,6 +141,11 @@ class ParametricLaw(ShiftLaw):
         return replace(self, **constants, covariance=None, fitted_range=None)  # type: ignore[type-var]
 
     @property
+    def has_standard_error(self) -> bool:
+        """Whether the uncertainty of α(T) is known: the law was fitted, or its constants have a covariance."""
+        return self.covariance is not None
+
+    @property
     def standard_errors(self) -> tuple[float, ...] | None:
         """Standard errors of the constants in the order of `parameters`, SI; None where the law was not fitted."""
         if self.covariance is None:
@@ -187,12 +194,13 @@ class ParametricLaw(ShiftLaw):
             )
         return _spread(self._gradient(kelvin), self.covariance)
 
-    # --- extrapolation ---------------------------------------------------------------------------------------
+    def _covariance(self, kelvin: Array) -> Array:
+        if self.covariance is None:
+            return super()._covariance(kelvin)
+        gradient = self._gradient(kelvin)
+        return np.asarray(gradient @ self.covariance @ gradient.T)
 
-    @property
-    def _divergence(self) -> float:
-        """Temperature at which the law diverges and below which it has no meaning, K."""
-        return 0.0
+    # --- extrapolation ---------------------------------------------------------------------------------------
 
     @property
     def extrapolation_limits(self) -> tuple[float, float]:
@@ -246,6 +254,18 @@ class ParametricLaw(ShiftLaw):
         low, high = self.fitted_range
         outside: Mask = (kelvin < low * (1 - SAME_TEMPERATURE)) | (kelvin > high * (1 + SAME_TEMPERATURE))
         return outside
+
+    def _valid(self, kelvin: Array) -> Mask:
+        valid = kelvin > self._divergence
+        if self.bounded and self.fitted_range is not None:
+            lowest, highest = self.extrapolation_limits
+            low, high = min(lowest, self.fitted_range[0]), max(highest, self.fitted_range[1])
+            valid &= (kelvin >= low * (1 - SAME_TEMPERATURE)) & (kelvin <= high * (1 + SAME_TEMPERATURE))
+        return np.asarray(valid)
+
+    def _attributes(self) -> dict[str, Any]:
+        constants = json.dumps(plain(as_record(self), None))
+        return {"law": self.title, "constants": constants, "told": str(self)}
 
     def _refuse(self, kelvin: Array) -> None:
         if np.any(kelvin <= self._divergence):

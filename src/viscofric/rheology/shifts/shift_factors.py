@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable
 
-    from viscofric.arrays import Array
+    import xarray
+
+    from viscofric.arrays import Array, Mask
     from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
     from viscofric.units import Quantities, Quantity
 
@@ -100,10 +102,37 @@ class ShiftFactors(ShiftLaw):
         """Standard error of each log10 α, zero at a reference that was measured."""
         return np.sqrt(np.diag(self.covariance))
 
+    @property
+    def has_standard_error(self) -> bool:
+        """True: a table without a covariance is taken for exact."""
+        return True
+
+    def to_dataset(self, temperatures: Any = None) -> xarray.Dataset:
+        """Return the factors as a labelled data set.
+
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity, optional
+            Plain numbers are in K; None: those of the table.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_shift_factor`` and its ``standard_error`` along ``temperature`` (K), NaN outside the table.
+            Attribute ``reference_temperature`` (K).
+        """
+        if temperatures is None:
+            return self._dataset(self.temperatures, self.log10_values, self.standard_errors)
+        return super().to_dataset(temperatures)
+
+    def _valid(self, kelvin: Array) -> Mask:
+        low, high = self.temperatures[0] - NOMINAL, self.temperatures[-1] + NOMINAL
+        return np.asarray((kelvin >= low) & (kelvin <= high))
+
     def _refuse(self, kelvin: Array) -> None:
-        low, high = self.temperatures[0], self.temperatures[-1]
-        outside = (kelvin < low - NOMINAL) | (kelvin > high + NOMINAL)
+        outside = ~self._valid(kelvin)
         if np.any(outside):
+            low, high = self.temperatures[0], self.temperatures[-1]
             wanted = float(kelvin[outside][0])
             raise InputError(
                 f"temperature = {celsius(wanted):z.1f} °C lies outside the measured "
@@ -131,6 +160,13 @@ class ShiftFactors(ShiftLaw):
         weights = _weights(self.temperatures, np.ravel(kelvin))
         variance = np.einsum("ij,jk,ik->i", weights, self.covariance, weights)
         return np.asarray(np.sqrt(np.maximum(variance, 0.0)).reshape(np.shape(kelvin)))
+
+    def _covariance(self, kelvin: Array) -> Array:
+        """Carry the covariance through the same interpolation, less that of a reference between temperatures."""
+        weights = _weights(self.temperatures, kelvin)
+        return np.asarray(
+            weights @ referenced_covariance(self.temperatures, self.covariance, self.reference) @ weights.T
+        )
 
     def at_reference(self, reference: Quantity) -> ShiftFactors:
         """Return the same factors with α = 1 at another temperature inside the measured range."""

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, overload
 
 import numpy as np
 
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.units import kelvin_hint, to_si_in_shape
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array, Mask
     from viscofric.units import Quantity
 
@@ -49,6 +52,14 @@ class ShiftLaw(ABC):
     @abstractmethod
     def _standard_error(self, kelvin: Array) -> Array:
         """Return the standard error of log10 α at temperatures that `_refuse` let pass."""
+
+    @property
+    def has_standard_error(self) -> bool:
+        """Whether the uncertainty of α(T) is known; False for constants that were typed in without a covariance."""
+        return False
+
+    #: Temperature at which the law diverges, and below which it has no meaning, K; zero for laws without a pole.
+    _divergence: float = 0.0
 
     @overload
     def log10(self, temperature: Quantity) -> float: ...
@@ -141,6 +152,119 @@ class ShiftLaw(ABC):
 
     def _outside(self, kelvin: Array) -> Mask:
         return np.zeros(np.shape(kelvin), dtype=bool)
+
+    @overload
+    def valid_at(self, temperature: Quantity, *, above_pole: float = 0.0) -> bool: ...
+    @overload
+    def valid_at(self, temperature: Temperatures, *, above_pole: float = 0.0) -> Mask: ...
+    def valid_at(self, temperature: Any, *, above_pole: float = 0.0) -> Any:
+        """Return whether the law has a value at a temperature, where `log10` raises no error.
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+        above_pole : float
+            Distance to keep from a pole of the law, K; for figures, as α has no bound there.
+
+        Returns
+        -------
+        bool or array of bool
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            If a temperature is not above absolute zero.
+        """
+        kelvin = in_kelvin(temperature)
+        valid = self._valid(np.ravel(kelvin)).reshape(np.shape(kelvin))
+        if self._divergence > 0.0:
+            valid = valid & (kelvin >= self._divergence + above_pole)
+        return bool(valid) if np.ndim(valid) == 0 else valid
+
+    def _valid(self, kelvin: Array) -> Mask:
+        """Say which temperatures (n,) `_refuse` lets pass; laws that know their limits need not try."""
+        return np.array([self._accepts(kelvin[place : place + 1]) for place in range(kelvin.size)], dtype=bool)
+
+    def _accepts(self, kelvin: Array) -> bool:
+        try:
+            self._refuse(kelvin)
+        except InputError:
+            return False
+        return True
+
+    def values_at(self, temperatures: Any) -> tuple[Array, Array]:
+        """Return log10 α and its standard error, also where the law has no value.
+
+        Parameters
+        ----------
+        temperatures : array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        log10, standard_error : array
+            In the shape of `temperatures`, NaN where the law is not valid (`valid_at`).  Standard errors that are not
+            known (`has_standard_error`) are zero.
+        """
+        kelvin = in_kelvin(temperatures)
+        valid = self.valid_at(kelvin)
+        values, errors = np.full(np.shape(kelvin), np.nan), np.full(np.shape(kelvin), np.nan)
+        if np.any(valid):
+            values[valid] = self._log10(kelvin[valid])
+            errors[valid] = self._standard_error(kelvin[valid]) if self.has_standard_error else 0.0
+        return values, errors
+
+    def covariance_at(self, temperatures: Temperatures) -> Array:
+        """Return the covariance of log10 α at temperatures (n,), as (n, n); zero where it is not known.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it.
+        """
+        kelvin = np.ravel(in_kelvin(temperatures))
+        self._refuse(kelvin)
+        return self._covariance(kelvin)
+
+    def _covariance(self, kelvin: Array) -> Array:
+        return np.zeros((kelvin.size, kelvin.size))
+
+    def to_dataset(self, temperatures: Any) -> xarray.Dataset:
+        """Return log10 α over temperature as a labelled data set.
+
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_shift_factor`` and, where it is known, its ``standard_error``, along ``temperature`` (K); NaN where
+            the law is not valid.  Attributes: ``reference_temperature`` (K), or those of the law with its constants.
+        """
+        kelvin = np.atleast_1d(in_kelvin(temperatures))
+        values, errors = self.values_at(kelvin)
+        return self._dataset(kelvin, values, errors if self.has_standard_error else None)
+
+    def _dataset(self, kelvin: Array, values: Array, errors: Array | None) -> xarray.Dataset:
+        return dataset(
+            "temperature",
+            {
+                "log10_shift_factor": (values, "1", "decadic logarithm of the shift factor"),
+                "standard_error": None
+                if errors is None
+                else (errors, "1", "standard error of log10 of the shift factor"),
+            },
+            coordinates={"temperature": (kelvin, "K", "temperature")},
+            attributes=self._attributes(),
+        )
+
+    def _attributes(self) -> dict[str, Any]:
+        """Attributes of `to_dataset`."""
+        return {"reference_temperature": self.reference}
 
 
 def _in_shape(values: Array) -> Any:

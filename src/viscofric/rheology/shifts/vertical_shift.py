@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -9,12 +10,15 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from viscofric.datasets import dataset, plain
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.columns import checked_columns
+from viscofric.rheology.shifts.columns import as_record, checked_columns
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array
     from viscofric.units import Quantities, Quantity
 
@@ -71,6 +75,47 @@ class VerticalShift(ABC):
     def __call__(self, temperature: Quantities) -> Any:
         """Return b(T); see `log10`."""
         return 10.0 ** self.log10(temperature)
+
+    def _standard_error(self, kelvin: Array) -> Array | None:
+        """Return the standard error of log10 b at temperatures that `_refuse` let pass; None where it is not known."""
+        return None
+
+    def to_dataset(self, temperatures: Any) -> xarray.Dataset:
+        """Return log10 b over temperature as a labelled data set.
+
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_vertical_shift`` and, where it is known, its ``vertical_standard_error``, along ``temperature`` (K).
+            Attributes: ``reference_temperature`` (K) and ``vertical_shift``, all of the shift as JSON.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it.
+        """
+        kelvin = to_si_array(temperatures, "K", "temperatures")
+        values = self.log10(kelvin)
+        errors = self._standard_error(kelvin)
+        return dataset(
+            "temperature",
+            {
+                "log10_vertical_shift": (values, "1", "decadic logarithm of the vertical shift b"),
+                "vertical_standard_error": None
+                if errors is None
+                else (errors, "1", "standard error of log10 of the vertical shift"),
+            },
+            coordinates={"temperature": (kelvin, "K", "temperature")},
+            attributes={
+                "reference_temperature": self.reference,
+                "vertical_shift": json.dumps(plain(as_record(self), None)),
+            },
+        )
 
 
 @dataclass(frozen=True)
@@ -187,13 +232,24 @@ class VerticalShiftFactors(VerticalShift):
                 f"where the vertical shift was measured; the density's, ρT/(ρ0 T0), goes beyond{kelvin_hint(wanted)}."
             )
 
+    def to_dataset(self, temperatures: Any = None) -> xarray.Dataset:
+        """Return log10 b as a labelled data set, at the temperatures of the table unless others are given."""
+        return super().to_dataset(self.temperatures if temperatures is None else temperatures)
+
     def _log10(self, kelvin: Array) -> Array:
         return np.asarray(np.interp(kelvin, self.temperatures, self.log10_values))
+
+    def _weights(self, kelvin: Array) -> Array:
+        """Return the weights (m, n) of the values in those at (m,) temperatures."""
+        return np.stack([np.interp(kelvin, self.temperatures, unit) for unit in np.eye(self.temperatures.size)], -1)
+
+    def _standard_error(self, kelvin: Array) -> Array:
+        weights = self._weights(kelvin)
+        return np.asarray(np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", weights, self.covariance, weights), 0.0)))
 
     def at_reference(self, reference: Quantity) -> VerticalShiftFactors:
         """Return the same table with b = 1 at another temperature inside the measured range."""
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
-        weights = np.array([np.interp(kelvin, self.temperatures, unit) for unit in np.eye(self.temperatures.size)])
-        change = np.eye(self.temperatures.size) - weights[None, :]
+        change = np.eye(self.temperatures.size) - self._weights(np.array([kelvin]))
         return VerticalShiftFactors(self.temperatures, self.log10_values, kelvin, change @ self.covariance @ change.T)

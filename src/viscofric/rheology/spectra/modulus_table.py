@@ -15,6 +15,7 @@ from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
@@ -141,6 +142,10 @@ class ModulusTable(FrequencyResponse):
 
     def __len__(self) -> int:
         return len(self.angular_frequency)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency`` (rad/s), as tabulated."""
+        return self.modulus_dataset(self.angular_frequency)
 
     @property
     def E0(self) -> float:

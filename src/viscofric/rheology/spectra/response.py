@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import numbers
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.units import positive
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
@@ -41,6 +43,30 @@ class FrequencyResponse(ABC):
         """Return tan δ = E''/E'."""
         modulus = self.complex_modulus(angular_frequency)
         return np.asarray(modulus.imag / modulus.real)
+
+    def modulus_dataset(self, angular_frequency: ArrayLike) -> xarray.Dataset:
+        """Return the complex modulus over frequency as a labelled data set.
+
+        Parameters
+        ----------
+        angular_frequency : (n,) array_like
+            rad/s.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency``.
+        """
+        omega = np.atleast_1d(numbers(angular_frequency, "angular_frequency"))
+        modulus = self.complex_modulus(omega)
+        return dataset(
+            "angular_frequency",
+            {
+                "storage_modulus": (modulus.real, "Pa", "storage modulus"),
+                "loss_modulus": (modulus.imag, "Pa", "loss modulus"),
+            },
+            coordinates={"angular_frequency": (omega, "rad/s", "angular frequency")},
+        )
 
     def relaxation_density(self, time: ArrayLike) -> Array:
         """Return the relaxation spectrum H(ln τ), Pa, estimated from the modulus at ω = 1/τ.

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.arguments import insist_on, numbers
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.response import (
@@ -20,6 +22,7 @@ from viscofric.rheology.spectra.response import (
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
@@ -119,6 +122,16 @@ class SpectrumFit:
         if self.E_inf_missed:
             return f"the fit lies below the stiffest measured E'{self._measured(1)}"
         return self._beyond if self.E_inf_extrapolated else _REACHED
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """What data sets of the spectrum say of the fit."""
+        return {
+            "E0_remark": self.E0_remark,
+            "E_inf_remark": self.E_inf_remark,
+            "E_inf_at_limit": int(self.E_inf_at_limit),
+            "statements": json.dumps(list(self.notes), ensure_ascii=False),
+        }
 
     @property
     def _beyond(self) -> str:
@@ -233,6 +246,24 @@ class RetardationSpectrum(FrequencyResponse):
         E, rates = reciprocal_modes(1.0 / self.E_inf, self.C, 1.0 / self.tau)
         rubber = 1.0 / (1.0 / self.E_inf + float(np.sum(self.C)))
         return RelaxationSpectrum(rubber, E[::-1], 1.0 / rates[::-1])
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the modes as a labelled data set; `modulus_dataset` returns the moduli over frequency.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``retardation_time`` (s) and ``creep_coefficient`` (1/Pa) along ``mode``.  Attributes: ``E0`` and ``E_inf``
+            (Pa), and what is to be said of them where the spectrum was fitted.
+        """
+        return dataset(
+            "mode",
+            {
+                "retardation_time": (self.tau, "s", "retardation time"),
+                "creep_coefficient": (self.C, "1/Pa", "creep coefficient C of the mode"),
+            },
+            attributes={"E0": self.E0, "E_inf": self.E_inf} | ({} if self.fit is None else self.fit.attributes),
+        )
 
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).
@@ -362,6 +393,23 @@ class RelaxationSpectrum(FrequencyResponse):
             )
         C, tau = reciprocal_modes(self.E0, self.E, self.tau)
         return RetardationSpectrum(self.E0, self.E_inf, C, tau)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the modes as a labelled data set; `modulus_dataset` returns the moduli over frequency.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``relaxation_time`` (s) and ``modulus`` (Pa) along ``mode``.  Attributes: ``E0`` and ``E_inf`` (Pa).
+        """
+        return dataset(
+            "mode",
+            {
+                "relaxation_time": (self.tau, "s", "relaxation time"),
+                "modulus": (self.E, "Pa", "modulus of the mode"),
+            },
+            attributes={"E0": self.E0, "E_inf": self.E_inf},
+        )
 
     def shifted(self, alpha: float, b: float = 1.0) -> RelaxationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
@@ -18,6 +20,8 @@ from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDis
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array
     from viscofric.data import Isotherm, MasterCurve
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -142,6 +146,23 @@ class SuperpositionCheck:
     def consistent(self) -> bool:
         """Whether E' and E'' belong to each other; True where that cannot be told."""
         return self.kramers_kronig is None or self.kramers_kronig.holds
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the temperatures (K) of the isotherms as a labelled data set, with the verdict as attributes."""
+        *holding, causality = self.sentences
+        return dataset(
+            "isotherm",
+            {"temperature": (np.unique(self.cole_cole.temperature), "K", "temperature")},
+            attributes={
+                "verdict": self.verdict,
+                "holds": int(self.holds),
+                "roughly": int(self.roughly),
+                "figure_of_merit": self.figure_of_merit,
+                "sentences": json.dumps(holding, ensure_ascii=False),
+                "consistent": int(self.consistent),
+                "causality": causality,
+            },
+        )
 
 
 def check(

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array, Mask
     from viscofric.data import MasterCurve
 
@@ -83,6 +86,28 @@ class KramersKronig:
 
     def __repr__(self) -> str:
         return f"KramersKronig(loss scale {self.loss_scale:.2f} ± {self.loss_scale_error:.2f})"
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the deviations as a labelled data set along ``angular_frequency`` (reduced, rad/s)."""
+        return dataset(
+            "angular_frequency",
+            {
+                "storage_deviation": (self.storage_deviation, "1", "log10 of E' from E'' alone over the measured E'"),
+                "loss_deviation": (self.loss_deviation, "1", "log10 of E'' from E' alone over the measured E''"),
+                "local_deviation": (self.local_deviation, "1", "log10 of π/2 dE'/d ln ω over the measured E''"),
+                "truncation": (self.truncation, "1", "part of log10 E' from relaxation beyond the measured range"),
+                "judged": (self.judged.astype(np.int8), "1", "whether the point is at least half a decade inside (1)"),
+            },
+            coordinates={"angular_frequency": (self.angular_frequency, "rad/s", "reduced angular frequency")},
+            attributes={
+                "holds": int(self.holds),
+                "rms_log10_storage": self.rms_storage,
+                "rms_log10_loss": self.rms_loss,
+                "loss_scale": self.loss_scale,
+                "loss_scale_error": self.loss_scale_error,
+                "sentence": self.sentence,
+            },
+        )
 
     @property
     def scale_differs(self) -> bool:

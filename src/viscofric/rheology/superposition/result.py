@@ -12,6 +12,8 @@ from viscofric.rheology.superposition.joined_isotherms import shown
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array
     from viscofric.data import Isotherm, MasterCurve
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -65,6 +67,30 @@ class Superposition:
             f"{shown(float(shifts.temperatures[-1]))}, reference {shown(shifts.reference)}, overlap misfit "
             f"{self.quality.joint:.4f} decades)"
         )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return shift factors, vertical shift and overlap of the isotherms as a labelled data set.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_shift_factor`` and ``standard_error`` along ``temperature`` (K), and ``log10_vertical_shift`` and
+            ``vertical_standard_error`` where there is a vertical shift; rms misfits of the overlaps (decades) among
+            the attributes.
+        """
+        found = self.shift_factors.to_dataset()
+        quality = self.quality
+        found.attrs |= {
+            "isotherms_used": len(self.shift_factors.temperatures),
+            "overlap_rms_log10_storage": quality.storage,
+            "overlap_rms_log10_loss": quality.loss,
+            "neighbours": quality.neighbours,
+            "neighbours_without_overlap": quality.without_overlap,
+        }
+        if self.vertical_shift is None:
+            return found
+        vertical = self.vertical_shift.to_dataset(self.shift_factors.temperatures)
+        return found.assign(vertical.data_vars).assign_attrs(vertical_shift=vertical.attrs["vertical_shift"])
 
     @cached_property
     @one_blas_thread

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.arguments import insist_on_function, numbers
+from viscofric.datasets import dataset
 from viscofric.units import share
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    import xarray
     from numpy.typing import ArrayLike, NDArray
 
     from viscofric.arrays import Array
@@ -128,6 +130,32 @@ class MaterialSamples:
             missed = NormalDist().inv_cdf(0.5 + 0.5 * level) * self.misfit.at(reduced)
             storage, loss = _widened(storage, missed[..., 0]), _widened(loss, missed[..., 1])
         return Band(*(real + 1j * imaginary for real, imaginary in zip(storage, loss, strict=True)))
+
+    def to_dataset(
+        self, angular_frequency: ArrayLike, temperature: Quantity | None = None, level: float = 0.95
+    ) -> xarray.Dataset:
+        """Return the limits of `modulus_band` as a labelled data set.
+
+        Parameters
+        ----------
+        angular_frequency, temperature, level
+            See `modulus_band`.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``storage_modulus_lower``, ``storage_modulus_upper``, ``loss_modulus_lower`` and ``loss_modulus_upper`` (Pa)
+            along ``angular_frequency`` (rad/s).
+        """
+        omega = np.atleast_1d(numbers(angular_frequency, "angular_frequency"))
+        band = self.modulus_band(omega, temperature, level)
+        columns = {}
+        for part, take in {"storage": np.real, "loss": np.imag}.items():
+            for end, limit in {"lower": band.lower, "upper": band.upper}.items():
+                meaning = f"{end} end of the {100 * level:g} % band of the {part} modulus"
+                columns[f"{part}_modulus_{end}"] = (take(limit), "Pa", meaning)
+        coordinates = {"angular_frequency": (omega, "rad/s", "angular frequency")}
+        return dataset("angular_frequency", columns, coordinates=coordinates)
 
     @property
     def notes(self) -> tuple[str, ...]:

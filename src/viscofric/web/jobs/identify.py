@@ -187,21 +187,17 @@ def _band(band: IdentifiedBand) -> dict[str, Any]:
 
 def _factors(found: IdentifiedMaterial) -> dict[str, Any] | None:
     """Return α(T) of the identified rubber at the temperatures of the friction; None where there is one only."""
-    from viscofric.friction.shifting.shift_agreement import log10_with_errors
-
     temperatures = found.friction.temperatures
     if found.shift_factors is None or len(temperatures) < 2:
         return None
     known = getattr(found.shift_factors, "temperatures", temperatures)
-    log10, error = log10_with_errors(found.shift_factors, known)
+    log10, error = found.shift_factors.values_at(known)
     return {"temperature": known, "log10": log10, "error": error, "found": found.shift_found}
 
 
 def _known(rubber: Material, found: IdentifiedMaterial, frequency: Any) -> dict[str, Any]:
     """Return the page's rubber at the temperature at which the identified one is described."""
     import numpy as np
-
-    from viscofric.friction.shifting.shift_agreement import log10_with_errors
 
     reference = found.material.reference
     if rubber.shift is not None and reference is not None:
@@ -211,7 +207,7 @@ def _known(rubber: Material, found: IdentifiedMaterial, frequency: Any) -> dict[
     if rubber.shift is not None:
         warm = found.friction.temperatures
         kelvin = np.linspace(warm.min(), warm.max(), 100)
-        told["factors"] = {"temperature": kelvin, "log10": log10_with_errors(rubber.shift, kelvin)[0]}
+        told["factors"] = {"temperature": kelvin, "log10": rubber.shift.values_at(kelvin)[0]}
     return told
 
 

@@ -176,11 +176,10 @@ def _line(law: ShiftLaw, temperatures: Any) -> dict[str, Any]:
     """Return a law between temperatures, with its 95 % band where it has one."""
     import numpy as np
 
-    from viscofric.friction.shifting.shift_agreement import log10_with_errors
     from viscofric.report.data import LEVEL_95
 
     kelvin = np.linspace(temperatures.min(), temperatures.max(), 100)
-    log10, error = log10_with_errors(law, kelvin)
+    log10, error = law.values_at(kelvin)
     doubt = LEVEL_95 * np.where(error > 0.0, error, np.nan)
     return {"temperature": kelvin, "log10": log10, "lower": log10 - doubt, "upper": log10 + doubt}
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.datasets import plain
-from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import LEVEL_95, ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
@@ -16,7 +14,7 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from viscofric.arrays import Array, Mask
+    from viscofric.arrays import Array
     from viscofric.rheology.shifts.law_comparison import LawRow
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
@@ -122,8 +120,9 @@ def _law_row(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, An
     }
     if row.law is None:
         return told
-    at = factors.temperatures[answered(row.law, factors.temperatures)]
-    left = factors.log10_values[answered(row.law, factors.temperatures)] - np.asarray(row.law.log10(at))
+    valid = row.law.valid_at(factors.temperatures, above_pole=_NEAR_POLE)
+    at = factors.temperatures[valid]
+    left = factors.log10_values[valid] - np.asarray(row.law.log10(at))
     return told | {
         "limits": _limits(row.law),
         "line": line_of(row.law, factors.temperatures),
@@ -163,27 +162,13 @@ def line_of(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
         ends = [usual if end is None else end for end, usual in zip(limits["answers"], (low, high), strict=True)]
         low, high = (ends[0], ends[1]) if limits["fitted"] is not None else (max(low, ends[0]), min(high, ends[1]))
     line = np.linspace(max(low, 1.0), high, _LINE)
-    line = line[answered(law, line)]
-    try:
-        error = LEVEL_95 * np.asarray(law.standard_error(line))
-    except InputError:  # constants that were given without a covariance
-        error = None
+    line = line[law.valid_at(line, above_pole=_NEAR_POLE)]
+    error = LEVEL_95 * np.asarray(law.standard_error(line)) if law.has_standard_error else None
     return {
         "temperature": plain(line),
         "log10": plain(np.asarray(law.log10(line))),
         "error95": None if error is None else plain(error),
     }
-
-
-def answered(law: ShiftLaw, temperatures: Array) -> Mask:
-    """Say where a law answers, with some room to its pole."""
-    if isinstance(law, ShiftFactors):
-        low, high = float(law.temperatures[0]), float(law.temperatures[-1])
-    else:
-        low, high = getattr(law, "extrapolation_limits", (0.0, math.inf))
-        pole = getattr(law, "pole", None)
-        low = low if pole is None else max(low, pole + _NEAR_POLE)
-    return np.asarray((temperatures >= low) & (temperatures <= high))
 
 
 def _vertical(shift: VerticalShift | None, measured: Array | None) -> dict[str, Any] | None:
