@@ -148,6 +148,9 @@ def test_measurements_and_master_curve(fit: vf.Superposition) -> None:
     first = data.storage_modulus[data.temperature.values == fit.isotherms[0].temperature]
     np.testing.assert_array_equal(first, fit.isotherms[0].storage_modulus)
     curve = fit.master_curve
-    fitted = curve.to_dataset(curve.complex_modulus)
-    np.testing.assert_array_equal(fitted.fitted_loss_modulus, curve.loss_modulus)
-    assert "fitted_loss_modulus" not in curve.to_dataset()
+    assert curve.to_dataset().attrs == {"reference_temperature": 303.15}
+    spectrum = vf.fit_retardation_spectrum(curve)
+    fitted = spectrum.master_curve_dataset(curve)
+    np.testing.assert_array_equal(fitted.fitted_loss_modulus, spectrum.loss_modulus(curve.angular_frequency))
+    away = np.log10(fitted.fitted_storage_modulus / fitted.storage_modulus)
+    assert float(np.sqrt((away**2).mean())) == pytest.approx(fitted.attrs["rms_log10_storage"])

@@ -87,11 +87,10 @@ def _shift_law(rubber: Rubber) -> xarray.Dataset | None:
 
 
 def _master_curve(curve: MasterCurve, material: Material) -> xarray.Dataset:
-    quality = material.spectrum.fit if isinstance(material.spectrum, RetardationSpectrum) else None
-    if quality is None:  # a liquid has no spectrum
+    spectrum = material.spectrum
+    if not isinstance(spectrum, RetardationSpectrum) or spectrum.fit is None:  # a liquid has no spectrum
         return curve.to_dataset()
-    fitted = curve.to_dataset(material.spectrum.complex_modulus(curve.angular_frequency))
-    return fitted.assign_attrs(rms_log10_storage=quality.rms_storage, rms_log10_loss=quality.rms_loss)
+    return spectrum.master_curve_dataset(curve)
 
 
 def _spectrum(material: Material, samples: MaterialSamples | None) -> dict[str, xarray.Dataset]:

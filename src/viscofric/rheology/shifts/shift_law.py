@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
-from viscofric.units import kelvin_hint, to_si_in_shape
+from viscofric.units import kelvin_hint, to_si, to_si_in_shape
 
 if TYPE_CHECKING:
     import xarray
@@ -177,10 +177,10 @@ class ShiftLaw(ABC):
         InputError
             If a temperature is not above absolute zero.
         """
-        kelvin = in_kelvin(temperature)
+        kelvin, margin = in_kelvin(temperature), to_si(above_pole, "delta_degC", "above_pole")
         valid = self._valid(np.ravel(kelvin)).reshape(np.shape(kelvin))
         if self._divergence > 0.0:
-            valid = valid & (kelvin >= self._divergence + above_pole)
+            valid = valid & (kelvin >= self._divergence + margin)
         return bool(valid) if np.ndim(valid) == 0 else valid
 
     def _valid(self, kelvin: Array) -> Mask:
@@ -245,7 +245,7 @@ class ShiftLaw(ABC):
             ``log10_shift_factor`` and, where it is known, its ``standard_error``, along ``temperature`` (K); NaN where
             the law is not valid.  Attributes: ``reference_temperature`` (K), or those of the law with its constants.
         """
-        kelvin = np.atleast_1d(in_kelvin(temperatures))
+        kelvin = np.ravel(in_kelvin(temperatures))
         values, errors = self.values_at(kelvin)
         return self._dataset(kelvin, values, errors if self.has_standard_error else None)
 

@@ -57,7 +57,7 @@ class FrequencyResponse(ABC):
         xarray.Dataset
             ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency``.
         """
-        omega = np.atleast_1d(numbers(angular_frequency, "angular_frequency"))
+        omega = np.ravel(numbers(angular_frequency, "angular_frequency"))
         modulus = self.complex_modulus(omega)
         return dataset(
             "angular_frequency",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.arguments import insist_on, numbers
+from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
@@ -264,6 +265,35 @@ class RetardationSpectrum(FrequencyResponse):
             },
             attributes={"E0": self.E0, "E_inf": self.E_inf} | ({} if self.fit is None else self.fit.attributes),
         )
+
+    def master_curve_dataset(self, master_curve: MasterCurve) -> xarray.Dataset:
+        """Return a master curve with this spectrum at the same points as a labelled data set.
+
+        Parameters
+        ----------
+        master_curve : MasterCurve
+            At the temperature of the spectrum.
+
+        Returns
+        -------
+        xarray.Dataset
+            As `MasterCurve.to_dataset`, with ``fitted_storage_modulus`` and ``fitted_loss_modulus`` (Pa).  Attributes
+            where the spectrum was fitted: ``rms_log10_storage`` and ``rms_log10_loss`` (decades).
+        """
+        insist_on(master_curve, "master_curve", MasterCurve)
+        fitted, of_fit = self.complex_modulus(master_curve.angular_frequency), "modulus of the fitted spectrum"
+        columns = dataset(
+            "reading",
+            {
+                "fitted_storage_modulus": (fitted.real, "Pa", f"storage {of_fit}"),
+                "fitted_loss_modulus": (fitted.imag, "Pa", f"loss {of_fit}"),
+            },
+            attributes={
+                "rms_log10_storage": None if self.fit is None else self.fit.rms_storage,
+                "rms_log10_loss": None if self.fit is None else self.fit.rms_loss,
+            },
+        )
+        return master_curve.to_dataset().assign(columns.data_vars).assign_attrs(columns.attrs)
 
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).

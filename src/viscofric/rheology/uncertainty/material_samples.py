@@ -147,7 +147,7 @@ class MaterialSamples:
             ``storage_modulus_lower``, ``storage_modulus_upper``, ``loss_modulus_lower`` and ``loss_modulus_upper`` (Pa)
             along ``angular_frequency`` (rad/s).
         """
-        omega = np.atleast_1d(numbers(angular_frequency, "angular_frequency"))
+        omega = np.ravel(numbers(angular_frequency, "angular_frequency"))
         band = self.modulus_band(omega, temperature, level)
         columns = {}
         for part, take in {"storage": np.real, "loss": np.imag}.items():
