@@ -172,7 +172,7 @@ def windows_figure(found: Windows) -> Figure:
 
 
 #: What all of it depends on, of the package.
-DEPENDS_ON = ("contact", "rheology", "verification", "report/verification_figures.py", "report/house_style.py")
+DEPENDS_ON = ("contact", "rheology", "verification", "report/figures/verification.py", "report/figures/style.py")
 
 
 def drawn(figure: Figure, name: str, letters: str = "none") -> bytes:

@@ -17,7 +17,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from viscofric.cli import main
-from viscofric.cli.run import tell
+from viscofric.cli.run import print_outcome
 from viscofric.notes import Note
 from viscofric.study import open_results
 from viscofric.study.results.file import save_results
@@ -165,7 +165,7 @@ def test_few_notes_are_printed_and_many_are_counted(
 ) -> None:
     results = open_results(finished)
     results.tree.attrs |= {"notes": json.dumps(["At -30 °C."] * notes), "failures": "[]", "warnings": "[]"}
-    tell(results)
+    print_outcome(results)
     printed = capsys.readouterr().err.splitlines()
     assert len(printed) == lines
     assert printed[0].startswith(f"{notes} notes on the data")
@@ -177,7 +177,7 @@ def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: 
     failures = [Note("accuracy", f"{speed} reached.", f"-90 °C, {speed} mm/s").record() for speed in (20, 40, 80)]
     warning = "In 3 of 9 cases, most of all at -90 °C, 20 mm/s: wide."
     results.tree.attrs |= {"notes": "[]", "failures": json.dumps(failures), "warnings": json.dumps([warning])}
-    tell(results)
+    print_outcome(results)
     assert capsys.readouterr().err.splitlines() == [
         "Warning: In 3 of 9 cases, most of all at −90 °C, 20 mm/s: wide.",
         "Failed: 3 cases (−90 °C, 20 mm/s; −90 °C, 40 mm/s; −90 °C, 80 mm/s): 20 reached.",

@@ -98,7 +98,7 @@ def test_curves_go_into_a_pipe_without_the_table() -> None:
         ([*RUBBER, *BALL, "--speed", "1 m"], 1, "wrong kind of unit"),
         ([*RUBBER, *BALL, "--speed", "0 m/s"], 1, "above zero"),
         ([*RUBBER, *BALL, "--speed", "1 m/s to 2 m/s to 3 m/s"], 2, "a range has two ends"),
-        ([*RUBBER, *BALL, "--speed", "1 m/s", "--samples", "20"], 2, "made of sweeps"),
+        ([*RUBBER, *BALL, "--speed", "1 m/s", "--samples", "20"], 2, "fitted to sweeps"),
         ([*SINGLE, *BALL, "--speed", "1 m/s", "--temperature", "20 degC, 30 degC"], 2, "one --temperature"),
         ([*RUBBER, *BALL, "--speed", "1 m/s", "--out", "curves.txt"], 2, "must end in .csv"),
     ],

@@ -98,7 +98,7 @@ def test_the_rubber_is_read_back_by_the_other_commands(found: tuple[Path, dict[s
     ],
 )
 def test_the_size_of_a_contact_is_an_anchor_too(option: str, text: str, name: str, value: float) -> None:
-    from viscofric.cli.anchor_options import check_anchor, make_anchor
+    from viscofric.cli.identify import check_anchor, make_anchor
 
     names = ("modulus", "frequency", "indentation", "area", "half_width", "speed", "load", "temperature", "error")
     asked: dict[str, Any] = {f"anchor_{one}": None for one in names}

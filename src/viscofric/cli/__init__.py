@@ -15,8 +15,7 @@ try:
 
     import click
 
-    from viscofric.cli.lazy import LazyGroup
-    from viscofric.cli.overview import COMMANDS, write_overview
+    from viscofric.cli.overview import COMMANDS, LazyGroup, write_overview
 except KeyboardInterrupt:  # the user may change their mind while Python still loads
     sys.stderr.write("Interrupted.\n")
     sys.exit(INTERRUPTED)

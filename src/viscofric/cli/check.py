@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.errors import print_notes, reported_errors
 
 if TYPE_CHECKING:
     from viscofric.study.cases.sweep import Axis
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from viscofric.study.rubber import Rubber
 
 _STDIN = Path("standard input")
-# Axes that are not told when they stand alone: the materials are listed, and one sample is the best estimate.
+# Axes that are not listed when they stand alone: the materials are listed, and one sample is the best estimate.
 _NOT_SHOWN = {"material", "sample"}
 _PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thickness": "thicknesses"}
 
@@ -45,7 +45,7 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         _check_results(results, as_json)
         return
     assert study is not None
-    with told("run_file"):
+    with reported_errors("run_file"):
         from viscofric.study.checking import check_study
         from viscofric.study.run_file.study import decoded, parse_study, read_study_text
 
@@ -61,12 +61,12 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         return
     for word, line in _lines(found, record, study):
         click.echo(f"{word:10} {line}")
-    tell_notes(found.notes, "run_file")
+    print_notes(found.notes, "run_file")
 
 
 def _check_results(folder: Path, as_json: bool) -> None:
     """Say which files of a folder of results are damaged; exit status 1 if any is."""
-    with told():
+    with reported_errors():
         from viscofric.study.running.folder import check_results
 
         found = check_results(folder)
@@ -205,9 +205,9 @@ def _points(axis: Axis) -> str:
 
 
 def _axis_line(columns: dict[str, list[Any]], line: bool) -> str:
-    told = ", ".join(f"{name} {_span(name, values, line)}" for name, values in columns.items())
+    listed = ", ".join(f"{name} {_span(name, values, line)}" for name, values in columns.items())
     points = len(next(iter(columns.values())))
-    return told if points == 1 else f"{told} ({points:,})"
+    return listed if points == 1 else f"{listed} ({points:,})"
 
 
 def _span(name: str, values: list[Any], line: bool) -> str:

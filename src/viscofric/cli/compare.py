@@ -46,11 +46,11 @@ def command(first: Path, second: Path, tolerance: float | None, as_json: bool) -
     if as_json:
         click.echo(json.dumps(_record(first, second, found), indent=2, ensure_ascii=False, allow_nan=False))
     else:
-        _tell(first, second, found)
+        _print(first, second, found)
     sys.exit(0 if found.equal else DIFFERENT)
 
 
-def _tell(first: Path, second: Path, found: ResultsComparison) -> None:
+def _print(first: Path, second: Path, found: ResultsComparison) -> None:
     from viscofric.report.texts.tables import aligned
 
     click.echo(f"A  {first}\nB  {second}\n")

@@ -1,15 +1,142 @@
-"""Options of a contact besides rubber, indenter and speed: shared by the commands that solve one or many."""
+"""Options of a contact: the indenter, and the settings of the solver."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from viscofric.contact.indenters.indenter import Indenter
+
+
+_FILE = click.Path(path_type=Path, dir_okay=False)
+
+_INDENTER = (
+    click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
+    click.option(
+        "--cylinder",
+        metavar="RADIUS",
+        help="Cylinder radius (axis across the motion; line contact, load per unit length).",
+    ),
+    click.option(
+        "--ellipsoid",
+        metavar="RX,RY",
+        help="Ellipsoid: radii of curvature along x (the default direction of motion) and y.",
+    ),
+    click.option("--cone", metavar="ANGLE", help="Cone: angle between flank and surface, e.g. '5 deg'."),
+    click.option(
+        "--punch", metavar="RADIUS", help="Radius of a flat circular punch with a sharp edge; zero speed only."
+    ),
+    click.option(
+        "--height-map",
+        type=_FILE,
+        help="Table of heights (text or .npy); one line per position along the motion. Needs --spacing.",
+    ),
+    click.option(
+        "--profile", type=_FILE, help="One column of heights along the motion (line contact). Needs --spacing."
+    ),
+    click.option(
+        "--spacing", metavar="LENGTH", help="Spacing of the heights: '5 um', or '5 um,10 um' along and across."
+    ),
+    click.option("--height-unit", metavar="UNIT", help="Unit of the heights in the file [default: m]."),
+)
+#: Options, one of which says what shape it is.
+SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
+
+
+def indenter_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of the indenter alone."""
+    for option in reversed(_INDENTER):
+        function = option(function)
+    return function
+
+
+def option(name: str) -> str:
+    """Return an option as it is typed."""
+    return "--" + {"rubber_modulus": "E0", "glass_modulus": "E-inf"}.get(name, name.replace("_", "-"))
+
+
+class NamedIndenter(NamedTuple):
+    """An indenter, and what it is in words and in plain types."""
+
+    indenter: Indenter
+    words: str
+    record: dict[str, Any]
+
+
+def chosen_indenter(asked: dict[str, Any]) -> NamedIndenter:
+    """Return the indenter that the options name."""
+    given = [name for name in SHAPES if asked[name] is not None]
+    if len(given) != 1:
+        if not given:
+            raise click.UsageError(f"nothing says what the indenter is; give {', '.join(map(option, SHAPES))}.")
+        raise click.UsageError(f"{' and '.join(map(option, given))} are both given; there is one indenter.")
+    (shape,) = given
+    if shape in ("height_map", "profile"):
+        return _mapped(shape, asked)
+    for name in ("spacing", "height_unit"):
+        if asked[name] is not None:
+            raise click.UsageError(f"{option(name)} is for --height-map and --profile only.")
+    return _simple(shape, asked[shape])
+
+
+def _simple(shape: str, text: str) -> NamedIndenter:
+    from viscofric.contact.indenters.indenter import Ball, Cylinder
+    from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
+    from viscofric.report.texts.numbers import length
+
+    if shape == "ellipsoid":
+        parts = text.split(",")
+        if len(parts) != 2:
+            raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along x and y: '10 mm,40 mm'.")
+        ellipsoid = Ellipsoid(*(part.strip() for part in parts))
+        x, y = float(ellipsoid.radius_x), float(ellipsoid.radius_y)
+        words = f"Ellipsoid, radii {length(x)} along x and {length(y)} along y"
+        return NamedIndenter(ellipsoid, words, {"shape": shape, "radius_x": x, "radius_y": y})
+    if shape == "cone":
+        cone = Cone(text)
+        angle = float(cone.angle)
+        return NamedIndenter(cone, f"Cone with flanks of {math.degrees(angle):.4g}°", {"shape": shape, "angle": angle})
+    kinds: dict[str, tuple[Any, str]] = {
+        "ball": (Ball, "Ball"),
+        "cylinder": (Cylinder, "Cylinder"),
+        "punch": (FlatPunch, "Flat punch"),
+    }
+    kind, noun = kinds[shape]
+    round_one = kind(text)
+    radius = float(round_one.radius)
+    return NamedIndenter(round_one, f"{noun} of radius {length(radius)}", {"shape": shape, "radius": radius})
+
+
+def _mapped(shape: str, asked: dict[str, Any]) -> NamedIndenter:
+    from viscofric.contact.indenters.height_map import HeightMap, Profile
+    from viscofric.errors import InputError
+    from viscofric.readers.topography.tables import read_heights
+
+    path: Path = asked[shape]
+    if asked["spacing"] is None:
+        raise click.UsageError(f"{option(shape)} needs --spacing, the distance of its heights, such as '5 um'.")
+    heights = read_heights(path, asked["height_unit"] or "m")
+    steps = tuple(part.strip() for part in asked["spacing"].split(","))
+    if shape == "profile" and (min(heights.shape) > 1 or len(steps) > 1):
+        raise click.UsageError(f"--profile is one column of heights with one spacing; {path} holds a map.")
+    try:
+        one = steps if len(steps) > 1 else steps[0]
+        made = Profile(heights.ravel(), steps[0]) if shape == "profile" else HeightMap(heights, one)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    points = [heights.size] if shape == "profile" else list(heights.shape)
+    spacing = [float(step) for step in np.atleast_1d(made.spacing)]
+    noun = "Profile" if shape == "profile" else "Height map"
+    words = f"{noun} of {path.name}, {' × '.join(map(str, points))} points"
+    return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})
+
 
 _OPTIONS = (
     click.option(
@@ -52,15 +179,7 @@ def inputs_of(asked: dict[str, Any]) -> list[Path]:
 
 
 def contact_settings(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of `solve_steady` that the options ask for.
-
-    Raises
-    ------
-    click.UsageError
-        If something is given that goes with something else, or the direction is none.
-    InputError
-        If a quantity has no unit.
-    """
+    """Return the settings of `solve_steady` that the options ask for."""
     if asked["indenter_poisson_ratio"] is not None and asked["indenter_modulus"] is None:
         raise click.UsageError("--indenter-poisson-ratio is for --indenter-modulus only; a rigid indenter has none.")
     ratio = asked["indenter_poisson_ratio"]
@@ -74,15 +193,7 @@ def contact_settings(asked: dict[str, Any]) -> dict[str, Any]:
 
 
 def chosen_direction(text: str) -> tuple[float, float]:
-    """Return the direction of the motion that an angle or two components name.
-
-    Raises
-    ------
-    click.UsageError
-        If it is neither.
-    InputError
-        If the angle has no unit.
-    """
+    """Return the direction of the motion that an angle or two components name."""
     if "," in text:
         try:
             x, y = (float(part) for part in text.split(","))

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.contact_bar import contact_bar
-from viscofric.cli.contact_options import contact_options, contact_settings, inputs_of
-from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.contact_options import (
+    chosen_indenter,
+    contact_options,
+    contact_settings,
+    indenter_options,
+    inputs_of,
+)
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, write_curves
-from viscofric.cli.indenter_options import chosen_indenter, indenter_options
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
@@ -94,7 +98,8 @@ def command(
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, inputs_of(asked))
-    with told():
+    with reported_errors():
+        from viscofric.cli.progress import contact_bar
         from viscofric.friction.prediction import predict_friction
 
         velocities = [speed for text in speeds for speed in _speeds(text, points)]
@@ -118,8 +123,8 @@ def command(
         if as_json:
             click.echo(json.dumps(_record(curves, rubber, shape.record, asked), indent=2, ensure_ascii=False))
         elif out != DASH:
-            _tell(name, rubber, curves)
-        tell_notes(curves.notes)
+            _print(name, rubber, curves)
+        print_notes(curves.notes)
         for written in write_curves(curves, out, picture, predicted=True, synthetic=rubber.synthetic):
             click.echo(written, err=as_json or out == DASH)
 
@@ -175,8 +180,8 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
 
     drawn = None if rubber.made is None else draw_rubber(rubber.made, count)
     if drawn is None:
-        raise click.UsageError("--samples is for a rubber made of sweeps (--dma, or a run file): they tell its errors.")
-    tell_notes(drawn.notes)
+        raise click.UsageError("--samples needs a material fitted to sweeps: --dma, or a run file.")
+    print_notes(drawn.notes)
     return drawn
 
 
@@ -186,11 +191,11 @@ def _record(
     from viscofric.report.texts.friction import friction_record
 
     names = ("layer", "sliding_base", *contact_settings(asked), "load", "samples", "workers")
-    told = {"material": rubber.record(None), "indenter": indenter} | {name: asked[name] for name in names}
-    return friction_record(curves, told)
+    inputs = {"material": rubber.record(None), "indenter": indenter} | {name: asked[name] for name in names}
+    return friction_record(curves, inputs)
 
 
-def _tell(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
+def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     """Print a table of friction: a line for each speed, a column for each temperature."""
     from viscofric.report.texts.numbers import percent, significant
     from viscofric.report.texts.tables import aligned

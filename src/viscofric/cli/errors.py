@@ -1,4 +1,4 @@
-"""What the command line tells of errors and doubts: one sentence each, no traceback."""
+"""Errors, warnings and notes on the command line: one sentence each, no traceback."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def told(reader: Reader = "shell") -> Iterator[None]:
+def reported_errors(reader: Reader = "shell") -> Iterator[None]:
     """Turn what viscofric raises on purpose into a message and exit status 1.
 
     Parameters
@@ -34,7 +34,7 @@ def told(reader: Reader = "shell") -> Iterator[None]:
         raise click.ClickException(plainly(error.listing(reader))) from error
 
 
-def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
+def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
     """Print every check of results that did not pass, as a warning; the report has them all.
 
     Parameters
@@ -53,8 +53,8 @@ def tell_doubts(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
             click.echo(f"Warning: {check.name}: {typeset(check.words)}", err=True)
 
 
-def tell_notes(notes: Iterable[str], reader: Reader = "shell") -> None:
-    """Print notes on the data, where they do not mix with the result, in the words of a reader; see `told`."""
+def print_notes(notes: Iterable[str], reader: Reader = "shell") -> None:
+    """Print notes on the data, on standard error, in the words of a reader."""
     from viscofric.notes import note_of
     from viscofric.report.texts.numbers import typeset
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import reported_errors
 from viscofric.cli.files import DASH, check_ending
 
 # format -> how its file's name ends
@@ -49,7 +49,7 @@ def command(results: Path, forms: tuple[str, ...], output: Path | None) -> None:
     if output == DASH and forms != ("csv",):
         raise click.BadParameter(f"{forms[0]} cannot be printed; name a file.", param_hint="--output")
     check_ending(output, "--output", (_ENDINGS[forms[0]],))
-    with told():
+    with reported_errors():
         from viscofric.study import open_results
         from viscofric.study.results.columns import table_text
         from viscofric.study.results.export import FORMS

@@ -111,11 +111,6 @@ def write_fields(path: Path, solution: ContactSolution) -> None:
         Ends in ``.nc`` (netCDF) or ``.csv`` (a line for each cell: x, y, pressure, displacement).  Replaced if it
         exists.
     solution : ContactSolution
-
-    Raises
-    ------
-    DataFileError
-        If it cannot be written.
     """
     from viscofric.files import write_atomically
 

@@ -17,22 +17,7 @@ _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
 
 
 def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
-    """Return the friction curves of files: tables of curves, or runs that are separated here.
-
-    Parameters
-    ----------
-    paths : sequence of Path
-        All of one kind.
-    settings : dict
-        Of the separation of runs, from `settings_of`.
-
-    Raises
-    ------
-    DataFileError, InputError
-        If a file cannot be used, or the kinds are mixed.
-    click.UsageError
-        If something of a separation was chosen for friction curves.
-    """
+    """Return the friction curves of files: tables of curves, or runs that are separated here."""
     from viscofric.cli.separation_options import refuse_settings
     from viscofric.errors import DataFileError, InputError
     from viscofric.friction.curve_files import holds_friction_curves, read_friction_curves
@@ -56,19 +41,7 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
 
 
 def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
-    """Return the friction curves of the runs in files of a tribometer.
-
-    Parameters
-    ----------
-    paths : sequence of Path
-    settings : dict
-        From `settings_of`: those of `separate`, and the steps to leave out.
-
-    Raises
-    ------
-    DataFileError, InputError
-        If a file cannot be used, or its runs cannot be separated.
-    """
+    """Return the friction curves of the runs in files of a tribometer."""
     from viscofric.friction.measurement.tribometry import separate
     from viscofric.readers import read_mtm
 
@@ -88,13 +61,7 @@ def _plain(curves: FrictionCurves) -> FrictionCurves:
 
 
 def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
-    """Put friction curves together, with the columns that all of them have.
-
-    Raises
-    ------
-    InputError
-        If loads of some are per length and of others are not.
-    """
+    """Put friction curves together, with the columns that all of them have."""
     import numpy as np
 
     from viscofric.errors import InputError
@@ -119,19 +86,13 @@ def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
 
 
 def shifts(name: str) -> tuple[ShiftLaw, VerticalShift | None]:
-    """Return the shift factors of a table, or those of a rubber, and its vertical shift where it has one.
-
-    Raises
-    ------
-    DataFileError, InputError
-        If the file cannot be used, or the rubber has no shift.
-    """
+    """Return the shift factors of a table, or those of a rubber, and its vertical shift where it has one."""
     from viscofric.errors import InputError
     from viscofric.rheology.shifts.shift_files import read_shift_factors
 
     if Path(name).suffix.lower() in _TABLES:
         return read_shift_factors(name), None
-    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.cli.rubber_options import find_rubber
 
     rubber = find_rubber(name)
     if rubber.shift is None:

@@ -1,4 +1,4 @@
-"""``viscofric identify SOURCES``: the rubber behind measured friction, as far as friction tells it."""
+"""``viscofric identify SOURCES``: the modulus inferred from friction."""
 
 from __future__ import annotations
 
@@ -9,16 +9,93 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.anchor_options import anchor_options, check_anchor, make_anchor
-from viscofric.cli.contact_bar import contact_bar
-from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.contact_options import chosen_indenter, indenter_options
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
-from viscofric.cli.indenter_options import chosen_indenter, indenter_options
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.friction.identification.anchors import Anchor
     from viscofric.friction.identification.result import IdentifiedMaterial
     from viscofric.rheology.material import Material
+
+
+_SIZES = ("indentation", "area", "half_width")
+#: What an anchor takes besides the modulus or the size.
+_OF_MODULUS, _OF_SIZE = ("frequency", "temperature"), ("speed", "temperature", "load")
+
+_ANCHOR = (
+    click.option(
+        "--anchor-modulus", metavar="E", help="Known |E| at one frequency, e.g. '8 MPa'; fixes the magnitude."
+    ),
+    click.option("--anchor-frequency", metavar="F", help="Frequency of --anchor-modulus, e.g. '1 Hz' or '6.28 rad/s'."),
+    click.option(
+        "--anchor-indentation", metavar="DEPTH", help="Alternative: measured indentation of a moving contact."
+    ),
+    click.option(
+        "--anchor-area", metavar="AREA", help="Alternative: contact area of a moving contact, e.g. '12 mm^2'."
+    ),
+    click.option("--anchor-half-width", metavar="LENGTH", help="Alternative: contact half-width across the motion."),
+    click.option("--anchor-speed", metavar="V", help="Speed of the anchor contact, e.g. '100 mm/s'."),
+    click.option("--anchor-load", metavar="F", help="Load of the anchor contact, e.g. '25 N'."),
+    click.option("--anchor-temperature", metavar="T", help="Temperature of the anchor, e.g. '30 degC'."),
+    click.option(
+        "--anchor-error", type=float, metavar="SHARE", help="Relative standard error of the anchor [default: 0.01]."
+    ),
+)
+
+
+def anchor_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of an anchor."""
+    for option in reversed(_ANCHOR):
+        function = option(function)
+    return function
+
+
+def check_anchor(asked: dict[str, Any]) -> str | None:
+    """Return which modulus or size the anchor is of, or None without one."""
+    given = {name for name in ("modulus", *_SIZES, *_OF_MODULUS, *_OF_SIZE, "error") if _of(asked, name) is not None}
+    what = [name for name in ("modulus", *_SIZES) if name in given]
+    if not what:
+        if given:
+            raise click.UsageError(f"{_typed(min(given))} is of an anchor; give --anchor-modulus or a contact's size.")
+        return None
+    if len(what) > 1:
+        raise click.UsageError(f"{_typed(what[0])} and {_typed(what[1])} are both given; one anchor is enough.")
+    needed = _OF_MODULUS if what == ["modulus"] else _OF_SIZE
+    for name in needed:
+        if name not in given:
+            raise click.UsageError(f"{_typed(what[0])} needs {_typed(name)} too.")
+    useless = given - {*what, *needed, "error"}
+    if useless:
+        raise click.UsageError(f"{_typed(min(useless))} does not belong to {_typed(what[0])}.")
+    return what[0]
+
+
+def make_anchor(asked: dict[str, Any], what: str, load_unit: str) -> Anchor:
+    """Return the anchor that was asked for and checked; a load is in N, or of a line contact in N/m."""
+    from viscofric.friction.identification.anchors import ContactAnchor, ModulusAnchor
+    from viscofric.units import positive, to_si
+
+    options: dict[str, Any] = {} if asked["anchor_error"] is None else {"error": asked["anchor_error"]}
+    if what == "modulus":
+        return ModulusAnchor(_of(asked, "modulus"), *(_of(asked, name) for name in _OF_MODULUS), **options)
+    options |= {name: _of(asked, name) for name in _OF_SIZE}
+    options["load"] = positive(options["load"], load_unit, "--anchor-load")
+    if what == "area":
+        return ContactAnchor(contact_area=to_si(_of(asked, "area"), "m**2", "--anchor-area"), **options)
+    return ContactAnchor(**{what: _of(asked, what)}, **options)
+
+
+def _of(asked: dict[str, Any], name: str) -> Any:
+    return asked[f"anchor_{name}"]
+
+
+def _typed(name: str) -> str:
+    return f"--anchor-{name.replace('_', '-')}"
+
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 #: Options that are settings of `identify_material` as they stand.
@@ -87,9 +164,10 @@ def command(
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture, which is not asked for.")
     settings, anchor = settings_of(asked), check_anchor(asked)
-    with told():
+    with reported_errors():
         from viscofric.cli.friction_sources import friction_curves, shifts
-        from viscofric.cli.material.rubbers import find_rubber
+        from viscofric.cli.progress import contact_bar
+        from viscofric.cli.rubber_options import find_rubber
         from viscofric.friction.identification.identify import identify_material
         from viscofric.report.texts.inverse import identification_record
 
@@ -104,24 +182,24 @@ def command(
         curves = friction_curves(sources, settings)
         with contact_bar("Shift factors", quiet=as_json) as bar:
 
-            def tell(step: int, done: int, total: int) -> None:
-                bar(done, total, f"Step {step}: contacts of a rubber")
+            def show(step: int, done: int, total: int) -> None:
+                bar(done, total, f"Step {step}: contacts")
 
-            found = identify_material(curves, indenter=shape.indenter, progress=tell, **options)
+            found = identify_material(curves, indenter=shape.indenter, progress=show, **options)
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
             inputs |= chosen(asked) | settings
             record = identification_record(found, inputs)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False, default=str))
         else:
-            _tell(found)
-        tell_notes(curves.notes)
+            _print(found)
+        print_notes(curves.notes)
         for written in _write(found, known, out, picture, synthetic):
             click.echo(written, err=as_json)
 
 
 def chosen(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return what was asked for besides the indenter and the separation, each told by itself; the rest is None."""
+    """Return what was asked for besides the indenter and the separation, each under its name; the rest is None."""
     names = (*_SETTINGS, "shift", "prior", "prior_band", "prior_error")
     return {name: asked[name] for name in asked if name in names or name.startswith("anchor_")}
 
@@ -132,7 +210,7 @@ def _prior(asked: dict[str, Any]) -> dict[str, Any]:
         if asked["prior_band"] is not None:
             raise click.UsageError("--prior-band is the band of a --prior, which is not given.")
         return {}
-    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.cli.rubber_options import find_rubber
     from viscofric.units import angular_frequency
 
     prior: dict[str, Any] = {"prior": find_rubber(asked["prior"]), "prior_error": asked["prior_error"]}
@@ -144,7 +222,7 @@ def _prior(asked: dict[str, Any]) -> dict[str, Any]:
     return prior
 
 
-def _tell(found: IdentifiedMaterial) -> None:
+def _print(found: IdentifiedMaterial) -> None:
     from viscofric.report.texts.inverse import family_lines, modulus_lines
     from viscofric.report.texts.numbers import typeset
 

@@ -1,4 +1,4 @@
-"""``viscofric master SOURCES``: one master curve of friction, and the shift factors that friction tells."""
+"""``viscofric master SOURCES``: the friction master curve, and shift factors from friction."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
 from viscofric.cli.separation_options import separation_options, settings_of
 
@@ -75,7 +75,7 @@ def command(
         if target is not None:
             refuse_to_overwrite(target, sources)
     settings = settings_of(asked)
-    with told():
+    with reported_errors():
         from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.report.texts.inverse import law_of, shift_record
 
@@ -87,7 +87,7 @@ def command(
             click.echo(f"Note: {refused}", err=True)
         agreement = _agreement(master, known)
         if out is not None and not master.found:
-            raise click.ClickException(f"{out} is not written, for friction tells no shift factors.")
+            raise click.ClickException(f"{out} is not written: friction determines no shift factors.")
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources]}
             inputs |= {"shift": asked["known"]} | {
@@ -96,8 +96,8 @@ def command(
             record = shift_record(master, law, agreement, inputs | settings) | {"law_explanation": why or None}
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         else:
-            _tell(master, known, law, why, agreement)
-        tell_notes((*curves.notes, *master.notes))
+            _print(master, known, law, why, agreement)
+        print_notes((*curves.notes, *master.notes))
         for written in _write(master, known, out, picture, synthetic):
             click.echo(written, err=as_json)
 
@@ -139,11 +139,11 @@ def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgre
     try:
         return compare_shift_factors(master, known)
     except InputError as error:
-        tell_notes([error.note])
+        print_notes([error.note])
         return None
 
 
-def _tell(
+def _print(
     master: FrictionMasterCurve,
     known: ShiftLaw | None,
     law: ParametricLaw | None,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import (
     CSV,
     DASH,
@@ -57,7 +57,7 @@ def command(
         if target is not None:
             refuse_to_overwrite(target, runs)
     settings = settings_of(asked)
-    with told():
+    with reported_errors():
         from viscofric.cli.friction_sources import separated
         from viscofric.report.texts.friction import friction_record
 
@@ -67,13 +67,13 @@ def command(
             record = friction_record(curves, inputs)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         elif out != DASH:
-            _tell(curves)
-        tell_notes(curves.notes)
+            _print(curves)
+        print_notes(curves.notes)
         for written in write_curves(curves, out, picture, predicted=False, synthetic=synthetic):
             click.echo(written, err=as_json or out == DASH)
 
 
-def _tell(curves: FrictionCurves) -> None:
+def _print(curves: FrictionCurves) -> None:
     from viscofric.report.texts.friction import friction_lines, friction_table
 
     for line in friction_table(curves):

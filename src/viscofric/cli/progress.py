@@ -1,21 +1,24 @@
-"""Progress of a study: a bar for people, plain lines when the output goes to a file, JSON for programs."""
+"""Progress of a study and of single contacts: bars on a terminal, lines elsewhere, or JSON."""
 
 from __future__ import annotations
 
 import contextlib
 import json
 import time
-from typing import IO, TYPE_CHECKING, Any
+from contextlib import contextmanager
+from typing import IO, TYPE_CHECKING, Any, Protocol
 
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import TracebackType
     from typing import Self
 
     from viscofric.study.running.running import Event
+
 
 _WORDS = {
     "material": "Material: shift factors, master curve, spectrum",
@@ -29,7 +32,7 @@ _BETWEEN_LINES = 60.0  # s
 
 
 class Silent(contextlib.AbstractContextManager["Silent"]):
-    """Says nothing; what the others have in common."""
+    """Shows nothing; the base of the others."""
 
     def __enter__(self) -> Self:
         return self
@@ -40,10 +43,10 @@ class Silent(contextlib.AbstractContextManager["Silent"]):
         pass
 
     def __call__(self, event: Event) -> None:
-        """Hear of an event."""
+        """Receive an event."""
 
-    def tell(self, event: str, **values: Any) -> None:
-        """Hear of something that only programs are told of."""
+    def write(self, event: str, **values: Any) -> None:
+        """Receive an event that is for programs only."""
 
 
 class TerminalProgress(Silent):
@@ -121,12 +124,7 @@ class TerminalProgress(Silent):
 
 
 class JsonProgress(Silent):
-    """Writes one JSON object a line for each event.
-
-    Parameters
-    ----------
-    output : text file
-    """
+    """Writes one JSON object a line for each event."""
 
     def __init__(self, output: IO[str]) -> None:
         self._output = output
@@ -135,10 +133,34 @@ class JsonProgress(Silent):
         """Write an event."""
         self._line(event.as_dict())
 
-    def tell(self, event: str, **values: Any) -> None:
-        """Write something else."""
+    def write(self, event: str, **values: Any) -> None:
+        """Write an event that is for programs only."""
         self._line({"event": event, **values})
 
     def _line(self, values: dict[str, Any]) -> None:
         self._output.write(json.dumps(values, ensure_ascii=False) + "\n")
         self._output.flush()
+
+
+class Bar(Protocol):
+    """Shows how far things are."""
+
+    def __call__(self, done: int, total: int, words: str = "") -> None:
+        """Show that so many contacts of all are solved, and if given what is done."""
+
+
+@contextmanager
+def contact_bar(words: str, *, quiet: bool) -> Iterator[Bar]:
+    """Show a bar on standard error as long as the block runs, if that is a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(bar_width=24), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
+        task = bars.add_task(words, total=None)
+
+        def show(done: int, total: int, words: str = words) -> None:
+            bars.update(task, description=words, completed=done, total=total)
+
+        yield show

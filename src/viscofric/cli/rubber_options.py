@@ -1,4 +1,4 @@
-"""Options that say what the rubber is and how thick, as text of the command line."""
+"""Options of the material and of its thickness, and how DMA files are read."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from viscofric.cli.errors import tell_notes
+from viscofric.cli.contact_options import option
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DASH, Source, plainly
-from viscofric.cli.indenter_options import option
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,15 +92,7 @@ class NamedRubber(NamedTuple):
 
 
 def chosen_rubber(asked: dict[str, Any]) -> NamedRubber:
-    """Return the rubber that the options name.
-
-    Raises
-    ------
-    click.UsageError
-        If they name none, or more than one.
-    ViscofricError
-        If it cannot be used.
-    """
+    """Return the rubber that the options name."""
     single = [name for name in _SINGLE if asked[name] is not None]
     given = [name for name in ("material", "dma") if asked[name]] + single[:1]
     if len(given) > 1:
@@ -134,7 +126,7 @@ def _of_sweeps(asked: dict[str, Any]) -> NamedRubber:
     wanted = {"dma": [str(path) for path in asked["dma"]], "reference_temperature": asked["reference"]}
     wanted |= {name: asked[name] for name in ("deformation", "poisson_ratio") if asked[name] is not None}
     made = make_rubber(material_of(wanted))
-    tell_notes(made.notes)
+    print_notes(made.notes)
     first, *more = asked["dma"]
     name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")
     return NamedRubber(made.material, name, asked["synthetic"], made)
@@ -147,12 +139,12 @@ def _named(name: str) -> NamedRubber:
 
         study = load_study(name)
         rubber = make_rubber(study.material)
-        tell_notes(rubber.notes)
+        print_notes(rubber.notes)
         synthetic = rubber.synthetic or study.data_origin == "synthetic"
         return NamedRubber(
             rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic, rubber
         )
-    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.cli.rubber_options import find_rubber
     from viscofric.rheology.catalogue import catalogue
 
     material = find_rubber(name)
@@ -161,15 +153,7 @@ def _named(name: str) -> NamedRubber:
 
 
 def chosen_layer(asked: dict[str, Any]) -> Layer | None:
-    """Return the layer that the options ask for; none for a half-space.
-
-    Raises
-    ------
-    click.UsageError
-        If there is a base without a layer.
-    InputError
-        If the thickness is not a length above zero.
-    """
+    """Return the layer that the options ask for; none for a half-space."""
     if asked["layer"] is None:
         if asked["sliding_base"]:
             raise click.UsageError("--sliding-base is for --layer only; a half-space has no base.")
@@ -187,3 +171,38 @@ def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
 
     base = "bonded" if layer.bonded else "sliding on its base"
     return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
+
+
+def reading_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options for what a DMA file may not say itself."""
+    for one in (
+        click.option("--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa."),
+        click.option(
+            "--temperature",
+            metavar="T",
+            multiple=True,
+            help="Temperature of a file that contains none, e.g. '30 degC'; once, or once for each file.",
+        ),
+        click.option(
+            "--deformation",
+            type=click.Choice(["tension", "shear"]),
+            help="Deformation of the test, if the file does not state it.",
+        ),
+    ):
+        function = one(function)
+    return function
+
+
+def find_rubber(name: str) -> Material:
+    """Return the rubber of a file where there is one of that name, else that of the catalogue.
+
+    What was assumed of a card that does not say it, such as its units, is printed.
+    """
+    from viscofric.rheology import catalogue_material, open_card
+
+    path = Path(name)
+    if not (path.is_file() or path.suffix):
+        return catalogue_material(name)
+    card = open_card(path)
+    print_notes(card.notes)
+    return card.material

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
-from viscofric.cli.errors import tell_doubts
+from viscofric.cli.errors import print_doubtful_checks
 
 if TYPE_CHECKING:
     from viscofric.study import StudyResults
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 SOME_CASES_FAILED = 3
 # As many notes and kinds of failure are printed; the report has them all.
 _MOST_LINES = 5
-# Checks that a study tells as warnings, notes or failures of its own.
-_TOLD_OTHERWISE = (
+# Checks that a study reports as warnings, notes or failures of its own.
+_REPORTED_OTHERWISE = (
     "Small strain",
     "Linear rubber",
     "Half-space",
@@ -80,17 +80,7 @@ def command(
 
 
 def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: bool = False, **how: Any) -> None:
-    """Run a study, write its report, and name what was written; leaves the program where that failed.
-
-    Parameters
-    ----------
-    study, output : Path
-        Run file, and folder for the results.
-    as_json, quiet : bool
-        How much is told.
-    **how
-        As for `run_study`.
-    """
+    """Run a study, write its report, and name what was written; leaves the program where that failed."""
     try:
         from viscofric.cli.progress import JsonProgress, Silent, TerminalProgress
         from viscofric.errors import ViscofricError
@@ -98,10 +88,10 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         from viscofric.study import run_study
         from viscofric.study.running.running import Event
 
-        hearer = JsonProgress(sys.stdout) if as_json else Silent() if quiet else TerminalProgress()
+        listener = JsonProgress(sys.stdout) if as_json else Silent() if quiet else TerminalProgress()
         try:
-            with hearer as progress:
-                progress.tell("started", study=str(study), folder=str(output))
+            with listener as progress:
+                progress.write("started", study=str(study), folder=str(output))
                 results = run_study(study, output=output, progress=progress, **how)
                 progress(Event("stage", stage="report", done=0, total=1))
                 figures, report = write_figures_and_report(results.tree, results.folder)
@@ -110,10 +100,10 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         except ViscofricError as error:
             # A full disk, for one, ends a study as an interrupt does.
             said = error.listing("run_file") + (_kept(output) if error.code == "not-written" else "")
-            hearer.tell("error", message=said)
+            listener.write("error", message=said)
             raise click.ClickException(said) from error
         except KeyboardInterrupt as stop:
-            hearer.tell("terminated" if isinstance(stop, Terminated) else "interrupted", folder=str(output))
+            listener.write("terminated" if isinstance(stop, Terminated) else "interrupted", folder=str(output))
             raise
     except KeyboardInterrupt as stop:
         terminated = isinstance(stop, Terminated)
@@ -124,14 +114,14 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         "data": str(results.folder / "results.nc"),
         "report": str(report),
     }
-    hearer.tell(
+    listener.write(
         "finished",
         failures=list(results.failures),
         warnings=list(results.warnings),
         beyond_accuracy=results.beyond_accuracy,
         **written,
     )
-    tell(results, quiet=quiet or as_json)
+    print_outcome(results, quiet=quiet or as_json)
     if not (quiet or as_json):
         for figure in figures:
             click.echo(f"figure   {figure}")
@@ -157,7 +147,7 @@ def _kept(output: Path) -> str:
     return f" {output} keeps the {contacts} solved; the same command with --resume continues." if solved else ""
 
 
-def tell(results: StudyResults, quiet: bool = False) -> None:
+def print_outcome(results: StudyResults, quiet: bool = False) -> None:
     """Print notes (unless it is to be quiet), warnings and failures: few of each, the report has them all."""
     from viscofric.report.texts.numbers import typeset
     from viscofric.report.texts.study import grouped_failures
@@ -172,6 +162,6 @@ def tell(results: StudyResults, quiet: bool = False) -> None:
             click.echo(f"Note: {typeset(note.words('run_file'))}", err=True)
     for warning in results.warnings:
         click.echo(f"Warning: {typeset(warning.words('run_file'))}", err=True)
-    tell_doubts(results.tree, but=_TOLD_OTHERWISE)
+    print_doubtful_checks(results.tree, but=_REPORTED_OTHERWISE)
     for line in grouped_failures(results.failures, _MOST_LINES):
         click.echo(f"Failed: {line}", err=True)

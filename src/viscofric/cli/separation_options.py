@@ -69,14 +69,7 @@ def separation_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def settings_of(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of `viscofric.cli.friction_sources.separated` among what was asked for.
-
-    Raises
-    ------
-    click.UsageError
-        If an error is given without its value, the Coulomb friction is neither a number nor the word, or steps are no
-        numbers.
-    """
+    """Return the settings of `viscofric.cli.friction_sources.separated` among what was asked for."""
     for name in ("zero", "coulomb"):
         if asked[f"{name}_error"] is not None and asked[name] is None:
             raise click.UsageError(f"--{name}-error is the standard error of --{name}, which is not given.")
@@ -114,20 +107,7 @@ def _steps(text: str | None) -> list[int] | None:
 
 
 def refuse_settings(settings: dict[str, Any], table: object) -> None:
-    """Stop where something was chosen of a separation that has nothing to separate.
-
-    Parameters
-    ----------
-    settings : dict
-        From `settings_of`.
-    table : Path or str
-        Of friction curves.
-
-    Raises
-    ------
-    click.UsageError
-        If anything was chosen.
-    """
+    """Stop where something was chosen of a separation that has nothing to separate."""
     chosen = [name for name, value in settings.items() if value != _DEFAULTS[name]]
     if chosen:
         options = " and ".join(f"--{_TYPED.get(name, name.replace('_', '-'))}" for name in chosen)

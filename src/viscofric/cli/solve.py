@@ -12,14 +12,19 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.contact_options import contact_options, contact_settings, inputs_of
-from viscofric.cli.errors import told
+from viscofric.cli.contact_options import (
+    chosen_indenter,
+    contact_options,
+    contact_settings,
+    indenter_options,
+    inputs_of,
+)
+from viscofric.cli.errors import reported_errors
 from viscofric.cli.files import PICTURES, check_ending, refuse_to_overwrite, write_fields
-from viscofric.cli.indenter_options import chosen_indenter, indenter_options
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
-    from viscofric.cli.indenter_options import NamedIndenter
+    from viscofric.cli.contact_options import NamedIndenter
     from viscofric.cli.rubber_options import NamedRubber
     from viscofric.contact.solution import ContactSolution
 
@@ -84,7 +89,7 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
             refuse_to_overwrite(target, inputs_of(asked))
     if (asked["load"] is None) == (asked["indentation"] is None):
         raise click.UsageError("give either --load or --indentation, one of them.")
-    with told():
+    with reported_errors():
         from viscofric.contact.steady import solve_steady
 
         rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
@@ -102,7 +107,7 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
             record = contact_record(_inputs(asked, rubber, shape, solution), solution, seconds)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         else:
-            _tell(name, rubber, solution, seconds)
+            _print(name, rubber, solution, seconds)
         for written in _write(name, rubber, shape, solution, picture, output):
             click.echo(written, err=as_json)
 
@@ -115,11 +120,11 @@ def _speed(text: str) -> float | str:
 
 
 def _beyond_known(rubber: NamedRubber, solution: ContactSolution) -> tuple[str, ...]:
-    """Tell where the contact asks the rubber for frequencies at which its modulus is extrapolated."""
+    """Return a warning where the frequency of the contact lies in the extrapolated part of the modulus."""
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 
     fit = getattr(rubber.material.modes_at(solution.temperature), "fit", None)
-    if fit is None or isinstance(rubber.material.spectrum, ModulusTable):  # a table tells it by itself
+    if fit is None or isinstance(rubber.material.spectrum, ModulusTable):  # a table warns by itself
         return ()
     low, high = fit.frequency_range
     frequency = abs(solution.speed) / (0.5 * (solution.front + solution.rear))
@@ -163,7 +168,7 @@ def _inputs(
     }
 
 
-def _tell(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:
+def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:
     from viscofric.report.texts.contact import contact_lines, derivative_lines
     from viscofric.report.texts.numbers import prefixed
     from viscofric.units import celsius

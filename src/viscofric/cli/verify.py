@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import reported_errors
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -34,7 +34,7 @@ def command(names: tuple[str, ...], listed: bool, details: bool, backend: str, a
     Each check compares computed values with a closed form, a reference value, or an equivalent computation. Its
     line shows the worst comparison. Exit status 1 if any check fails.
     """
-    with told():
+    with reported_errors():
         from viscofric.verification import CHECKS, run_checks, select
 
         checks = select(CHECKS, names)
@@ -49,13 +49,13 @@ def command(names: tuple[str, ...], listed: bool, details: bool, backend: str, a
                 if not as_json and not as_table:
                     click.echo(_line(outcome))
                     if details:
-                        _tell_details(outcome)
+                        _print_details(outcome)
     if as_json:
         click.echo(json.dumps({"backend": backend} | _record(outcomes), indent=2, ensure_ascii=False, allow_nan=False))
     else:
         if as_table:
             _table(outcomes, details)
-        _tell_verdict(outcomes)
+        _print_verdict(outcomes)
     if not all(outcome.passed for outcome in outcomes):
         sys.exit(1)
 
@@ -119,7 +119,7 @@ def _line(outcome: Outcome) -> str:
     )
 
 
-def _tell_details(outcome: Outcome) -> None:
+def _print_details(outcome: Outcome) -> None:
     click.echo(f"    {outcome.check.title}; against {outcome.check.source}")
     click.echo(f"    bounds: {outcome.check.reason}")
     for one in outcome.comparisons:
@@ -155,7 +155,7 @@ def _table(outcomes: list[Outcome], details: bool) -> None:
     Console().print(table)
 
 
-def _tell_verdict(outcomes: list[Outcome]) -> None:
+def _print_verdict(outcomes: list[Outcome]) -> None:
     seconds = sum(outcome.seconds for outcome in outcomes)
     count = sum(len(outcome.comparisons) for outcome in outcomes)
     failed = [outcome.check.name for outcome in outcomes if not outcome.passed]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import reported_errors
 
 _EPILOG = "The page is private: its address contains a token, and it connects to no other host."
 
@@ -29,7 +29,7 @@ def command(study: Path | None, port: int, host: str, no_browser: bool) -> None:
 
     With a run file STUDY, the page opens that study with copies of its data files.
     """
-    with told():
+    with reported_errors():
         from viscofric.web.server import is_local, serve
 
         document, files = None, None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from viscofric.cli.lazy import LazyGroup
+from viscofric.cli.overview import LazyGroup
 
 # command, which is also the module of this package that defines it -> what the overview says
 _COMMANDS = {

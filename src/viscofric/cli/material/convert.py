@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import refuse_to_overwrite
 
 if TYPE_CHECKING:
@@ -52,12 +52,12 @@ def command(
 
     MATERIAL is a material file (JSON, CSV, or a card of any of these programs), or a catalogue name.
     """
-    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.cli.rubber_options import find_rubber
     from viscofric.notes import warned
     from viscofric.rheology import write_card
 
     refuse_to_overwrite(output, [Path(rubber)])
-    with told():
+    with reported_errors():
         material = find_rubber(rubber)
         with warned() as notes:
             write_card(
@@ -70,4 +70,4 @@ def command(
                 law=card_law,
             )
     click.echo(f"card     {output}")
-    tell_notes(notes)
+    print_notes(notes)

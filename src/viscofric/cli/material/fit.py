@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import tell_doubts, tell_notes, told
+from viscofric.cli.errors import print_doubtful_checks, print_notes, reported_errors
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
-from viscofric.cli.material.options import reading_options
+from viscofric.cli.rubber_options import reading_options
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
@@ -93,7 +93,7 @@ def command(
         raise click.BadParameter("must not be below zero.", param_hint="--samples")
     if asked["master_curve"] and len(files) > 1:
         raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
-    with told():
+    with reported_errors():
         from viscofric.report import write_figures_and_report
         from viscofric.study.rubber_results import run_material
 
@@ -111,7 +111,7 @@ def command(
             synthetic=synthetic,
         )
         figures, report = write_figures_and_report(results.tree, results.folder)
-    _tell(results)
+    _print(results)
     for path in written:
         click.echo(f"file     {path}")
     for path in figures:
@@ -137,7 +137,7 @@ def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw
         )
         return False
     click.echo(f"card     {path}")
-    tell_notes(notes)
+    print_notes(notes)
     return True
 
 
@@ -188,7 +188,7 @@ def _command(files: tuple[Path, ...], asked: dict[str, Any]) -> str:
     return shlex.join(words)
 
 
-def _tell(results: StudyResults) -> None:
+def _print(results: StudyResults) -> None:
     """Print the key numbers, and what was doubtful."""
     from viscofric.report.results import group, number, sentences
     from viscofric.report.texts.numbers import typeset
@@ -199,6 +199,6 @@ def _tell(results: StudyResults) -> None:
     whole = group(results.tree, "superposition")
     if whole is not None and number(whole.attrs, "holds") == 1.0:
         click.echo(typeset(sentences(whole.attrs, "sentences")[0]))
-    tell_doubts(results.tree)
+    print_doubtful_checks(results.tree)
     for item in key_numbers(results.tree):
         click.echo(f"{item.name}: {item.value}" + (f" ({item.remark})" if item.remark else ""))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import reported_errors
 
 
 @click.command(name="list")
@@ -12,7 +12,7 @@ def command() -> None:
     """List the materials of the catalogue, with their sources."""
     from viscofric.rheology.catalogue import catalogue
 
-    with told():
+    with reported_errors():
         for entry in catalogue():
             click.echo(f"{entry.name}  [{entry.kind}]")
             for line in (entry.holds, entry.citation, entry.remarks):

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscofric.cli.errors import tell_notes, told
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import Source, refuse_to_overwrite
-from viscofric.cli.material.options import reading_options
+from viscofric.cli.rubber_options import reading_options
 
 if TYPE_CHECKING:
     from viscofric.data import Deformation, IsothermalSweeps
@@ -40,12 +40,12 @@ def command(
 
     if table is not None:
         refuse_to_overwrite(table, files)
-    with told():
+    with reported_errors():
         sweeps = read_dma(*files, deformation=deformation, temperature=temperature or None, modulus_unit=modulus_unit)
         click.echo(f"{sweeps.format}; moduli in {sweeps.deformation}; {len(sweeps)} isotherms")
         for line in _isotherms(sweeps):
             click.echo(line)
-        tell_notes(sweeps.notes)
+        print_notes(sweeps.notes)
         if table is not None:
             from viscofric.study.rubber_results import write_sweeps
 

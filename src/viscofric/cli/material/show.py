@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscofric.cli.errors import told
+from viscofric.cli.errors import reported_errors
 
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material
@@ -26,9 +26,9 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...]) ->
 
     MATERIAL is a material file (JSON, CSV, or a card of another program), or a catalogue name.
     """
-    from viscofric.cli.material.rubbers import find_rubber
+    from viscofric.cli.rubber_options import find_rubber
 
-    with told():
+    with reported_errors():
         material = find_rubber(rubber)
         lines = [*_about(material), *_moduli(material, temperature, frequency)]
     for line in lines:
