@@ -87,8 +87,7 @@ def chosen_indenter(asked: dict[str, Any]) -> NamedIndenter:
 
 
 def _simple(shape: str, text: str) -> NamedIndenter:
-    from viscofric.contact.indenters.indenter import Ball, Cylinder
-    from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
+    from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
     from viscofric.report.texts.numbers import length
 
     if shape == "ellipsoid":
