@@ -124,7 +124,9 @@ def test_taken_port_is_replaced_by_a_free_one(monkeypatch: pytest.MonkeyPatch) -
             assert free != port
             with socket.create_connection(("127.0.0.1", free), timeout=10.0):
                 pass
-    monkeypatch.setattr(module, "serve", lambda *arguments, tell, **more: tell(f"http://127.0.0.1:{free}/", free))
+    monkeypatch.setattr(
+        module, "serve", lambda *arguments, on_start, **more: on_start(f"http://127.0.0.1:{free}/", free)
+    )
     done = CliRunner().invoke(main, ["web", "--no-browser", "--port", str(port)])
     assert f"port {port} is taken; the page is at {free}." in done.stderr
     assert f"page http://127.0.0.1:{free}/" in done.stdout

@@ -32,7 +32,7 @@ def heard() -> list[dict[str, Any]]:
 
 @pytest.fixture(scope="module")
 def identified(context: Context, heard: list[dict[str, Any]]) -> dict[str, Any]:
-    context.tell = lambda event, message: heard.append(message) if event == "progress" else None
+    context.send = lambda event, message: heard.append(message) if event == "progress" else None
     return done("identify", context, CURVES, anchor=ANCHOR, **QUICK)
 
 

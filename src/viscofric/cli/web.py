@@ -49,5 +49,5 @@ def command(study: Path | None, port: int, host: str, no_browser: bool) -> None:
                 click.echo(f"Note: port {port} is taken; the page is at {actual}.", err=True)
             click.echo(f"page {address}\nCtrl-C ends it.")
 
-        serve(host, port, study=document, files=files, browser=not no_browser, tell=tell)
+        serve(host, port, study=document, files=files, browser=not no_browser, on_start=tell)
     click.echo("The page is closed.")

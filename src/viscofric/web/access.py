@@ -30,10 +30,8 @@ class Door:
 
     Parameters
     ----------
-    port : int
     host : str
         That the server is bound to.
-    token : str
     invitations : set of str
         Further tokens, each good for one use: other users of the machine can read the command lines of browsers.
     """
@@ -86,7 +84,7 @@ class Door:
         return scheme == "http" and self.is_host(host)
 
     def is_token(self, value: str) -> bool:
-        """Whether this is the token, in a time that does not tell how much of it."""
+        """Whether this is the token, in a time that does not depend on how much of it matches."""
         return secrets.compare_digest(value.encode("utf-8", "replace"), self.token.encode())
 
     def opens(self, value: str) -> bool:
@@ -98,13 +96,7 @@ class Door:
 
 
 class Access:
-    """Lets in only requests of the user's own page, and gives every answer the headers that keep it private.
-
-    Parameters
-    ----------
-    app : ASGI application
-    door : Door
-    """
+    """Lets in only requests of the user's own page, and gives every answer the headers that keep it private."""
 
     def __init__(self, app: App, door: Door) -> None:
         self.app, self.door = app, door
@@ -169,5 +161,5 @@ def _cookie(headers: dict[str, str], name: str) -> str:
 
 @cache
 def _own_names() -> set[str]:
-    """Return the names of this machine; asked for once, as the network may be slow to tell."""
+    """Return the names of this machine; asked for once, as the network may answer slowly."""
     return {socket.gethostname().lower(), socket.getfqdn().lower()}

@@ -39,7 +39,7 @@ _KIND = Annotated[str, InAddress(min_length=1, max_length=1_000, json_schema_ext
 _ANY_NAME = Annotated[str, InAddress(min_length=1, max_length=1_000)]
 
 
-class Told(BaseModel):
+class Refusal(BaseModel):
     """Why a request was not answered, in one sentence."""
 
     message: str
@@ -82,9 +82,6 @@ def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict
 
     Parameters
     ----------
-    door : Door
-    workspaces : Workspaces
-    children : Children
     study : dict, optional
         That the page opens with, instead of its own first one.
     """
@@ -95,7 +92,7 @@ def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict
         redoc_url=None,
         openapi_url="/api/openapi.json",
         default_response_class=PlainJSON,
-        responses={422: {"model": Told}, 413: {"model": Told}, 400: {"model": Told}},
+        responses={422: {"model": Refusal}, 413: {"model": Refusal}, 400: {"model": Refusal}},
     )
     _tell_plainly(api)
     _page(api, study)
@@ -201,7 +198,7 @@ def _files(api: FastAPI) -> None:
         await run_in_threadpool(workspace.store, name, content)
         return StoredFile(name=name, size=len(content))
 
-    @api.delete("/api/files/{name}", status_code=204, responses={404: {"model": Told}})
+    @api.delete("/api/files/{name}", status_code=204, responses={404: {"model": Refusal}})
     def remove_file(name: _ANY_NAME, workspace: _ByHeader) -> None:
         """Remove a file."""
         if not workspace.remove(checked_name(name)):
@@ -210,7 +207,7 @@ def _files(api: FastAPI) -> None:
     @api.get(
         "/api/downloads/{name}",
         response_class=Response,
-        responses={404: {"model": Told}, 200: {"content": {"application/octet-stream": {}}}},
+        responses={404: {"model": Refusal}, 200: {"content": {"application/octet-stream": {}}}},
     )
     def download(name: _ANY_NAME, workspace: _ByQuery) -> Response:
         """Fetch what a job made."""
@@ -229,7 +226,7 @@ def _jobs(api: FastAPI, children: Children) -> None:
     @api.post(
         "/api/jobs/{kind}",
         response_class=Response,
-        responses={404: {"model": Told}, 200: {"content": {NDJSON: {"schema": {"type": "string"}}}}},
+        responses={404: {"model": Refusal}, 200: {"content": {NDJSON: {"schema": {"type": "string"}}}}},
     )
     async def run_job(kind: _KIND, job: JobRequest, workspace: _ByHeader) -> Response:
         """Have something computed; closing the connection cancels it."""
@@ -252,7 +249,6 @@ class StaticFile(NamedTuple):
     ----------
     content, packed : bytes
         As it is, and by gzip; the latter empty where it is not worth it.
-    media_type : str
     tag : str
         Hash of the content.
     """
@@ -295,7 +291,7 @@ NDJSON = "application/x-ndjson"
 
 
 class JobStream(Response):
-    """What is told of a job, a line each, for as long as somebody listens."""
+    """The messages of a job, a line each, while the browser listens."""
 
     media_type = NDJSON
 

@@ -58,7 +58,7 @@ def main(parent: int, warm: Iterable[str] = WARM) -> None:
     threading.Thread(target=desk.listen, args=(orders,), daemon=True).start()
     for module in warm:
         import_module(module)
-    desk.tell(0, "ready", {})
+    desk.send(0, "ready", {})
     while True:
         # an interrupt that came as its job ended reaches the loop; there is nothing left to interrupt then
         with contextlib.suppress(KeyboardInterrupt):
@@ -94,12 +94,7 @@ def _keep_from_jobs() -> None:
 
 
 class Desk:
-    """Where jobs come in and answers go out, each by a thread of its own, so that an interrupt splits no answer.
-
-    Parameters
-    ----------
-    answers : binary file
-    """
+    """Where jobs come in and answers go out, each by a thread of its own, so that an interrupt splits no answer."""
 
     def __init__(self, answers: BinaryIO) -> None:
         self.jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
@@ -133,7 +128,7 @@ class Desk:
             if not message:
                 os._exit(0)
 
-    def tell(self, number: int, event: str, message: dict[str, Any], stays: bool = True) -> None:
+    def send(self, number: int, event: str, message: dict[str, Any], stays: bool = True) -> None:
         """Send a message of a job."""
         body = _json({"event": event, **message})
         if len(body) > LARGEST_MESSAGE:
@@ -144,19 +139,19 @@ class Desk:
         self._answers.put(f"{number} {event} {'stays' if stays else 'ends'} {len(body)}\n".encode() + body)
 
     def work(self, job: dict[str, Any]) -> None:
-        """Do a job and tell what became of it."""
+        """Do a job and send its result or its error."""
         number = job["job"]
         stays = True
         try:
             with self._interruptible(number):
-                result = _result(job, lambda event, message: self.tell(number, event, message))
-                self.tell(number, "result", {"result": result})
+                result = _result(job, lambda event, message: self.send(number, event, message))
+                self.send(number, "result", {"result": result})
         except KeyboardInterrupt as stop:
             stays = not _was_importing(stop.__traceback__)
-            self.tell(number, "cancelled", {}, stays)
-        except BaseException as error:  # noqa: BLE001 - the page is told
+            self.send(number, "cancelled", {}, stays)
+        except BaseException as error:  # noqa: BLE001 - the page shows it
             stays = not isinstance(error, MemoryError)
-            self.tell(number, "error", _told(error, Path(job["folder"]) / "files"), stays)
+            self.send(number, "error", _error_of(error, Path(job["folder"]) / "files"), stays)
         if not stays:
             self._answers.put(b"")
             threading.Event().wait()
@@ -174,13 +169,13 @@ class Desk:
                 self._at_work = None
 
 
-def _result(job: dict[str, Any], tell: Any) -> Any:
+def _result(job: dict[str, Any], send: Any) -> Any:
     limit_memory(job["memory"])
     module = import_module(job["module"])
     check_confined(job["study"])
     folder = Path(job["folder"])
     look_after(folder / "cache")
-    context = Context(folder / "files", folder / "downloads", folder / "cache", tell)
+    context = Context(folder / "files", folder / "downloads", folder / "cache", send)
     return module.run(job["study"], module.Options.model_validate(job["options"]), context)
 
 
@@ -197,7 +192,7 @@ def _was_importing(trace: TracebackType | None) -> bool:
     return any("importlib._bootstrap" in frame.f_code.co_filename for frame, _ in traceback.walk_tb(trace))
 
 
-def _told(error: BaseException, files: Path) -> dict[str, Any]:
+def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
     """Return what the page says of an error: a sentence, and the field of the study that it is about."""
     if isinstance(error, ViscofricError):
         shown = error.reworded(lambda text: _without_folder(text, files))

@@ -97,7 +97,7 @@ class Child:
         """Send a job, or the wish to cancel one."""
         pipe = self.process.stdin
         assert pipe is not None
-        with contextlib.suppress(OSError, ValueError):  # it ended, which is told by its output
+        with contextlib.suppress(OSError, ValueError):  # it ended, which its output shows
             pipe.write(json.dumps(order).encode() + b"\n")
             pipe.flush()
 
@@ -132,12 +132,7 @@ _STOPPED = "The program was stopped."
 
 
 class Children:
-    """Processes that compute, at most `most` at once; further jobs wait for their turn.
-
-    Parameters
-    ----------
-    most : int
-    """
+    """Processes that compute, at most `most` at once; further jobs wait for their turn."""
 
     def __init__(self, most: int = MOST_CHILDREN) -> None:
         self.most = most
@@ -176,13 +171,12 @@ class Children:
     async def run(
         self, kind: str, study: dict[str, Any], options: dict[str, Any], folder: Path
     ) -> AsyncIterator[bytes]:
-        """Have a job done; yield what is told of it, one JSON object a line.
+        """Have a job done; yield its messages, one JSON object a line.
 
         Parameters
         ----------
         kind : str
             Of `KINDS`.
-        study, options : dict
         folder : Path
             Of the workspace: its next job goes to the same process, if that is free.
 
@@ -340,7 +334,7 @@ class Children:
 async def _until(child: Child, sending: asyncio.Future[None], seconds: float) -> AsyncIterator[Message]:
     """Yield what a process says of its job, to the end of that or of the time for it."""
     end = asyncio.get_running_loop().time() + seconds
-    await asyncio.shield(sending)  # a job that is cancelled must be sent all the same, so that its end is told
+    await asyncio.shield(sending)  # a job that is cancelled must be sent all the same, so that its end is reported
     while True:
         try:
             async with asyncio.timeout_at(end):

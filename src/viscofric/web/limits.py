@@ -21,7 +21,6 @@ class Limits:
 
     Parameters
     ----------
-    app : ASGI application
     largest : callable
         Path of a request -> how many bytes its body may have.
     pause : float

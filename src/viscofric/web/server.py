@@ -73,13 +73,12 @@ def serve(
     study: dict[str, Any] | None = None,
     files: dict[str, Path] | None = None,
     browser: bool = True,
-    tell: Callable[[str, int], object] | None = None,
+    on_start: Callable[[str, int], object] | None = None,
 ) -> None:
     """Serve the page until an interrupt.
 
     Parameters
     ----------
-    host : str
     port : int
         Wanted; another one where it is taken.
     study : dict, optional
@@ -88,7 +87,7 @@ def serve(
         Name -> file that every tab begins with.
     browser : bool
         Whether to open it.
-    tell : callable, optional
+    on_start : callable, optional
         Called with the address, token and all, and the port, once it can be opened.
 
     Raises
@@ -110,8 +109,8 @@ def serve(
         stack.callback(children.close)
         workspaces = stack.enter_context(contextlib.closing(Workspaces(files)))
         # the browser starts meanwhile, too: what it asks waits at the socket
-        if tell is not None:
-            tell(door.address, door.port)
+        if on_start is not None:
+            on_start(door.address, door.port)
         if browser:
             threading.Thread(target=webbrowser.open, args=(door.invite(),), daemon=True).start()
         server = _server(door, children, study, workspaces)

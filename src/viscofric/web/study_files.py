@@ -25,12 +25,10 @@ class Named(NamedTuple):
 
     Parameters
     ----------
-    table : dict
     key : str
         Of the table.
     place : str
         Path in the study.
-    names : list of str
     """
 
     table: dict[str, Any]
@@ -74,10 +72,6 @@ def check_confined(document: dict[str, Any]) -> None:
 
 def opened_study(path: Path) -> tuple[dict[str, Any], dict[str, Path]]:
     """Read a run file for the page to open with.
-
-    Parameters
-    ----------
-    path : Path
 
     Returns
     -------

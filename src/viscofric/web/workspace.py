@@ -58,12 +58,7 @@ def checked_name(name: str) -> str:
 
 
 class Workspace:
-    """The folders of a tab: `files` that the user gave, `downloads` made for them, `cache` of jobs.
-
-    Parameters
-    ----------
-    folder : Path
-    """
+    """The folders of a tab: `files` that the user gave, `downloads` made for them, `cache` of jobs."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -74,7 +69,7 @@ class Workspace:
         self.jobs = 0  # at work in it
 
     async def while_at_work(self, lines: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
-        """Yield what a job tells; as long as it does, the workspace makes room for no other."""
+        """Yield the messages of a job; while it runs, the workspace is kept."""
         self.jobs += 1
         try:
             async with aclosing(lines):  # type: ignore[type-var]
@@ -170,7 +165,7 @@ class Workspaces:
 
 def _locked(folder: Path) -> IO[bytes]:
     """Make a file in a folder and lock it; the system lets go of the lock when this process ends, however it does."""
-    if sys.platform == "win32":  # where an open file cannot be removed, which tells as much
+    if sys.platform == "win32":  # where an open file cannot be removed, which serves the same purpose
         return (folder / _LOCK).open("wb")
     import fcntl
 

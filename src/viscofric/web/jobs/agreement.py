@@ -41,8 +41,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     ----------
     study : dict
         The tables of a run file.  [conditions] are those of the measurement, but for the rubber's thickness.
-    options : Options
-    context : Context
 
     Returns
     -------
@@ -70,18 +68,18 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     context.progress(0, 1, "Making the rubber")
     contacts = _contacts(_as_measured(study, curves, options), curves, context)
 
-    def tell(event: Event) -> None:
+    def report(event: Event) -> None:
         if event.total:
             context.progress(event.done or 0, event.total, event.label or "")
 
     with Serial() as executor:
-        run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, tell)
+        run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, report)
     # What is to be said of the rubber and of the measurement, other steps say.
     rubber = contacts.rubbers[0]
-    told = _told(tree_of(contacts)) | {"notes": texts(rubber.bands.notes)}
+    answer = _answer(tree_of(contacts)) | {"notes": texts(rubber.bands.notes)}
     if rubber.rubber.from_friction:
-        told["warnings"] = [CIRCULAR, *told["warnings"]]
-    plain: dict[str, Any] = context.plain(told)
+        answer["warnings"] = [CIRCULAR, *answer["warnings"]]
+    plain: dict[str, Any] = context.plain(answer)
     return plain
 
 
@@ -132,7 +130,7 @@ def _contacts(asked: dict[str, Any], curves: FrictionCurves, context: Context) -
     return Contacts(checked, [rubber], measured)
 
 
-def _told(tree: xarray.DataTree) -> dict[str, Any]:
+def _answer(tree: xarray.DataTree) -> dict[str, Any]:
     from viscofric.report.data import predicted
     from viscofric.report.results import group, notes, reference_temperature, sentences
     from viscofric.report.sweeps import cases_of
@@ -146,7 +144,7 @@ def _told(tree: xarray.DataTree) -> dict[str, Any]:
     lines = predicted(cases_of(asked))
     kinds = {"friction": lines.friction, "lower": lines.lower, "upper": lines.upper, "extrapolated": lines.extrapolated}
     about = [number for number in key_numbers(tree) if number.name == AGREEMENT]
-    told = [] if agreement is None else sentences(agreement.attrs, "sentences")
+    said = [] if agreement is None else sentences(agreement.attrs, "sentences")
     at_reference = None
     if along is not None:
         at_reference = {"reference": reference_temperature(tree), **(drawn_line(predicted(along)) or {})}
@@ -154,7 +152,7 @@ def _told(tree: xarray.DataTree) -> dict[str, Any]:
         "points": _points(tree),
         "lines": by_temperature(lines.temperature, lines.speed, **kinds),
         "along": at_reference,
-        "sentences": texts(told),
+        "sentences": texts(said),
         "key": [number._asdict() for number in about],
         "table": told_table(agreement_table(tree)),
         "checks": [{"name": one.name, "verdict": one.verdict, "words": one.words} for one in friction_checks(tree)],

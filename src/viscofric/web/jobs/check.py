@@ -19,13 +19,6 @@ class Options(BaseModel):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Check a study as ``viscofric check`` does; nothing is solved.
 
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file.
-    options : Options
-    context : Context
-
     Returns
     -------
     dict

@@ -38,11 +38,7 @@ def page_sweep(study: Study) -> Sweep:
 
 
 def combinations(sweep: Sweep) -> tuple[dict[object, int], list[str]]:
-    """Return the number of each combination by `Case.alike`, and what tells it from the others, in words.
-
-    Parameters
-    ----------
-    sweep : Sweep
+    """Return the number of each combination by `Case.alike`, and its differences from the others, in words.
 
     Returns
     -------

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.study.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
-from viscofric.web.jobs.contact_pictures import Asked, told
+from viscofric.web.jobs.contact_pictures import Asked, pictures
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
@@ -45,17 +45,10 @@ class Options(BaseModel):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Solve one contact.
 
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file.
-    options : Options
-    context : Context
-
     Returns
     -------
     dict
-        As of `contact_pictures.told`.  A sharp answer has the numbers of a study that solves the case
+        As of `contact_pictures.pictures`.  A converged answer has the numbers of a study that solves the case
         by itself.
 
     Raises
@@ -74,8 +67,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         # Grids are refined until they promise the accuracy: where the first of them do, no others are looked at.
         allowed = 0.0 if case.geometry == "rough" else accuracy * abs(solution.friction_coefficient)
         settled = solution.diagnostics.friction_error <= allowed
-        found = told(asked, solution, sharp=settled)
+        found = pictures(asked, solution, sharp=settled)
         if settled or options.stages == "coarse":
             return found
         context.part(found)
-    return told(asked, case.solution(rubbers, accuracy), sharp=True)
+    return pictures(asked, case.solution(rubbers, accuracy), sharp=True)

@@ -29,7 +29,7 @@ MOST_CELLS, MOST_POINTS = 110, 400
 _MARGIN = 0.05
 # How far a profile reaches behind the contact and ahead of it, over the contact's length.
 _BEHIND, _AHEAD = 1.2, 0.6
-# Points of the contact's outline at most; of a rough surface's spots, colours tell.
+# Points of the contact's outline at most; a rough surface's spots are shown by colour.
 _OUTLINE = 1_500
 _DIGITS, _FEW_DIGITS = 6, 3
 
@@ -79,14 +79,7 @@ def around(solution: ContactSolution) -> tuple[Array, Array, Array]:
 
 
 def thinned(x: Array, y: Array, field: Array, most: int = MOST_CELLS) -> tuple[Array, Array, Array]:
-    """Take means over blocks of cells, so that no edge has more than so many; cells left over at the ends are cut off.
-
-    Parameters
-    ----------
-    x, y : (nx,) and (ny,) array
-    field : (nx, ny) array
-    most : int
-    """
+    """Average over blocks of cells, at most `most` along each edge; cells left over at the ends are cut off."""
     every = max(1, -(-max(field.shape) // most))
     if every == 1:
         return x, y, field
@@ -107,13 +100,7 @@ def pressure_map(x: Array, y: Array, pressure: Array) -> dict[str, Any]:
 
 
 def outline(x: Array, y: Array, pressure: Array) -> list[dict[str, list[float]]]:
-    """Return the edge of the contact as lines, (x, y) each, m; the staircase of the loaded cells is smoothed.
-
-    Parameters
-    ----------
-    x, y : (nx,) and (ny,) array
-    pressure : (nx, ny) array
-    """
+    """Return the edge of the contact as lines, (x, y) each, m; the staircase of the loaded cells is smoothed."""
     from contourpy import contour_generator
 
     # Averaged over three cells, the staircase is a curve.
@@ -203,13 +190,11 @@ def shown(cut: Profile) -> dict[str, Any]:
 _DIGITS = 6
 
 
-def told(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: bool) -> dict[str, Any]:
+def pictures(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: bool) -> dict[str, Any]:
     """Return everything that the page shows of a contact, as JSON holds it, SI.
 
     Parameters
     ----------
-    asked : Asked
-    solution : ContactSolution or PeriodicSolution
     sharp : bool
         Whether it is to the study's accuracy.
 
@@ -231,15 +216,15 @@ def told(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: b
         "temperature": case.temperature,
         "warnings": [*solution.warnings, *_doubts(asked, within)],
     }
-    tell: Any = _of_surface if case.geometry == "rough" else _of_indenter
-    found: dict[str, Any] = tell(asked, case, solution)
+    drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
+    found: dict[str, Any] = drawn(asked, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
     return shared | found
 
 
 def _doubts(asked: Asked, within: bool | None) -> list[str]:
     """Tell where the rubber is extrapolated, in temperature or in frequency."""
-    # What is doubtful about the rubber as such is told by other steps.
+    # Warnings on the material itself belong to other steps.
     said: list[str] = [note for note in asked.rubber.doubts([asked.case.temperature]) if note.code == "extrapolated"]
     if within is False:
         rough = asked.case.geometry == "rough"

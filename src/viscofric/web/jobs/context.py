@@ -1,4 +1,4 @@
-"""What a job is handed besides the study: its folders, and how it tells of progress and of parts of its result."""
+"""What a job is handed besides the study: its folders, and how it sends progress and parts of its result."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-_BETWEEN_TOLD = 0.05  # s, of progress: a browser shows no more
+_BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
 
 
 class JobError(ViscofricError):
@@ -23,7 +23,6 @@ class JobError(ViscofricError):
 
     Parameters
     ----------
-    message : str or Note
     field : str, optional
         Path in the study, such as ``conditions.load``.
     """
@@ -50,25 +49,25 @@ class Context:
         Folder for what the user may fetch, at ``/api/downloads/<name>``.
     cache : Path
         Folder for what later jobs of the same page can use again.
-    tell : callable, optional
+    send : callable, optional
         Called with the event (``"progress"`` or ``"part"``) and what it says.
     """
 
     files: Path
     downloads: Path
     cache: Path
-    tell: Callable[[str, dict[str, Any]], object] = lambda event, message: None
-    _told: float = field(default=-math.inf, repr=False)
+    send: Callable[[str, dict[str, Any]], object] = lambda event, message: None
+    _sent: float = field(default=-math.inf, repr=False)
 
     plain = staticmethod(plain)
 
     def progress(self, done: float, total: float, label: str = "") -> None:
         """Say how much of the work is done; may be called as often as one likes."""
         now = time.monotonic()
-        if now - self._told >= _BETWEEN_TOLD or done >= total:
-            self._told = now
-            self.tell("progress", {"done": plain(done), "total": plain(total), "label": label})
+        if now - self._sent >= _BETWEEN_SENT or done >= total:
+            self._sent = now
+            self.send("progress", {"done": plain(done), "total": plain(total), "label": label})
 
     def part(self, part: dict[str, Any]) -> None:
         """Hand over a part of the result that can be shown already."""
-        self.tell("part", {"part": part})
+        self.send("part", {"part": part})

@@ -1,4 +1,4 @@
-"""Job ``curve``: friction over speeds and temperatures, told point by point while it is solved; then its doubts."""
+"""Job ``curve``: friction over speeds and temperatures, sent point by point while it is solved; then its warnings."""
 
 from __future__ import annotations
 
@@ -53,7 +53,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     ----------
     study : dict
         The tables of a run file; what it measured is not looked at.
-    options : Options
     context : Context
         The first part has ``layout``: for each case ``combination``, ``temperature`` (K), ``speed`` (m/s) and
         ``reduced_speed`` (m/s), with the ``combinations`` in words, ``kind``, ``accuracy`` and the ``reference``
@@ -77,7 +76,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     contacts = _contacts(checked, study, context)
     layout = _layout(contacts)
     context.part({"layout": layout})
-    progress = _Telling(contacts, context)
+    progress = _Sender(contacts, context)
     store = CaseStore(context.cache / "cases")
     store.prepare()
     with Serial() as executor:
@@ -135,14 +134,8 @@ def _layout(contacts: Contacts) -> dict[str, Any]:
     }
 
 
-class _Telling:
-    """Hands over what is known of the cases while they are solved, each number once.
-
-    Parameters
-    ----------
-    contacts : Contacts
-    context : Context
-    """
+class _Sender:
+    """Hands over what is known of the cases while they are solved, each number once."""
 
     def __init__(self, contacts: Contacts, context: Context) -> None:
         self._contacts, self._context = contacts, context
@@ -193,7 +186,7 @@ def _notes(contacts: Contacts, study: Study) -> list[str]:
 
 #: Friction counts as unresolved where its error is more than so many times what was asked for.
 _UNRESOLVED = 2.0
-#: Numbers of a contact that are told besides its friction, where it has them.
+#: Numbers of a contact besides its friction, where it has them.
 _COLUMNS = (
     "indentation",
     "contact_area",

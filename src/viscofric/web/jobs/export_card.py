@@ -40,8 +40,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     ----------
     study : dict
         The page's document; of it, [material] counts.
-    options : Options
-    context : Context
 
     Returns
     -------

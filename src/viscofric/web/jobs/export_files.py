@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from viscofric.study.run_file.study import Study
 
-_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest that archives can tell: the same files give the same bytes
+_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date of an archive: the same files give the same bytes
 
 
 def missing_files(study: Study) -> list[str]:
@@ -67,7 +67,6 @@ def archive(target: Path, files: Iterable[tuple[str, Path | str]]) -> Path:
 
     Parameters
     ----------
-    target : Path
     files : iterable of (str, Path or str)
         Name in the archive, and the file, or the text, that is kept under it.
 

@@ -36,13 +36,6 @@ class Options(BaseModel):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Write and check a run file.
 
-    Parameters
-    ----------
-    study : dict
-        The page's document.
-    options : Options
-    context : Context
-
     Returns
     -------
     dict
@@ -58,8 +51,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     if checked is None or problems:
         if options.pack:
             raise DocumentError(problems)
-        told = list(map(beside_field, problems))
-        return {"text": text, "problems": told, "cases": None, "files": None, "download": None}
+        shown = list(map(beside_field, problems))
+        return {"text": text, "problems": shown, "cases": None, "files": None, "download": None}
     download = None
     if options.pack:
         files = [(path.name, path) for path in checked.inputs]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from viscofric.study.running.running import Event
     from viscofric.web.jobs.context import Context
 
-_MOST_TOLD = 8
+_MOST_SHOWN = 8
 _STAGES = {
     "measurement": "reading the measurement",
     "material": "making the rubber",
@@ -45,13 +45,6 @@ class Options(BaseModel):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Run a study; contacts that an earlier run in this workspace solved are taken from there.
 
-    Parameters
-    ----------
-    study : dict
-        The page's document.
-    options : Options
-    context : Context
-
     Returns
     -------
     dict
@@ -74,12 +67,12 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     folder = context.cache / "study"
     run_file = lay_out(text, checked, folder)
 
-    def tell(event: Event) -> None:
+    def show(event: Event) -> None:
         stage = event.stage or "contacts"
         label = _STAGES.get(stage, stage)
         context.progress(event.done or 0, event.total or 0, f"{label}: {event.label}" if event.label else label)
 
-    results = run_study(run_file, resume=True, workers=options.workers, progress=tell)
+    results = run_study(run_file, resume=True, workers=options.workers, progress=show)
     context.progress(0, 1, _STAGES["report"])
     figures, report = write_figures_and_report(results.tree, results.folder)
     downloads = _downloads(results, figures, report, context.downloads)
@@ -87,7 +80,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "downloads": downloads,
         "cases": int(results.dataset["friction_coefficient"].size),
         "failed": int(results.dataset["failed"].sum()),
-        "failures": grouped_failures(results.failures, _MOST_TOLD),
+        "failures": grouped_failures(results.failures, _MOST_SHOWN),
         "warnings": texts(results.warnings),
         "notes": texts(results.notes),
         "synthetic": results.tree.attrs.get("data_origin") == "synthetic",

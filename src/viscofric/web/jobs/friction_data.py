@@ -64,7 +64,7 @@ def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dic
 def measured_points(curves: FrictionCurves) -> list[dict[str, Any]]:
     """Return measured friction by temperature, with the 95 % limits of its means; see `by_temperature`.
 
-    What the signs of the speeds do not tell, as Coulomb friction in pure rolling, is NaN.
+    What the signs of the speeds do not determine, such as Coulomb friction in pure rolling, is NaN.
     """
     columns = {name: getattr(curves, name) for name in _MEASURED if getattr(curves, name) is not None}
     for name in ("viscoelastic", "coulomb"):

@@ -66,12 +66,6 @@ class Measured:
 def measured(study: Mapping[str, Any], folders: Folders) -> Measured:
     """Return what the files of [measurement] hold, read here or found where an earlier job left it.
 
-    Parameters
-    ----------
-    study : mapping
-        Tables of a run file.
-    folders : Folders
-
     Raises
     ------
     StudyError
@@ -168,13 +162,13 @@ _ABOUT = "drop the files of a tribometer, or a table of friction curves, on the 
 
 
 class _MeasurementTables(Table):
-    """The table of a run file that tells of measured friction."""
+    """The table of a run file about measured friction."""
 
     measurement: MeasurementTable
 
 
 class _IndenterTables(Table):
-    """The table of a run file that tells what friction was measured with."""
+    """The table of a run file about the tribometer's body."""
 
     indenter: IndenterTable
 
@@ -186,7 +180,6 @@ def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[s
     ----------
     study : mapping
         Tables of a run file; how runs are to be separated is kept.
-    folders : Folders
     names : sequence of str
         Of uploaded files.
 
@@ -211,12 +204,6 @@ def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[s
 
 def measurement_table(study: Mapping[str, Any], folders: Folders) -> MeasurementTable:
     """Check [measurement] of a run file, without the other tables.
-
-    Parameters
-    ----------
-    study : mapping
-        Tables of a run file.
-    folders : Folders
 
     Returns
     -------

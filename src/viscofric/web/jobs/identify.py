@@ -1,4 +1,4 @@
-"""Job ``identify``: the rubber behind measured friction, as far as friction tells it."""
+"""Job ``identify``: the material inferred from measured friction."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Options(BaseModel):
     anchor : AnchorOptions, optional
         What fixes the level of the modulus.
     beside : bool
-        Whether the page's rubber is laid beside.
+        Whether to compare with the page's material.
     accuracy : float
         Of each contact that is solved.
     samples : int
@@ -51,8 +51,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     ----------
     study : dict
         The tables of a run file; [measurement] and [indenter] are looked at, and [material] where it is asked for.
-    options : Options
-    context : Context
 
     Returns
     -------
@@ -92,7 +90,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     anchor = None if options.anchor is None else _anchor(options.anchor, rubber, curves)
     steps = _STEPS + (len(LEVELS) if anchor is None else 0)
 
-    def tell(step: int, done: int, total: int) -> None:
+    def report(step: int, done: int, total: int) -> None:
         whole = max(steps, step) * total
         context.progress((step - 1) * total + done, whole, f"step {step}, contact {done} of {total}")
 
@@ -103,10 +101,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         anchor=anchor,
         poisson_ratio=_poisson_ratio(study, rubber),
         name="rubber identified from friction",
-        progress=tell,
+        progress=report,
         **chosen,
     )
-    plain: dict[str, Any] = context.plain(_told(found, curves, rubber if options.beside else None, anchor, context))
+    plain: dict[str, Any] = context.plain(_answer(found, curves, rubber if options.beside else None, anchor, context))
     return plain
 
 
@@ -127,7 +125,7 @@ def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:
     return float(given) if isinstance(given, int | float) else 0.5
 
 
-def _told(
+def _answer(
     found: IdentifiedMaterial, curves: FrictionCurves, rubber: Material | None, anchor: Anchor | None, context: Context
 ) -> dict[str, Any]:
     from viscofric.rheology.cards import write_card
@@ -203,12 +201,12 @@ def _known(rubber: Material, found: IdentifiedMaterial, frequency: Any) -> dict[
     if rubber.shift is not None and reference is not None:
         rubber = rubber.at_reference(reference)
     modulus = np.asarray(rubber.complex_modulus(frequency))
-    told: dict[str, Any] = {"name": rubber.name, "storage": modulus.real, "loss": modulus.imag, "factors": None}
+    numbers: dict[str, Any] = {"name": rubber.name, "storage": modulus.real, "loss": modulus.imag, "factors": None}
     if rubber.shift is not None:
         warm = found.friction.temperatures
         kelvin = np.linspace(warm.min(), warm.max(), 100)
-        told["factors"] = {"temperature": kelvin, "log10": rubber.shift.values_at(kelvin)[0]}
-    return told
+        numbers["factors"] = {"temperature": kelvin, "log10": rubber.shift.values_at(kelvin)[0]}
+    return numbers
 
 
 def _fit(found: IdentifiedMaterial, curves: FrictionCurves) -> list[dict[str, Any]]:
@@ -265,7 +263,6 @@ def make_anchor(asked: AnchorOptions, rubber: Material | None, load_unit: str) -
 
     Parameters
     ----------
-    asked : AnchorOptions
     rubber : Material, optional
         Whose modulus is taken, if it is.
     load_unit : {"N", "N/m"}
@@ -315,7 +312,7 @@ def _of_contact(asked: AnchorOptions, load_unit: str) -> Anchor:
     from viscofric.units import positive, to_si
 
     size, speed, load = _given(asked, "size", "speed", "load")
-    told: dict[str, Any] = {"speed": speed, "temperature": asked.temperature, "error": asked.error}
-    told["load"] = positive(load, load_unit, "load")
+    place: dict[str, Any] = {"speed": speed, "temperature": asked.temperature, "error": asked.error}
+    place["load"] = positive(load, load_unit, "load")
     unit = "m**2" if asked.of == "contact_area" else "m"
-    return ContactAnchor(**{asked.of: to_si(size, unit, asked.of)}, **told)
+    return ContactAnchor(**{asked.of: to_si(size, unit, asked.of)}, **place)

@@ -40,7 +40,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         The tables of a run file; [material] counts.
     options : Options
         ``temperature`` of the isotherm in words; ``reach`` and ``step`` in decades.
-    context : Context
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Job ``master``: measured friction of all temperatures on one curve, by the rubber's shift and by its own."""
+"""Job ``master``: friction master curves, with shift factors of the material and with those found from friction."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class Options(BaseModel):
     Attributes
     ----------
     beside : bool
-        Whether the page's rubber is laid beside.
+        Whether to compare with the page's material.
     reference : str, optional
         Temperature at which α is 1, with its unit; that of the rubber without, or one that is found.
     law : str
-        To be fitted to the shift factors that friction tells.
+        Law to fit to the shift factors found from friction.
     level_error : float
         Relative standard error of friction that all points of a temperature share.
     """
@@ -39,14 +39,12 @@ class Options(BaseModel):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Shift measured friction curves onto one, by the rubber's shift factors, and by those that friction tells.
+    """Shift measured friction onto master curves: with the material's shift factors, and with those found from it.
 
     Parameters
     ----------
     study : dict
-        The tables of a run file; [measurement], [indenter] and, laid beside, [material] are looked at.
-    options : Options
-    context : Context
+        The tables of a run file; uses [measurement], [indenter] and, for the comparison, [material].
 
     Returns
     -------
@@ -55,7 +53,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         (by temperature over the reduced speed), ``line`` (smoothed, with its band), ``overlap`` (a sentence) and
         ``words`` (name and value).  ``found`` has ``factors`` (temperature, log10, error), ``law`` (temperature,
         log10, lower, upper; or null), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
-        friction tells no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
+        friction determines no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
         (or null) and ``line``; null without a rubber, and at one
         temperature.  ``notes``.
 
@@ -89,8 +87,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             raise
         result["refusal"] = error.words("page")
     else:
-        result["found"], told = _found(found, known, options, context)
-        notes += told
+        result["found"], found_notes = _found(found, known, options, context)
+        notes += found_notes
     if known is not None:
         result["known"] = _known(known, result["found"] or result["by_rubber"])
     plain: dict[str, Any] = context.plain(result | {"notes": texts(notes)})
@@ -98,7 +96,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 
 def _settings(curves: FrictionCurves, indenter: Any, rubber: Material | None) -> dict[str, Any]:
-    """Return how friction at several loads is reduced to one, where there is an indenter that tells."""
+    """Return how friction at several loads is reduced to one, where the indenter allows it."""
     if indenter is None or indenter.geometry.load_unit != curves.load_unit:
         return {}
     return {"indenter": indenter, "vertical_shift": None if rubber is None else rubber.vertical_shift}
@@ -137,14 +135,14 @@ def _words(master: FrictionMasterCurve, *found: Any) -> list[dict[str, str]]:
     from viscofric.web.jobs.friction_data import pairs
 
     law, agreement, why = found or (None, None, "")
-    told = [(name, words) for name, words in shift_words(master, law, agreement, why) if name != "reduced speed"]
-    return pairs((name or "law, why", words) for name, words in told)
+    rows = [(name, words) for name, words in shift_words(master, law, agreement, why) if name != "reduced speed"]
+    return pairs((name or "law, why", words) for name, words in rows)
 
 
 def _found(
     master: FrictionMasterCurve, known: ShiftLaw | None, options: Options, context: Context
 ) -> tuple[dict[str, Any], list[str]]:
-    """Return what friction tells by itself, and what is to be noted of it."""
+    """Return the master curve and shift factors found from friction alone, and their notes."""
     from viscofric.errors import InputError
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors
     from viscofric.report.texts.inverse import law_of
@@ -158,7 +156,7 @@ def _found(
             notes.append(str(error))
     factors = master.shift_factors
     factors.save(context.downloads / _DOWNLOAD)
-    told = {
+    more = {
         "words": _words(master, law, agreement, why),
         "factors": {
             "temperature": factors.temperatures,
@@ -169,7 +167,7 @@ def _found(
         "agreement": None if agreement is None else agreement.sentence,
         "download": _DOWNLOAD,
     }
-    return _curve(master) | told, notes
+    return _curve(master) | more, notes
 
 
 def _line(law: ShiftLaw, temperatures: Any) -> dict[str, Any]:

@@ -29,13 +29,6 @@ class Options(BaseModel):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Read and separate the files of [measurement]; no other table is looked at.
 
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file.
-    options : Options
-    context : Context
-
     Returns
     -------
     dict
@@ -81,7 +74,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 
 def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
-    """Return what is to be said of the friction as a whole, but for what notes and checks tell."""
+    """Return a summary of the friction as a whole, without notes and checks."""
     from viscofric.report.texts.friction import friction_lines
 
     return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "left over")]

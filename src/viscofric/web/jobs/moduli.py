@@ -39,7 +39,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         The tables of a run file; [material] and [uncertainty] count.
     options : Options
         ``temperature`` in words ("60 degC").
-    context : Context
 
     Returns
     -------

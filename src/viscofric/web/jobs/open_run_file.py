@@ -38,13 +38,6 @@ class Options(BaseModel):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Read a run file; what is wrong with its values is left for the page to show beside its fields.
 
-    Parameters
-    ----------
-    study : dict
-        Not looked at.
-    options : Options
-    context : Context
-
     Returns
     -------
     dict

@@ -36,16 +36,15 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     ----------
     study : dict
         The tables of a run file; [material] and [uncertainty] count.
-    options : Options
     context : Context
         Is handed the answer without bands as a part, before the rubber is drawn.
 
     Returns
     -------
     dict
-        ``name``, ``synthetic``, ``source``; ``notes`` (but those on files, which the job ``sweeps`` tells); ``shift``
+        ``name``, ``synthetic``, ``source``; ``notes`` (but those on files, which the job ``sweeps`` returns); ``shift``
         (`shift_numbers`), ``check`` (`check_numbers`; None without sweeps), ``spectrum`` (`spectrum_numbers`) and
-        ``band`` (`band_numbers`; None where nothing tells how well the rubber is known, and ``no_band`` then says why).
+        ``band`` (`band_numbers`; None where the material's uncertainty is unknown, and ``no_band`` then says why).
 
     Raises
     ------
@@ -57,7 +56,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     rubber = made_rubber(study, context)
     answer = _without_bands(rubber, table.fixed_shift_factors, context)
     if not options.bands or wanted.draws == 0 or rubber.fit is None:
-        why = "" if rubber.fit is not None else "only the sweeps that a rubber is made of tell how well it is known"
+        why = "" if rubber.fit is not None else "only a material fitted to DMA sweeps has a known uncertainty"
         return answer | {"band": None, "no_band": why}
     context.part(answer)
     context.progress(1, 2, f"drawing the rubber {wanted.draws} times for its 95 % bands")
@@ -68,7 +67,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 
 def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -> dict[str, Any]:
-    # what was noted on reading is told by the job `sweeps`
+    # notes on reading are those of the job `sweeps`
     read = () if rubber.sweeps is None else rubber.sweeps.notes
     return {
         "name": rubber.material.name,
@@ -97,10 +96,6 @@ _VERDICTS = {
 
 def check_numbers(fit: Superposition) -> dict[str, Any]:
     """Return the verdict on a superposition with what it rests on.
-
-    Parameters
-    ----------
-    fit : Superposition
 
     Returns
     -------

@@ -35,7 +35,7 @@ _memory: OrderedDict[str, Any] = OrderedDict()
 
 
 class Folders(Protocol):
-    """Where a workspace keeps its files, as jobs are told (`jobs.context.Context`)."""
+    """Where a workspace keeps its files, as in `jobs.context.Context`."""
 
     @property
     def files(self) -> Path:
@@ -47,7 +47,7 @@ class Folders(Protocol):
 
 
 class _RubberTables(Table):
-    """The tables of a run file that tell of the rubber."""
+    """The tables of a run file about the material."""
 
     material: MaterialTable
     uncertainty: UncertaintyTable = Field(UncertaintyTable())
@@ -60,13 +60,11 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
     ----------
     study : mapping
         Tables of a run file; of several materials the first counts.
-    folders : Folders
 
     Returns
     -------
     MaterialTable
         With the paths of uploaded files.
-    UncertaintyTable
 
     Raises
     ------
@@ -90,12 +88,6 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
 def made_rubber(study: Mapping[str, Any], folders: Folders) -> Rubber:
     """Return the rubber of [material], made by `make_rubber` or found where an earlier job left it.
 
-    Parameters
-    ----------
-    study : mapping
-        Tables of a run file.
-    folders : Folders
-
     Raises
     ------
     StudyError, DataFileError, SuperpositionError, InputError
@@ -108,16 +100,10 @@ def made_rubber(study: Mapping[str, Any], folders: Folders) -> Rubber:
 def friction_bands(study: Mapping[str, Any], folders: Folders) -> FrictionBands:
     """Return the draws of the rubber that [uncertainty] asks for, as bands of friction are made of them.
 
-    Parameters
-    ----------
-    study : mapping
-        Tables of a run file.
-    folders : Folders
-
     Returns
     -------
     FrictionBands
-        Its `samples` (a `MaterialSamples`) is None where nothing tells how well the rubber is known.
+        Its `samples` (a `MaterialSamples`) is None where the material's uncertainty is unknown.
     """
     from viscofric.study.study_rubber import FrictionBands
 
@@ -132,9 +118,6 @@ def study_rubber(study: Mapping[str, Any], folders: Folders, temperatures: Seque
 
     Parameters
     ----------
-    study : mapping
-        Tables of a run file.
-    folders : Folders
     temperatures : sequence of float
         K; each must have a shift factor.
 
@@ -167,7 +150,6 @@ def kept(
         What it depends on, each a table or something that JSON holds.
     inputs : sequence of Path
         Files that it depends on; their contents count.
-    folders : Folders
     make : callable
         Returns it.
     """
@@ -215,7 +197,6 @@ def insist_on_uploads(place: str, given: Path | tuple[Path, ...] | None, folder:
         Key of the run file that names them.
     given : Path, tuple of Path, or None
         As the run file names them; patterns stand for the files that they match.
-    folder : Path
 
     Raises
     ------

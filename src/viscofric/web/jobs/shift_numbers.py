@@ -37,7 +37,6 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
 
     Parameters
     ----------
-    rubber : Rubber
     held : mapping of float to float
         Temperatures (K) whose log10 α was held.
 
@@ -101,7 +100,7 @@ def _laws(rubber: Rubber, factors: ShiftFactors | None) -> list[dict[str, Any]]:
 
 def _law_row(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
     laws = rubber.laws
-    told = {
+    numbers = {
         "kind": row.kind,
         "title": row.title,
         "chosen": laws is not None and row is laws.chosen,
@@ -119,11 +118,11 @@ def _law_row(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, An
         "same_as": row.same_as,
     }
     if row.law is None:
-        return told
+        return numbers
     valid = row.law.valid_at(factors.temperatures, above_pole=_NEAR_POLE)
     at = factors.temperatures[valid]
     left = factors.log10_values[valid] - np.asarray(row.law.log10(at))
-    return told | {
+    return numbers | {
         "limits": _limits(row.law),
         "line": line_of(row.law, factors.temperatures),
         "residual": {"temperature": plain(at), "log10": plain(left)},

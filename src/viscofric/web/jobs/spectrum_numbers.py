@@ -30,10 +30,6 @@ _LEVEL_95 = 1.959963984540054
 def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
     """Return modes, moduli over frequency at the reference, and what the fit leaves unexplained.
 
-    Parameters
-    ----------
-    rubber : Rubber
-
     Returns
     -------
     dict
@@ -140,7 +136,6 @@ def band_numbers(
 
     Parameters
     ----------
-    samples : MaterialSamples
     angular_frequency : (n,) array
         rad/s.
     temperature : float, optional

@@ -43,8 +43,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     ----------
     study : dict
         The tables of a run file; [material] alone counts, and needs no reference temperature yet.
-    options : Options
-    context : Context
 
     Returns
     -------
