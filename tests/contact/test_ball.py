@@ -30,6 +30,7 @@ from gallery import (
     low_speed_friction,
     standard_linear_solid,
 )
+from marks import slow
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.free import problem as free_problem
 from viscofric.contact.free.grids import Window
@@ -101,7 +102,7 @@ def hertz_on_grid(cells: int, compliance: float) -> tuple[float, float, float]:
     )
 
 
-@pytest.mark.parametrize("compliance", [1.0, 0.1], ids=["E0", "E_inf"])
+@pytest.mark.parametrize("compliance", [1.0, *slow(0.1)], ids=["E0", "E_inf"])
 def test_hertz_contact_converges_with_the_grid(compliance: float) -> None:
     errors = np.array([hertz_on_grid(cells, compliance) for cells in (32, 128, 512)])
     assert np.all(errors[1] < 0.005)  # half a percent on 128 × 128 cells
@@ -168,7 +169,7 @@ def test_reference_values(reference: BallReference) -> None:
 # --- errors and their estimates -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("problem", [SLS, standard_linear_solid(1000.0, 100.0)], ids=lambda p: p.name)
+@pytest.mark.parametrize("problem", [*slow(SLS), standard_linear_solid(1000.0, 100.0)], ids=lambda p: p.name)
 def test_friction_converges_with_the_grid(problem: BallProblem) -> None:
     solution = problem.solve(accuracy=3e-5)
     cells, lean, energy, indentation, _ = (np.array(level) for level in zip(*solution.diagnostics.levels, strict=True))
@@ -179,7 +180,7 @@ def test_friction_converges_with_the_grid(problem: BallProblem) -> None:
         assert changes[-1] < changes[0] * 0.5 ** (len(changes) - 1)
 
 
-@pytest.mark.parametrize("accuracy", [1e-2, 1e-3, 1e-4])
+@pytest.mark.parametrize("accuracy", [1e-2, 1e-3, *slow(1e-4)])
 def test_true_error_is_within_the_estimate(accuracy: float) -> None:
     for reference in (BALL_REFERENCES[0], BALL_REFERENCES[2], BALL_REFERENCES[3]):
         solution = reference.problem.solve(accuracy=accuracy)
@@ -189,6 +190,7 @@ def test_true_error_is_within_the_estimate(accuracy: float) -> None:
         assert error <= result.friction_error + reference.friction.error
 
 
+@pytest.mark.slow
 def test_estimates_cover_the_planted_friction() -> None:
     """Thirty contacts of a broad spectrum, known to 1e-4 from finer grids."""
     planted = np.loadtxt(Path(__file__).parents[1] / "data" / "planted_friction.csv", delimiter=",", skiprows=3)
@@ -204,6 +206,7 @@ def test_estimates_cover_the_planted_friction() -> None:
         assert abs(solution.friction_coefficient - friction) <= solution.diagnostics.friction_error + 1e-4 * friction
 
 
+@pytest.mark.slow
 def test_two_ways_to_friction_agree_better_on_finer_grids() -> None:
     def disagreement(accuracy: float) -> float:
         result = in_hertz_units(SLS, SLS.solve(accuracy=accuracy))
@@ -389,6 +392,7 @@ def test_mode_without_compliance_changes_nothing() -> None:
 # --- any spectrum ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(
     modulus_ratio=st.floats(0.05, 2.0).map(lambda decades: 10.0**decades),
     modes=st.lists(st.tuples(st.floats(0.1, 1.0), st.floats(-3.0, 0.0)), min_size=3, max_size=6),
@@ -416,7 +420,7 @@ def test_any_broad_spectrum_gives_a_sound_contact(
 # --- what is refused ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("modulus_ratio", [2.0, 100.0])
+@pytest.mark.parametrize("modulus_ratio", [2.0, *slow(100.0)])
 def test_second_attempt_solves_for_the_same_material(monkeypatch: pytest.MonkeyPatch, modulus_ratio: float) -> None:
     """Where the first attempt on a grid fails, proximal points must end at the material that was asked for."""
     problem = standard_linear_solid(modulus_ratio, 1.0)
@@ -507,6 +511,7 @@ def test_units_at_the_edge() -> None:
     assert dressed.friction_coefficient == pytest.approx(plain.friction_coefficient, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_edges_are_claimed_to_be_known_to_a_cell_and_are() -> None:
     """On one of the coarser grids here an edge is taken for half a cell further out than it can be told to be."""
     coarse = broad_spectrum_37(10.0).solve(accuracy=1e-3)

@@ -12,6 +12,7 @@ from contact.dense_reference import (
     solve_dense_contact,
 )
 from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference, standard_linear_solid
+from marks import slow
 from viscofric.contact.complementarity import solve_complementarity, solve_on_contact
 from viscofric.contact.free.grids import Window
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -29,7 +30,7 @@ MATERIALS = {
 }
 
 
-@pytest.mark.parametrize("name", MATERIALS)
+@pytest.mark.parametrize("name", ["elastic", "one mode", *slow("one mode, slow", "one mode, k = 1000", "six modes")])
 def test_pressure_is_that_of_dense_pivoting(name: str) -> None:
     material = MATERIALS[name]
     window = Window(spacing=2.4 / 28, behind=14, ahead=14, beside=12)
@@ -178,7 +179,7 @@ def test_failure_is_told() -> None:
 
 
 @pytest.mark.parametrize(
-    "reference", [BALL_REFERENCES[0], BALL_REFERENCES[2], BALL_REFERENCES[3]], ids=lambda r: r.problem.name
+    "reference", slow(BALL_REFERENCES[0], BALL_REFERENCES[2], BALL_REFERENCES[3]), ids=lambda r: r.problem.name
 )
 def test_dense_friction_is_good_to_a_percent(reference: BallReference) -> None:
     """The second opinion itself, on one coarse grid, against values extrapolated from much finer ones."""
@@ -192,6 +193,7 @@ def test_dense_friction_is_good_to_a_percent(reference: BallReference) -> None:
     assert indentation * BALL_RADIUS / HERTZ_RADIUS**2 == pytest.approx(reference.indentation.value, rel=0.003)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("modulus_ratio", "memory_length"), [(1000.0, 1.0), (1e4, 0.3)])
 def test_hard_corner_agrees_with_dense_pivoting(modulus_ratio: float, memory_length: float) -> None:
     """One mode, a very stiff glass and memory of the contact's size: the operator is nearly skew on any usable grid."""

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from marks import slow
 from viscofric.contact.bodies import Layer
 from viscofric.contact.derivatives.adjoint import friction_adjoint
 from viscofric.contact.derivatives.moving_cells import Motion
@@ -192,8 +193,7 @@ def friction(stage: Stage, way: str, **changed: float | Array) -> float:
         (POINT, "load", 10.0, 2.0, ROUND, False),
         (POINT, "indentation", 10.0, 2.0, ROUND, False),
         (POINT, "load", 300.0, 1.0, ROUND, False),
-        (POINT, "load", 4.0, 0.5, WIDE, False),
-        (POINT, "load", 4.0, 0.5, WIDE, True),
+        *slow((POINT, "load", 4.0, 0.5, WIDE, False), (POINT, "load", 4.0, 0.5, WIDE, True)),
         (POINT, "indentation", 10.0, 2.0, ROUND, True),
         (LINE, "load", 10.0, 2.0, ROUND, False),
         (LINE, "load", 300.0, 1.0, ROUND, False),
@@ -244,7 +244,7 @@ def test_contact_grows_with_its_load_as_hertz_says(geometry: Geometry) -> None:
 
 
 @pytest.mark.parametrize(
-    ("k", "length"), [(2.0, 0.5), (10.0, 1e-3), (10.0, 1.0), (100.0, 0.01), (100.0, 10.0), (1000.0, 0.1)]
+    ("k", "length"), [(10.0, 1.0), *slow((2.0, 0.5), (10.0, 1e-3), (100.0, 0.01), (100.0, 10.0), (1000.0, 0.1))]
 )
 def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, length: float) -> None:
     E0, ratio, radius, load = 1e6, 0.5, 10e-3, 100.0
@@ -283,7 +283,7 @@ def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, lengt
     ("accuracy", "near"),
     # Of μ = 0.058: the two solutions are right to less than 5e-5 of it, which the step of 0.12 divides, and the step's
     # own error is 6e-4 of the third derivative.
-    [(1e-3, 1.5e-4), pytest.param(3e-4, 8e-5, marks=pytest.mark.slow)],
+    slow((1e-3, 1.5e-4), (3e-4, 8e-5)),
 )
 def test_ball_has_the_derivatives_of_its_friction_over_finite_steps(accuracy: float, near: float) -> None:
     rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
@@ -300,6 +300,7 @@ def test_ball_has_the_derivatives_of_its_friction_over_finite_steps(accuracy: fl
     assert derivatives.logarithmic.load == pytest.approx(over("load"), abs=near)
 
 
+@pytest.mark.slow
 def test_cone_has_the_derivatives_of_its_friction_over_finite_steps() -> None:
     """Its tip stays where it is in its cells: where they shift with the contact, it is 5 % off and the error 2 %."""
     rubber, cone = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3), Cone("5 deg")
@@ -317,6 +318,7 @@ def test_cone_has_the_derivatives_of_its_friction_over_finite_steps() -> None:
     assert found.logarithmic.load == pytest.approx(-0.5 * found.logarithmic.speed, abs=found.error)
 
 
+@pytest.mark.slow
 @settings(max_examples=4, deadline=None)
 @given(
     shares=st.lists(st.floats(0.05, 1.0), min_size=1, max_size=4),
@@ -400,6 +402,7 @@ def test_elastic_limits_are_refused(speed: float) -> None:
         solved([6e-7], [1e-3], speed=speed)
 
 
+@pytest.mark.slow
 def test_layer_is_a_half_space_where_it_is_thick() -> None:
     thick, half = (solved([6e-7], [1e-3], accuracy=0.1, layer=layer) for layer in (Layer(thickness=1e3), None))  # type: ignore[arg-type]
     near = {"rel": 1e-5}  # the contact's size over the thickness, 1e-6, and the tolerance of the solutions
@@ -407,6 +410,7 @@ def test_layer_is_a_half_space_where_it_is_thick() -> None:
     assert (thick.E_inf, thick.speed, thick.load) == pytest.approx((half.E_inf, half.speed, half.load), **near)
 
 
+@pytest.mark.slow
 def test_friction_on_a_layer_changes_with_speed_and_load_as_its_derivatives_tell() -> None:
     layer = Layer(thickness=1e-3)
     rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)

@@ -76,6 +76,7 @@ def test_map_turned_by_a_quarter_is_motion_along_its_second_axis() -> None:
         assert getattr(across, name) == pytest.approx(getattr(turned, name), **SAME)
 
 
+@pytest.mark.slow
 def test_motion_backwards_along_a_direction_is_motion_along_the_opposite_one() -> None:
     towards, back = solve(lopsided(), (-2.0, 1.0)), solve(lopsided(), (2.0, -1.0), -0.5)
     assert back.friction_coefficient == pytest.approx(-towards.friction_coefficient, **SAME)
@@ -87,6 +88,7 @@ def test_motion_backwards_along_a_direction_is_motion_along_the_opposite_one() -
     assert back.pressure == pytest.approx(turned, rel=0.0, abs=1e-6 * towards.max_pressure)
 
 
+@pytest.mark.slow
 def test_symmetric_indenter_is_mirrored_with_its_direction() -> None:
     left, right = solve(LONG, at(30.0)), solve(LONG, at(-30.0))
     assert left.friction_coefficient == pytest.approx(right.friction_coefficient, **SAME)

@@ -10,6 +10,7 @@ from scipy import ndimage
 
 import viscofric as vf
 from contact.made_surfaces import self_affine
+from marks import slow
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.extension import Extension, lag
@@ -131,7 +132,7 @@ def test_lag_tells_how_late_short_waves_answer_and_which_way() -> None:
         assert lag(oblique, points, (-toward[0], -toward[1])) == -lag(oblique, points, toward)
 
 
-@pytest.mark.parametrize(("angle", "left"), [(0.0, 0.5), (math.pi, 0.5), (0.6, 0.75)])
+@pytest.mark.parametrize(("angle", "left"), [(0.0, 0.5), *slow((math.pi, 0.5), (0.6, 0.75))])
 def test_going_on_behind_spares_work_where_memories_are_some_cells_long(
     angle: float, left: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:

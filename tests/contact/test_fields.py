@@ -11,6 +11,7 @@ from scipy.optimize import minimize_scalar
 
 from contact.dense_reference import displacement_coefficients, displacement_matrix
 from gallery import standard_linear_solid
+from marks import slow
 from viscofric.contact.fields import (
     Stress,
     highest_von_mises,
@@ -148,7 +149,7 @@ def test_highest_von_mises_stress_below_a_cylinder() -> None:
     assert (found.x, found.y) == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
-@pytest.mark.parametrize("depth", [0.05, 0.5, 1.0])
+@pytest.mark.parametrize("depth", [*slow(0.05), 0.5, 1.0])
 def test_every_plane_carries_the_load(depth: float) -> None:
     reach = 12.0
     hertz, x, pressure = hertz_on_cells(192, reach)
@@ -342,7 +343,7 @@ def test_surface_recovers_late_behind_a_contact() -> None:
     assert resting == pytest.approx(fastest * (1.0 + E_INF * C.sum()), rel=1e-9, abs=0.0)
 
 
-@pytest.mark.parametrize("speed", [0.3, -0.3])
+@pytest.mark.parametrize("speed", [0.3, *slow(-0.3)])
 def test_surface_of_a_line_contact_follows_hunters_cylinder(speed: float) -> None:
     radius, ratio, tau, cells = 8e-3, 20.0, 2e-3, 4001
     contact = hunter_line(40.0, radius, E0, ratio * E0, tau, abs(speed), POISSON)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from marks import slow
 from viscofric.contact.fields import surface_displacement
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
@@ -70,9 +71,9 @@ def test_thin_incompressible_layer_flows_sideways(line: bool) -> None:
     assert errors[1] / errors[2] == pytest.approx(2.0, abs=0.3)
 
 
-@pytest.mark.parametrize("line", [False, True])
+@pytest.mark.parametrize("line", [*slow(False), True])
 @pytest.mark.parametrize(("poisson_ratio", "bonded"), [(0.3, True), (0.5, False)])
-@pytest.mark.parametrize("memory", [0.1, 1.0, 10.0])
+@pytest.mark.parametrize("memory", [1.0, *slow(0.1, 10.0)])
 def test_rolling_over_a_thin_layer_is_rolling_over_a_foundation(
     memory: float, poisson_ratio: float, bonded: bool, line: bool
 ) -> None:
@@ -110,7 +111,7 @@ def test_deep_layer_is_a_half_space(line: bool) -> None:
         assert on_layer.indentation == pytest.approx(on_half_space.indentation, rel=1e-6)
 
 
-@pytest.mark.parametrize(("poisson_ratio", "bonded"), [(0.3, True), (0.5, True), (0.5, False)])
+@pytest.mark.parametrize(("poisson_ratio", "bonded"), [*slow((0.3, True), (0.5, True)), (0.5, False)])
 def test_balls_far_apart_on_a_layer_are_single(poisson_ratio: float, bonded: bool) -> None:
     """With a layer what one ball does to the next fades exponentially, with a memory of 0.3 mm too."""
     period, points, load, layer = 6e-3, 192, 0.5, vf.Layer(4e-4, bonded)
@@ -126,7 +127,7 @@ def test_balls_far_apart_on_a_layer_are_single(poisson_ratio: float, bonded: boo
         assert many.indentation == pytest.approx(single.indentation, rel=2e-3)
 
 
-@pytest.mark.parametrize("line", [False, True])
+@pytest.mark.parametrize("line", [*slow(False), True])
 def test_given_indentation_is_the_inverse_of_a_given_load_on_a_layer(line: bool) -> None:
     layer = vf.Layer(5e-4, bonded=not line)
     first = vf.solve_steady(rubber(0.45), indenter(line), speed=1.0, load=3.0, layer=layer)
@@ -135,6 +136,7 @@ def test_given_indentation_is_the_inverse_of_a_given_load_on_a_layer(line: bool)
     assert back.friction_coefficient == pytest.approx(first.friction_coefficient, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_elastic_indenter_on_a_layer_that_hardly_yields_is_hertzian() -> None:
     """The rubber then is only the coating of its rigid base."""
     found = vf.solve_steady(

@@ -21,6 +21,7 @@ from gallery import (
     cylinder_on_standard_linear_solid,
     cylinder_problem,
 )
+from marks import slow
 from viscofric.contact.free.grids import Strip
 from viscofric.contact.indenters.height_map import Profile
 from viscofric.contact.indenters.shapes import Cylinder
@@ -49,7 +50,7 @@ def test_strip_potential_is_the_integral_of_the_logarithm() -> None:
         assert strip_potential(np.array([x]))[0] == pytest.approx(value, abs=1e-10)  # the quadrature's own error
 
 
-@pytest.mark.parametrize("memory_length", [0.03, 0.9, 1.1, 40.0])
+@pytest.mark.parametrize("memory_length", [0.03, *slow(0.9, 1.1, 40.0)])
 def test_memory_is_the_faded_logarithm(memory_length: float) -> None:
     """K by the integral that defines it, on both sides of the loaded cell and on its edge."""
     places = np.array([-60.0, -3.0, -1.0, -0.5, 0.0, 0.5, 1.0, 8.0])
@@ -166,8 +167,8 @@ def exact(problem: CylinderProblem) -> HunterContact:
     )
 
 
-@pytest.mark.parametrize("modulus_ratio", [2.0, 10.0, 100.0, 1000.0])
-@pytest.mark.parametrize("memory_length", [1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1000.0])
+@pytest.mark.parametrize("modulus_ratio", [2.0, *slow(10.0), 100.0, *slow(1000.0)])
+@pytest.mark.parametrize("memory_length", [*slow(1e-3, 1e-2), 0.1, 1.0, 10.0, *slow(100.0), 1000.0])
 def test_line_contact_is_hunters(modulus_ratio: float, memory_length: float) -> None:
     problem = cylinder_on_standard_linear_solid(modulus_ratio, memory_length)
     hunter, solution = exact(problem), problem.solve(accuracy=3e-4)
@@ -284,7 +285,7 @@ def broad(memory_length: float) -> CylinderProblem:
     return cylinder_problem("37 modes", 1000.0, 10.0 ** (decades / 4.0), memory_length * 10.0**decades)
 
 
-@pytest.mark.parametrize("memory_length", [1e-2, 1.0, 1e4, 1e8, 1e12])
+@pytest.mark.parametrize("memory_length", [*slow(1e-2, 1.0, 1e4, 1e8), 1e12])
 def test_line_contact_of_a_broad_spectrum(memory_length: float) -> None:
     coarse = broad(memory_length).solve()
     fine = broad(memory_length).solve(accuracy=1e-4)

@@ -11,6 +11,7 @@ import pytest
 
 import viscofric as vf
 from gallery import standard_linear_solid
+from marks import slow
 from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, settled
 from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.grids import Strip, Window
@@ -31,7 +32,7 @@ LINE_PROBLEM = Problem(LINE, SOLID, Cylinder(radius=1.0), Control(load=LINE.para
 
 
 @pytest.mark.parametrize("problem", [PROBLEM, LINE_PROBLEM], ids=["point", "line"])
-@pytest.mark.parametrize("size", [10.0, 1.0, 0.3, 0.05])
+@pytest.mark.parametrize("size", [10.0, *slow(1.0, 0.3), 0.05])
 def test_window_finds_the_contact_from_a_poor_guess(problem: Problem, size: float) -> None:
     """A first window ten times too large or twenty times too small ends around the same contact."""
     good, found = (find_window(problem, guess) for guess in (0.7, size))
@@ -187,7 +188,7 @@ def test_proximal_points_find_the_contact_that_the_active_set_finds(problem: Pro
     np.testing.assert_allclose(found.pressure, stage.result.pressure, atol=1e-6 * stage.result.pressure.max())
 
 
-@pytest.mark.parametrize(("ratio", "modulus_ratio"), [(0.1, 1e4), (10.0, 1e4), (1000.0, 10.0)])
+@pytest.mark.parametrize(("ratio", "modulus_ratio"), [(0.1, 1e4), *slow((10.0, 1e4), (1000.0, 10.0))])
 def test_slender_contacts_are_solved_where_the_active_set_cycles(ratio: float, modulus_ratio: float) -> None:
     """The active set alone is lost on one of their grids at least, however long it goes on."""
     rubber = standard_linear_solid(modulus_ratio, 1.0)

@@ -20,6 +20,7 @@ from gallery import (
     cylinder_problem,
     standard_linear_solid,
 )
+from marks import slow
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -88,6 +89,7 @@ def sound(coarse: vf.ContactSolution, fine: vf.ContactSolution) -> None:
     assert abs(fine.friction_coefficient) > 0.0
 
 
+@pytest.mark.slow
 @given(modulus_ratio=st.floats(0.1, 2.5).map(lambda decades: 10.0**decades), modes=MODES, decade=st.floats(-1.0, 5.0))
 @settings(max_examples=6, deadline=None, derandomize=True)
 def test_stated_errors_of_line_contacts_cover(
@@ -99,6 +101,7 @@ def test_stated_errors_of_line_contacts_cover(
     sound(problem.solve(accuracy=2e-2), problem.solve(accuracy=5e-4))
 
 
+@pytest.mark.slow
 @given(modulus_ratio=st.floats(0.1, 2.0).map(lambda decades: 10.0**decades), modes=MODES, decade=st.floats(-1.0, 4.0))
 @settings(max_examples=3, deadline=None, derandomize=True)
 def test_stated_errors_of_point_contacts_cover(
@@ -123,9 +126,8 @@ def test_indentation_is_known_no_better_than_the_level_it_is_counted_from() -> N
 @pytest.mark.parametrize(
     ("modulus_ratio", "modes", "accuracy"),
     [
-        (222.0, [(0.57, 17.0), (0.43, 0.4)], 6e-3),
         (15.7, [(1.0, 0.093)], 5e-3),
-        (55.9, [(0.48, 0.089), (0.24, 0.58), (0.28, 34.0)], 1e-3),
+        *slow((222.0, [(0.57, 17.0), (0.43, 0.4)], 6e-3), (55.9, [(0.48, 0.089), (0.24, 0.58), (0.28, 34.0)], 1e-3)),
     ],
 )
 def test_ends_of_a_strip_are_known_to_a_cell(

@@ -51,27 +51,35 @@ def test_all_is_in_contact_under_a_high_pressure_and_friction_is_that_of_the_sol
         assert theory.friction_coefficient[0, 0] * scale == pytest.approx(solved.friction_coefficient, rel=0.02)
 
 
-@pytest.mark.parametrize("gamma", [1.0, 0.5, 0.0])
-def test_another_quadrature_finds_the_same(gamma):
-    speed, pressure = 0.02, 2e5
+SPEED, PRESSURE = 0.02, 2e5  # of the quadrature below
 
-    def over_directions(q: float, kind: str) -> float:
+
+@pytest.fixture(scope="module")
+def over_directions():
+    """Wave numbers, and the integrals of |E/p|² and of cos φ Im E/p over all directions at each."""
+    q = np.exp(np.linspace(math.log(2e3 * math.pi), math.log(4e5 * math.pi), 1201))
+
+    def integral(one: float, kind: str) -> float:
         def part(phi: float) -> float:
-            modulus = complex(RUBBER.complex_modulus(q * speed * math.cos(phi))) / (1.0 - 0.4**2) / pressure
+            modulus = complex(RUBBER.complex_modulus(one * SPEED * math.cos(phi))) / (1.0 - 0.4**2) / PRESSURE
             return abs(modulus) ** 2 if kind == "square" else math.cos(phi) * modulus.imag
 
-        return 4.0 * quad(part, 0.0, 0.5 * math.pi, epsabs=0.0, epsrel=1e-8)[0]
+        return 4.0 * quad(part, 0.0, 0.5 * math.pi, epsabs=0.0, epsrel=1e-6)[0]
 
-    q = np.exp(np.linspace(math.log(2e3 * math.pi), math.log(4e5 * math.pi), 1201))
+    return q, *(np.array([integral(one, kind) for one in q]) for kind in ("square", "loss"))
+
+
+@pytest.mark.parametrize("gamma", [1.0, 0.5, 0.0])
+def test_another_quadrature_finds_the_same(over_directions, gamma):
+    q, square, loss = over_directions
     density = ROAD(q)
-    integrand = 0.125 * q**4 * density * np.array([over_directions(one, "square") for one in q])
+    integrand = 0.125 * q**4 * density * square
     step = math.log(q[1] / q[0])
     spread = np.concatenate([[0.0], np.cumsum(0.5 * step * (integrand[1:] + integrand[:-1]))])
     area = erf(0.5 / np.sqrt(np.maximum(spread, 1e-300)))
     follows = gamma + (1.0 - gamma) * area**2
-    loss = np.array([over_directions(one, "loss") for one in q])
     wanted = 0.5 * np.trapezoid(q**4 * density * follows * area * loss, dx=step)
-    found = vf.persson_theory(RUBBER, ROAD, speeds=speed, pressure=pressure, gamma=gamma, accuracy=1e-6)
+    found = vf.persson_theory(RUBBER, ROAD, speeds=SPEED, pressure=PRESSURE, gamma=gamma, accuracy=1e-6)
     # Trapezoids of 1/226 of the logarithm.
     assert found.contact_area_fraction[0, 0] == pytest.approx(area[-1], rel=2e-4)
     assert found.friction_coefficient[0, 0] == pytest.approx(wanted, rel=5e-4)

@@ -223,6 +223,7 @@ def test_energy_balance_of_partial_contact_converges_with_the_grid():
     assert solved[2].friction_coefficient == pytest.approx(solved[1].friction_coefficient, rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_larger_piece_of_the_same_roughness_rubs_alike():
     """Twice the period, with the same roll-off, cut-off and rms slope: within the scatter, which falls."""
     found = []
