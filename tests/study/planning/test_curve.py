@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 
 from study.planning.made_up_contacts import BALL, SLS, case_of, made_up
 from viscofric.contact.free.scale import Scale
+from viscofric.study.cases.indenter_case import LOGARITHMIC, node_of
 from viscofric.study.cases.interpolation import FRICTION, Node
 from viscofric.study.planning.curve import STEP, Curve
 from viscofric.study.planning.plan import plan_cases
 
 RECORD = made_up(plan_cases([case_of(0.1)], [SLS], each=True).wanted()[0])
-NODE = Node.of(RECORD, Scale.for_load(BALL, 1e6 / 0.75, RECORD.load))
+NODE = node_of(RECORD, Scale.for_load(BALL, 1e6 / 0.75, RECORD.load))
 PLACES = np.linspace(-6.0, 6.0, 200)
 
 #: Modes whose loss makes the friction: places of their maxima, and strengths.
@@ -36,7 +37,7 @@ def node_at(place: int, modes: list[tuple[float, float]]) -> Node:
 
 def solved_curve(modes: list[tuple[float, float]], accuracy: float) -> tuple[Curve, int]:
     """Answer all that a curve wants; it, and how many nodes that took."""
-    curve, count = Curve(PLACES, accuracy), 0
+    curve, count = Curve(PLACES, accuracy, LOGARITHMIC), 0
     while curve.wanted:
         count += len(curve.wanted)
         curve.advance({place: node_at(place, modes) for place in curve.wanted})
@@ -55,7 +56,7 @@ def test_claimed_errors_hold(accuracy: float) -> None:
         modes = random_modes(random)
         curve = solved_curve(modes, accuracy)[0]
         for one in curve.closed:
-            _, found = curve.between(one)
+            found = curve.between(one).found
             off = np.abs(found.values[:, FRICTION] - friction(PLACES[one.cases], modes))
             claimed = np.hypot(found.from_nodes[:, FRICTION], found.between[:, FRICTION])
             held += (off <= claimed).tolist()
@@ -68,7 +69,7 @@ def test_accuracy_is_kept_and_no_case_is_lost(modes: list[tuple[float, float]], 
     curve = solved_curve(modes, accuracy)[0]
     seen = list(curve.alone)
     for one in curve.closed:
-        _, found = curve.between(one)
+        found = curve.between(one).found
         true = friction(PLACES[one.cases], modes)
         assert np.all(np.abs(found.values[:, FRICTION] - true) <= accuracy * true)
         seen += one.cases.tolist()
@@ -80,7 +81,7 @@ def test_errors_that_are_told_are_within_the_accuracy(accuracy: float) -> None:
     """Those of the nodes are nearly as large as they may be, and interpolating adds to them."""
     random = np.random.default_rng(0)
     for _ in range(5):
-        modes, curve = random_modes(random), Curve(PLACES, accuracy)
+        modes, curve = random_modes(random), Curve(PLACES, accuracy, LOGARITHMIC)
         while curve.wanted:
             found = {}
             for place in curve.wanted:
@@ -91,7 +92,7 @@ def test_errors_that_are_told_are_within_the_accuracy(accuracy: float) -> None:
             curve.advance(found)
         seen = list(curve.alone)
         for one in curve.closed:
-            _, told = curve.between(one)
+            told = curve.between(one).found
             errors = np.hypot(told.from_nodes[:, FRICTION], told.between[:, FRICTION])
             assert np.all(errors <= accuracy * told.values[:, FRICTION])
             seen += one.cases.tolist()
@@ -107,7 +108,7 @@ def test_nodes_grow_slowly_with_the_accuracy() -> None:
 
 
 def test_a_law_of_powers_takes_no_more_than_the_first_nodes() -> None:
-    curve, nodes = Curve(PLACES, 1e-3), 0
+    curve, nodes = Curve(PLACES, 1e-3, LOGARITHMIC), 0
     while curve.wanted:
         nodes += len(curve.wanted)
         found = {}

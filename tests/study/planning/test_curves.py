@@ -12,7 +12,7 @@ import pytest
 import viscofric as vf
 from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from viscofric.study.cases.case import Rubbers, Settings
-from viscofric.study.cases.interpolation import ERRORS, NAMES, units_of
+from viscofric.study.cases.indenter_case import ERRORS, NAMES, units_of
 from viscofric.study.cases.record import Failure, Record
 from viscofric.study.cases.solving import Task, solve
 from viscofric.study.planning.plan import Outcome, plan_cases

@@ -22,10 +22,9 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.study.cases.interpolation import Node
+    from viscofric.study.cases.interpolation import Between, Node
     from viscofric.study.cases.record import Record
     from viscofric.study.cases.solving import Task
-    from viscofric.study.planning.curve import Curve, Interval
 
 
 @dataclass(frozen=True)
@@ -177,16 +176,15 @@ class Case(ABC):
         """Return a solved contact of a family as a node of its curve."""
 
     @abstractmethod
-    def between(
-        self, curve: Curve, one: Interval, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
+    def interpolated(
+        self, between: Between, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
     ) -> Iterator[tuple[int, Record | Failure]]:
         """Yield number and record of every case of a closed interval of a family's curve, as if it had been solved.
 
         Parameters
         ----------
-        curve : Curve
-        one : Interval
-            Of the curve.
+        between : Between
+            The interval.
         cases, places : sequence of Case and Place
             Of the whole family.
         rubbers : Rubbers

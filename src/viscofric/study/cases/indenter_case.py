@@ -22,7 +22,7 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.study.cases.case import Case, Place
-from viscofric.study.cases.interpolation import ERRORS, FRICTION, LOGARITHMIC, NAMES, Node, units_of
+from viscofric.study.cases.interpolation import FRICTION, Between, Node
 from viscofric.study.cases.record import Failure, Record, indenter_record
 from viscofric.study.cases.sensitivities import Sensitivities
 from viscofric.study.cases.solving import Task, solve_indenter
@@ -30,7 +30,7 @@ from viscofric.study.cases.solving import Task, solve_indenter
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from viscofric.arrays import Mask
+    from viscofric.arrays import Array, Mask
     from viscofric.contact.bodies import Layer
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.indenters.indenter import Indenter
@@ -38,9 +38,22 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Rubbers, Settings
     from viscofric.study.cases.interpolation import Interpolated
-    from viscofric.study.planning.curve import Curve, Interval
 
-
+# Interpolated number, that of its error (the centre of pressure has none of its own), and whether it is interpolated by
+# its logarithm: front and rear may change their sign.
+_COLUMNS = (
+    ("friction_coefficient", "friction_error", True),
+    ("indentation", "indentation_error", True),
+    ("contact_area", "contact_area_error", True),
+    ("max_pressure", "max_pressure_error", True),
+    ("half_width", "edge_error", True),
+    ("centre_of_pressure", None, True),
+    ("front", "edge_error", False),
+    ("rear", "edge_error", False),
+)
+NAMES = tuple(name for name, _, _ in _COLUMNS)
+ERRORS = tuple(error for _, error, _ in _COLUMNS)
+LOGARITHMIC = np.array([logarithmic for *_, logarithmic in _COLUMNS])
 # Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
 _LOW_SLOPE = 0.01
 _BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
@@ -175,22 +188,19 @@ class IndenterCase(Case):
 
     def node(self, record: Record, rubbers: Rubbers, accuracy: float) -> Node:
         """Return a solved contact of a family as a node of its curve."""
-        return Node.of(record, self._units(rubbers))
+        return node_of(record, self._units(rubbers))
 
     def _units(self, rubbers: Rubbers) -> Scale:
         """Return the units of a family's contacts."""
         return rubbers.scale(self.indenter, _stiffness(rubbers.of(self), self.modulus, self.poisson_ratio), self.load)
 
-    def between(
-        self, curve: Curve, one: Interval, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
+    def interpolated(
+        self, between: Between, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
     ) -> Iterator[tuple[int, Record | Failure]]:
         """Yield the records of the cases of a closed interval; failures where they would be wider than the indenter."""
-        chosen, found = curve.between(one)
-        nodes = [(node, curve.node(node).record) for node in chosen.nodes]
-        ends = [curve.node(end).record for end in (one.low, one.high)]
-        numbers = one.cases.tolist()
-        here = [places[number] for number in numbers]
-        sensitivities = Sensitivities.between(nodes, here, rubbers.modes(self, at_reference=True), self._units(rubbers))
+        here, ends = [places[number] for number in between.cases], between.ends
+        modes, units = rubbers.modes(self, at_reference=True), self._units(rubbers)
+        sensitivities = Sensitivities.between(between.nodes, here, modes, units)
         shared: dict[str, Any] = {
             "energy_balance": max((end.energy_balance for end in ends), key=abs),
             "complementarity": max(end.complementarity for end in ends),
@@ -198,8 +208,8 @@ class IndenterCase(Case):
             "products": 0,
             "interpolated": True,
         }
-        for row, (number, place) in enumerate(zip(numbers, here, strict=True)):
-            case, told = cases[number], _told(found, row, place)
+        for row, (number, place) in enumerate(zip(between.cases, here, strict=True)):
+            case, told = cases[number], _told(between.found, row, place)
             if math.isinf(ends[0].half_width):
                 told["half_width"] = math.inf
             try:
@@ -229,6 +239,23 @@ def representative(indenter: Indenter) -> Indenter | None:
         case Cone():
             return _CONE
     return None
+
+
+def node_of(record: Record, scale: Scale) -> Node:
+    """Return a solved contact as a node: its numbers over their units."""
+    units = units_of(scale)
+    values = np.array([getattr(record, name) for name in NAMES]) / units
+    errors = np.array([0.0 if name is None else getattr(record, name) for name in ERRORS]) / units
+    # A line contact has no width, and no error of it.
+    return Node(record, np.where(np.isfinite(values), values, 1.0), errors)
+
+
+def units_of(scale: Scale, b: float = 1.0) -> Array:
+    """Return the units of all columns, (columns,), those of pressures b times as large."""
+    length = scale.length
+    return np.array(
+        [scale.slope, scale.depth, scale.area, b * scale.pressure, length, length, length, length], dtype=float
+    )
 
 
 def _stiffness(material: Material, modulus: float | None, poisson_ratio: float) -> float:

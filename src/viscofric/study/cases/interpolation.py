@@ -11,10 +11,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array, Mask
-    from viscofric.contact.free.scale import Scale
-    from viscofric.study.cases.record import Record
 
 
+#: Column of friction in the values of a node.
+FRICTION = 0
+#: Interpolation may add so much to the error of friction, of the accuracy asked for.
+SHARE = 0.25
 #: Nodes that a polynomial goes through, and on either side of its interval.
 MOST, BESIDE = 6, 3
 # By what their differences are multiplied for an error that holds in 95 % of all places of steep curves, too.
@@ -144,24 +146,6 @@ def interpolate(
     return Interpolated(found, size * np.sqrt(full**2 @ (errors / unit) ** 2), size * apart)
 
 
-# Name, that of its error (none is told of the centre of pressure, which is the friction's), and whether it is
-# interpolated by its logarithm: front and rear may change their sign.
-_COLUMNS = (
-    ("friction_coefficient", "friction_error", True),
-    ("indentation", "indentation_error", True),
-    ("contact_area", "contact_area_error", True),
-    ("max_pressure", "max_pressure_error", True),
-    ("half_width", "edge_error", True),
-    ("centre_of_pressure", None, True),
-    ("front", "edge_error", False),
-    ("rear", "edge_error", False),
-)
-NAMES = tuple(name for name, _, _ in _COLUMNS)
-ERRORS = tuple(error for _, error, _ in _COLUMNS)
-FRICTION = NAMES.index("friction_coefficient")
-LOGARITHMIC = np.array([logarithmic for *_, logarithmic in _COLUMNS])
-
-
 @dataclass(frozen=True, eq=False)
 class Node:
     """A solved contact of a curve.
@@ -177,19 +161,23 @@ class Node:
     values: Array
     errors: Array
 
-    @classmethod
-    def of(cls, record: Record, scale: Scale) -> Node:
-        """Take the units off a record."""
-        units = units_of(scale)
-        values = np.array([getattr(record, name) for name in NAMES]) / units
-        errors = np.array([0.0 if name is None else getattr(record, name) for name in ERRORS]) / units
-        # A line contact has no width, and no error of it.
-        return cls(record, np.where(np.isfinite(values), values, 1.0), errors)
 
+class Between(NamedTuple):
+    """The cases between two neighbouring nodes of a curve, interpolated.
 
-def units_of(scale: Scale, b: float = 1.0) -> Array:
-    """Units of all columns, (columns,), those of pressures b times as large."""
-    length = scale.length
-    return np.array(
-        [scale.slope, scale.depth, scale.area, b * scale.pressure, length, length, length, length], dtype=float
-    )
+    Attributes
+    ----------
+    cases : list of int
+        Their numbers in the family.
+    nodes : list of (float, Record)
+        s and record of each node of the polynomial.
+    ends : tuple of Record
+        The two neighbouring nodes.
+    found : Interpolated
+        A row for each case.
+    """
+
+    cases: list[int]
+    nodes: list[tuple[float, Any]]
+    ends: tuple[Any, Any]
+    found: Interpolated

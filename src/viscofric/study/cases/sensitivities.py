@@ -12,7 +12,6 @@ import numpy as np
 
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
 from viscofric.study.cases.interpolation import weights
-from viscofric.study.planning.curve import STEP
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,14 +50,14 @@ class Sensitivities:
 
     @classmethod
     def between(
-        cls, nodes: Sequence[tuple[int, Record]], places: Sequence[Place], modes: RetardationSpectrum, units: Scale
+        cls, nodes: Sequence[tuple[float, Record]], places: Sequence[Place], modes: RetardationSpectrum, units: Scale
     ) -> Self | None:
         """Interpolate; None where a node has none.
 
         Parameters
         ----------
-        nodes : sequence of int and Record
-            Of the polynomial.
+        nodes : sequence of (float, Record)
+            s and record of each node of the polynomial.
         places : sequence of Place
             Of the cases.
         modes : RetardationSpectrum
@@ -70,7 +69,7 @@ class Sensitivities:
         found = [one for one in known if one is not None]
         if len(found) < len(known):
             return None
-        at = STEP * np.array([node for node, _ in nodes], dtype=float)
+        at = np.array([s for s, _ in nodes])
         shares = weights(at, np.array([place.s for place in places]))
         # At the reference temperature, where all nodes are.
         log_tau = [log_times(modes, np.exp(-place.s)) for place in places]

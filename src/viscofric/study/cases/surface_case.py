@@ -15,11 +15,10 @@ import numpy as np
 
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.study.cases.case import Case, Place
-from viscofric.study.cases.interpolation import FRICTION, Node
+from viscofric.study.cases.interpolation import FRICTION, SHARE, Between, Node
 from viscofric.study.cases.record import Record, surface_record
 from viscofric.study.cases.solving import Task, solve_surface, surface_solution
 from viscofric.study.cases.surfaces import surface_of
-from viscofric.study.planning.curve import SHARE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.study.cases.case import Rubbers, Settings
     from viscofric.study.cases.surfaces import SurfaceSource
-    from viscofric.study.planning.curve import Curve, Interval
 
 # Number of a record, and whether it is interpolated by its logarithm: forces across the motion have either sign.
 _COLUMNS = (
@@ -191,14 +189,13 @@ class SurfaceCase(Case):
         errors[FRICTION] = min(_RIPPLE * record.friction_error, SHARE * accuracy * abs(values[FRICTION]))
         return Node(record, values, errors)
 
-    def between(
-        self, curve: Curve, one: Interval, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
+    def interpolated(
+        self, between: Between, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
     ) -> Iterator[tuple[int, Record]]:
         """Yield number and record of every case of a closed interval, as if it had been solved."""
-        _, found = curve.between(one)
-        ends = [curve.node(end).record for end in (one.low, one.high)]
+        found, ends = between.found, between.ends
         doubtful = [end for end in ends if end.warnings]
-        for row, number in enumerate(one.cases.tolist()):
+        for row, number in enumerate(between.cases):
             case, values = cases[number], found.values[row].copy()
             values[_PRESSURE] *= places[number].b
             added = float(np.hypot(found.from_nodes[row, FRICTION], found.between[row, FRICTION]))

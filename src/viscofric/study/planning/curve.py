@@ -13,7 +13,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.contact.free.estimates import FRICTION_FLOOR
-from viscofric.study.cases.interpolation import FRICTION, LOGARITHMIC, Interpolated, Node, Stencil, interpolate, stencil
+from viscofric.study.cases.interpolation import (
+    FRICTION,
+    SHARE,
+    Between,
+    Interpolated,
+    Node,
+    Stencil,
+    interpolate,
+    stencil,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,8 +36,6 @@ STEP = 1.0 / 32.0
 _FINE_START, _COARSE_START, _COARSE_FROM = 32, 64, 1e-2
 #: Nodes further apart than this, in steps, tell nothing of what lies between them.
 FURTHEST = 64
-#: Interpolation may add so much to the error of friction, of the accuracy asked for.
-SHARE = 0.25
 # By how much halving an interval lowers the error at the least, by the nodes that its polynomial goes through: in the
 # limit it is 2 to the power of their number.  Between nodes further apart than the first ones are at high accuracy,
 # which peaks of single modes fit between, halving gains nothing that can be counted on.
@@ -76,7 +83,7 @@ class Curve:
         Those between whose nodes the others lie.
     """
 
-    def __init__(self, places: Array, accuracy: float, logarithmic: Mask = LOGARITHMIC) -> None:
+    def __init__(self, places: Array, accuracy: float, logarithmic: Mask) -> None:
         self._places, self._accuracy, self._logarithmic = places, accuracy, logarithmic
         self._nodes: dict[int, Node] = {}
         self._failed: set[int] = set()
@@ -154,7 +161,7 @@ class Curve:
         """
         closed, self.closed = self.closed, []
         for one in closed:
-            _, found = self.between(one)
+            found = self.between(one).found
             errors = np.hypot(found.from_nodes[:, FRICTION], found.between[:, FRICTION])
             allowed = self._accuracy * np.maximum(np.abs(found.values[:, FRICTION]), FRICTION_FLOOR)
             missed = one.cases[errors > allowed]
@@ -182,14 +189,12 @@ class Curve:
         drafted.wanted = ()
         return drafted
 
-    def between(self, one: Interval) -> tuple[Stencil, Interpolated]:
-        """Interpolate the cases of a closed interval, from the nodes that are returned too."""
+    def between(self, one: Interval) -> Between:
+        """Interpolate the cases of a closed interval."""
         chosen = stencil(one.low, one.high, sorted(self._nodes), FURTHEST)
-        return chosen, self._at(chosen, self._places[one.cases])
-
-    def node(self, place: int) -> Node:
-        """Return a node that was solved."""
-        return self._nodes[place]
+        nodes = [(STEP * node, self._nodes[node].record) for node in chosen.nodes]
+        ends = self._nodes[one.low].record, self._nodes[one.high].record
+        return Between(one.cases.tolist(), nodes, ends, self._at(chosen, self._places[one.cases]))
 
     def _leave_alone(self, cases: Indices) -> None:
         self.alone += cases.tolist()

@@ -132,7 +132,7 @@ def _curves(
             continue  # it fails at once
         places[place.family].append(place.s)
         kinds[place.family] = _kind(case)
-    return [(kinds[family], Curve(np.array(values), accuracy)) for family, values in places.items()]
+    return [(kinds[family], Curve(np.array(values), accuracy, family.LOGARITHMIC)) for family, values in places.items()]
 
 
 def _kind(case: Case) -> tuple[str, bool]:

@@ -197,7 +197,7 @@ class _FamilyPlan:
         curve = self._curve.drafted(self._wave)
         for place, one in enumerate(curve.closed):
             known = place < len(self._curve.closed)
-            for row, outcome in self._family.between(curve, one, cases, self._places, self._plan.rubbers):
+            for row, outcome in self._family.interpolated(curve.between(one), cases, self._places, self._plan.rubbers):
                 yield self._numbers[row], outcome, known
 
     def _count(self, cases: int) -> None:
@@ -209,7 +209,9 @@ class _FamilyPlan:
         self._settled = True
         cases = [self._plan.case(number) for number in self._numbers]
         for one in self._curve.closed:
-            for row, outcome in self._family.between(self._curve, one, cases, self._places, self._plan.rubbers):
+            for row, outcome in self._family.interpolated(
+                self._curve.between(one), cases, self._places, self._plan.rubbers
+            ):
                 self._plan.settle(self._numbers[row], outcome)
         for row in sorted(self._curve.alone):
             self._plan.solve_alone(self._numbers[row])
