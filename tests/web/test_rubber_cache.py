@@ -104,7 +104,7 @@ def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspa
 @pytest.mark.parametrize(
     ("material", "sentence"),
     [
-        ({}, r"^material: nothing says where the rubber comes from"),
+        ({}, r"^material: has no source of the material"),
         ({"dma": "dma.csv"}, r"^material: reference_temperature is missing"),
         ({**SWEEPS, "deformation": "bending"}, r"^material\.deformation: 'bending' is not known"),
         ({**SWEEPS, "dma": "/etc/passwd"}, r"^material\.dma: '/etc/passwd' is not one of the page's files"),

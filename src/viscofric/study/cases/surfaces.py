@@ -29,24 +29,18 @@ _KEPT = 2
 
 @dataclass(frozen=True)
 class MadeSurface:
-    """A self-affine surface; see `viscofric.self_affine`, SI.
+    """A self-affine surface, SI; see `viscofric.self_affine`.
 
-    Parameters
+    Attributes
     ----------
-    hurst : float
-    points : (int, int)
-        Along x and y; one along y for a profile.
-    spacing : (float, float)
-        m.
-    seed : int
+    points, spacing : (2,)
+        Along x and y; one point along y for a profile; m.
     shortest, longest, rolloff : float
-        Wavelengths, m; the last two as far as they are given.
-    rms_height : float, optional
-        m; either it or the slope.
-    rms_slope : float, optional
+        Wavelengths, m.
+    rms_height, rms_slope : float or None
+        One of them; m, 1.
     aspect, angle : float
-        Of the lay; rad.
-    exact : bool
+        Of the lay; 1, rad.
     """
 
     hurst: float
@@ -63,19 +57,13 @@ class MadeSurface:
     exact: bool = True
 
     def topography(self) -> Topography:
-        """Return the heights.
-
-        Raises
-        ------
-        InputError
-            As of `self_affine`.
-        """
+        """Return the heights."""
         values = asdict(self)
         hurst, points = values.pop("hurst"), values.pop("points")
         return self_affine(hurst, shape=points, **values)
 
     def described(self) -> list[object]:
-        """Return everything that decides the heights, in plain types."""
+        """Return everything that determines the heights, in plain types."""
         return ["made", asdict(self)]
 
     @property
@@ -94,15 +82,14 @@ class MadeSurface:
 class ScannedSurface:
     """A measured surface; see `viscofric.read_topography`.
 
-    Parameters
+    Attributes
     ----------
-    path : Path
     digest : str
         SHA-256 of the file.
     steps : tuple of str
-        Of preparation; see `step_of`.
+        Preparation steps; see `step_of`.
     unit, spacing, channel, missing, lines
-        Of the file, as far as it does not say them.
+        As far as the file does not state them.
     """
 
     path: Path
@@ -115,17 +102,11 @@ class ScannedSurface:
     lines: Literal["x", "y"] = "x"
 
     def topography(self) -> Topography:
-        """Return the heights, prepared.
-
-        Raises
-        ------
-        DataFileError
-            If the file cannot be read, or is another one by now.
-        InputError
-            If a step of preparation cannot be done.
-        """
+        """Return the prepared heights; raise `DataFileError` if the file changed since the study began."""
         if file_digest(self.path) != self.digest:
-            raise DataFileError(self.path, "was changed while the study ran; run it again with --resume.")
+            raise DataFileError(
+                self.path, "was changed while the study ran; run it again with --resume.", code="changed"
+            )
         found = read_topography(
             self.path,
             unit=self.unit,
@@ -139,7 +120,7 @@ class ScannedSurface:
         return found
 
     def described(self) -> list[object]:
-        """Return everything that decides the heights, in plain types: the file's content, not its name."""
+        """Return everything that determines the heights, in plain types: the file's content, not its name."""
         values = asdict(self)
         del values["path"]
         return ["scanned", values]
@@ -151,7 +132,7 @@ class ScannedSurface:
 
     @property
     def wavelengths(self) -> tuple[float, float]:
-        """The shortest and the longest that it can hold, m."""
+        """The shortest and the longest that the points can represent, m."""
         surface = surface_of(self)
         along = [
             (step, period)
@@ -192,19 +173,13 @@ def file_digest(path: Path) -> str:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except FileNotFoundError:
-        raise DataFileError(path, "no such file.") from None
+        raise DataFileError(path, "no such file.", code="no-file") from None
     except (OSError, ValueError) as error:
         raise DataFileError(path, f"cannot be read ({getattr(error, 'strerror', None) or error}).") from None
 
 
 def unit_vector(angle: float) -> tuple[float, float]:
-    """Return the direction of a motion, exact along the axes.
-
-    Parameters
-    ----------
-    angle : float
-        From x towards y, rad.
-    """
+    """Return the direction of a motion at an angle from x towards y, rad; exact along the axes."""
     quarters = angle / (0.5 * math.pi)
     if quarters == round(quarters):
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]
@@ -213,7 +188,7 @@ def unit_vector(angle: float) -> tuple[float, float]:
 
 _Applied: TypeAlias = Callable[["Topography"], "Topography"]
 
-#: First words of a step -> what they may be followed by, and an example.
+#: Name of a step -> an example.
 STEPS = {
     "fill": "fill",
     "remove": "remove tilt",
@@ -232,17 +207,9 @@ _FILL, _REMOVE = ("harmonic", "nearest"), ("mean", "tilt", "curvature")
 
 
 def step_of(words: str) -> _Applied:
-    """Return what a step does to a topography.
+    """Return the function of a preparation step on a topography.
 
-    Parameters
-    ----------
-    words : str
-        Its name, and what it needs beside: see `STEPS`.
-
-    Raises
-    ------
-    InputError
-        If it is no step, or what stands behind its name cannot be used.
+    `words` is the name of the step with its arguments: see `STEPS`.
     """
     name, rest = _parted(words)
     known: dict[str, Callable[[str], _Applied]] = {
@@ -262,35 +229,33 @@ def step_of(words: str) -> _Applied:
 
 
 def _parted(words: str) -> tuple[str, str]:
-    """Return the name of a step and what follows it."""
+    """Return the name of a step and its arguments."""
     said = " ".join(words.split())
     for name in STEPS:
         if said == name or said.startswith(f"{name} "):
             return name, said.removeprefix(name).strip()
     near = difflib.get_close_matches(said[:_LONGEST_STEP], [*STEPS, *STEPS.values()], n=1, cutoff=0.5)
-    hint = f"did you mean '{near[0]}'?" if near else f"right would be {', '.join(repr(one) for one in STEPS.values())}"
-    raise InputError(f"{brief(words)} is no step of preparation; {hint}")
+    hint = f"did you mean '{near[0]}'?" if near else f"expected {', '.join(repr(one) for one in STEPS.values())}"
+    raise InputError(f"{brief(words)} is not a preparation step; {hint}")
 
 
 def _alone(name: str, rest: str, applied: _Applied) -> _Applied:
     if rest:
-        raise InputError(f"{brief(f'{name} {rest}')}: '{name}' stands alone")
+        raise InputError(f"{brief(f'{name} {rest}')}: '{name}' takes no argument")
     return applied
 
 
 def _fill(rest: str) -> _Applied:
     method: Any = rest or _FILL[0]
     if method not in _FILL:
-        raise InputError(f"{brief(f'fill {rest}')}: missing heights are filled 'harmonic' or 'nearest'")
+        raise InputError(f"{brief(f'fill {rest}')}: expected 'fill harmonic' or 'fill nearest'")
     return lambda one: one.fill(method)
 
 
 def _remove(rest: str) -> _Applied:
     what: Any = rest
     if what not in _REMOVE:
-        raise InputError(
-            f"{brief(f'remove {rest}')}: right would be 'remove mean', 'remove tilt' or 'remove curvature'"
-        )
+        raise InputError(f"{brief(f'remove {rest}')}: expected 'remove mean', 'remove tilt' or 'remove curvature'")
     return lambda one: one.remove(what)
 
 
@@ -300,7 +265,9 @@ def _window(rest: str) -> _Applied:
     except ValueError:
         edge = -1.0
     if not 0.0 < edge <= 0.5:
-        raise InputError(f"{brief(f'window {rest}')}: right would be a share of each length, as in 'window 0.1'")
+        raise InputError(
+            f"{brief(f'window {rest}')}: expected a fraction of each length up to 0.5, such as 'window 0.1'"
+        )
     return lambda one: one.window(edge)
 
 
@@ -314,7 +281,7 @@ def _length(name: str, rest: str, applied: Callable[[Topography, float], Topogra
 def _crop(rest: str) -> _Applied:
     found = re.fullmatch(r"([xy]) (.+) to (.+)", rest)
     if found is None:
-        raise InputError(f"{brief(f'crop {rest}')}: right would be '{STEPS['crop']}'")
+        raise InputError(f"{brief(f'crop {rest}')}: expected '{STEPS['crop']}'")
     first, last = (to_si(text, "m", "crop") for text in found.groups()[1:])
     if found[1] == "x":
         return lambda one: one.crop(x=(first, last))

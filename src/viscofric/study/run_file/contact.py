@@ -1,4 +1,4 @@
-"""[indenter], [layer] and [conditions] of a run file: what is in contact, and under what it is to be solved."""
+"""[indenter], [layer] and [conditions] of a run file: the bodies in contact, and the conditions."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ if TYPE_CHECKING:
     from viscofric.study.cases.case import Case
     from viscofric.study.run_file.tables import Problem
 
-_SHAPE = "Its shape; each has lengths or an angle of its own."
+_SHAPE = "Shape; each has its own lengths or angle."
 
 
 class AnyIndenterTable(Table, ABC):
-    """[indenter]: what slides or rolls over the rubber."""
+    """[indenter]: the indenter that slides or rolls over the rubber."""
 
     modulus: Modulus | None = Field(None, description="Young's modulus of an elastic indenter; rigid without it.")
     poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
 
     shape: str
-    #: What its contacts are, and the keys of [conditions] that they take.
+    #: Class of its cases, and the keys of [conditions] that they take.
     CASE: ClassVar[type[Case]] = IndenterCase
     CONDITIONS: ClassVar[tuple[str, ...]] = ("load",)
     #: Keys whose values are axes of the study.
@@ -50,18 +50,18 @@ class AnyIndenterTable(Table, ABC):
     LINE: ClassVar[bool] = False
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         if "poisson_ratio" in self.model_fields_set and self.modulus is None:
-            yield "poisson_ratio", "is for an elastic indenter, whose modulus is not given; a rigid one has none"
+            yield "poisson_ratio", "is for an elastic indenter, but modulus is not given; a rigid one has none"
 
     @property
     def axes(self) -> dict[str, tuple[float, ...]]:
-        """Lengths (m) or angles (rad) that make the shape, each with all its values."""
+        """Lengths (m) or angles (rad) of the shape, each with all its values."""
         return {name: getattr(self, name) for name in self.AXES}
 
     @abstractmethod
     def made(self, *values: float) -> Indenter:
-        """Return the indenter of one value for each axis, in their order."""
+        """Return the indenter for one value of each axis, in their order."""
 
 
 class BallTable(AnyIndenterTable):
@@ -72,12 +72,12 @@ class BallTable(AnyIndenterTable):
     AXES = ("radius",)
 
     def made(self, *values: float) -> Indenter:
-        """Return the indenter of one value for each axis, in their order."""
+        """Return the ball for one radius."""
         return Ball(*values)
 
 
 class CylinderTable(AnyIndenterTable):
-    """[indenter]: a long cylinder across the motion, whose load is per length."""
+    """[indenter]: a long cylinder across the motion; its load is per length."""
 
     shape: Literal["cylinder"] = Field(description=_SHAPE)
     radius: Lengths = Field(description="Radius of the cylinder.")
@@ -85,7 +85,7 @@ class CylinderTable(AnyIndenterTable):
     LINE = True
 
     def made(self, *values: float) -> Indenter:
-        """Return the indenter of one value for each axis, in their order."""
+        """Return the cylinder for one radius."""
         return Cylinder(*values)
 
 
@@ -98,7 +98,7 @@ class EllipsoidTable(AnyIndenterTable):
     AXES = ("radius_x", "radius_y")
 
     def made(self, *values: float) -> Indenter:
-        """Return the indenter of one value for each axis, in their order."""
+        """Return the ellipsoid for two radii."""
         return Ellipsoid(*values)
 
 
@@ -106,17 +106,17 @@ class ConeTable(AnyIndenterTable):
     """[indenter]: a blunt cone."""
 
     shape: Literal["cone"] = Field(description=_SHAPE)
-    angle: Angles = Field(description="Between the flank and the undeformed surface; small for linear contact.")
+    angle: Angles = Field(description="Angle between flank and undeformed surface; small for linear contact.")
     AXES = ("angle",)
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         yield from super().problems()
         if max(self.angle) >= 0.5 * math.pi:
             yield "angle", f"{math.degrees(max(self.angle)):.4g}° is not less than a right angle, such as '10 deg'"
 
     def made(self, *values: float) -> Indenter:
-        """Return the indenter of one value for each axis, in their order."""
+        """Return the cone for one angle."""
         return Cone(*values)
 
 
@@ -148,23 +148,23 @@ class LayerTable(Table):
 
     thickness: Lengths = Field(description="Thickness of the rubber on its rigid base.")
     base: Literal["bonded", "sliding"] = Field(
-        "bonded", description="Whether the layer sticks to its base, or slides on it without friction."
+        "bonded", description="Layer bonded to its base, or sliding on it without friction."
     )
 
 
 class ConditionsTable(Table):
-    """[conditions]: loads or pressures, speeds and temperatures to predict friction at."""
+    """[conditions]: loads or pressures, speeds and temperatures of the prediction."""
 
     load: Loads = Field(
-        default_factory=tuple, description="Normal load of an indenter; that of a cylinder is per length: '2 N/mm'."
+        default_factory=tuple, description="Normal load of an indenter; per length for a cylinder: '2 N/mm'."
     )
-    pressure: Pressures = Field(default_factory=tuple, description="Mean pressure on a rough surface, instead.")
+    pressure: Pressures = Field(default_factory=tuple, description="Instead, for a rough surface: mean pressure.")
     direction: Directions = Field(
         default_factory=tuple,
-        description="Direction in which a rough surface slides, from x towards y; along x without.",
+        description="Sliding direction of a rough surface, from x towards y; default: along x.",
     )
-    speed: Speeds = Field(description="Speed at which the rubber is deformed; above zero.")
+    speed: Speeds = Field(description="Speed at which the rubber is deformed, above zero.")
     temperature: Temperatures = Field(description="Temperature of the rubber.")
     thickness: Length | None = Field(
-        None, description="Thickness of the rubber, to check that it is a half-space; for one that is not, see [layer]."
+        None, description="Thickness of the rubber, to check the half-space assumption; for thin rubber use [layer]."
     )

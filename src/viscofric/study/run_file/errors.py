@@ -1,4 +1,4 @@
-"""What is wrong in a run file, in sentences: each with its path in the file and the nearest right word."""
+"""Errors in a run file as sentences: each with its path in the file and the nearest correct word."""
 
 from __future__ import annotations
 
@@ -18,21 +18,16 @@ _LONGEST_LIST = 12
 
 
 def problems(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> list[Note]:
-    """Return all that pydantic found, each a note whose place is its path in the file.
+    """Return pydantic's errors as notes whose place is the path in the file.
 
-    Parameters
-    ----------
-    error : ValidationError
-    values : object
-        What was checked, as TOML gave it.
-    tables : mapping of str to type
-        Key of the file, or branch of a choice -> the table behind it; "" is the whole file.
+    `values` is the validated TOML; `tables` maps a key of the file, or a branch of a choice, to the table behind it
+    ("": the whole file).
     """
     found = error.errors()
-    # A list whose entries are wrong counts as empty too: say only what is wrong with the entries.
+    # Pydantic also reports a list with wrong entries as empty: report the entries only.
     inside = {problem["loc"][:depth] for problem in found for depth in range(len(problem["loc"]))}
     told_once = [problem for problem in found if problem["loc"] not in inside or problem["type"] != "too_short"]
-    # A key that is misspelt is missing, too: that it is unknown says both.
+    # A misspelt key is missing, too: report it as unknown only.
     unknown = [problem["loc"] for problem in found if problem["type"] == "extra_forbidden"]
     meant = {(*loc[:-1], near) for loc in unknown for near in _near(str(loc[-1]), keys(_table(loc[:-1], tables)))}
     told_once = [problem for problem in told_once if problem["type"] != "missing" or problem["loc"] not in meant]
@@ -40,7 +35,7 @@ def problems(error: ValidationError, values: object, tables: Mapping[str, type[B
 
 
 def wrong_tables(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> StudyError:
-    """Return the error that names all that is wrong with a part of a run file; see `problems`."""
+    """Return the error with all that is wrong in a part of a run file; see `problems`."""
     found = problems(error, values, tables)
     return StudyError(found[0]) if len(found) == 1 else StudyError(f"{len(found)} things are wrong:", found)
 
@@ -48,7 +43,7 @@ def wrong_tables(error: ValidationError, values: object, tables: Mapping[str, ty
 def place(parts: Iterable[str | int], values: object) -> str:
     """Return a path in the file: ``conditions.temperature[2]``.
 
-    Branches of choices between types are left out, and so is the number of an entry where one stands for a list.
+    Branches of choices between types are left out, and so is the number of an entry given without a list.
     """
     path = ""
     here: Any = values
@@ -65,17 +60,17 @@ def place(parts: Iterable[str | int], values: object) -> str:
     return path
 
 
-def told(where: str, words: str) -> Note:
-    """Return a sentence about a place in the file."""
-    return Note("run-file", words if words.endswith((".", "?")) else f"{words}.", where)
+def wrong(where: str, words: str, code: str = "contradiction") -> Note:
+    """Return a note about a place in the file."""
+    return Note(code, words if words.endswith((".", "?")) else f"{words}.", where)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Return the end of a sentence that names the nearest right word, or all of them."""
+    """Return the end of a sentence that names the nearest correct word, or all of them."""
     known = list(known)
     if near := _near(word, known):
         return f"did you mean '{near[0]}'?"
-    return f"right would be {' or '.join(known) if len(known) < 3 else ', '.join(known[:_LONGEST_LIST])}"
+    return f"expected {' or '.join(known) if len(known) < 3 else ', '.join(known[:_LONGEST_LIST])}"
 
 
 def _is_branch(part: str) -> bool:
@@ -90,19 +85,19 @@ def _problem(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]
     where = place(problem["loc"], values)
     kind = problem["type"]
     if kind == "extra_forbidden":
-        return told(where, f"unknown key; {_right_key(problem['loc'], tables)}")
+        return wrong(where, f"unknown key; {_right_key(problem['loc'], tables)}", "unknown-key")
     shown, limit = as_written(problem["input"]), problem.get("ctx", {})
     words: dict[str, Callable[[], str]] = {
         "missing": lambda: f"is missing{_what_for(problem['loc'], tables)}",
         "too_short": lambda: _too_short(limit),
         "too_long": lambda: f"has {limit['actual_length']} entries; at most {limit['max_length']:,} can be given",
         "tuple_type": lambda: f"{shown} is not a list",
-        "model_type": lambda: f"{shown} is not a table; write [{where}] with its keys below it",
+        "model_type": lambda: f"{shown} is not a table; write [{where}] and its keys below it",
         "dict_type": lambda: f"{shown} is not a table",
-        "string_type": lambda: f"{shown} is not text; text stands between quotes",
+        "string_type": lambda: f"{shown} is not text; put text in quotes",
         "string_too_short": lambda: "is empty",
         "string_too_long": lambda: f"is longer than {limit['max_length']:,} characters",
-        "string_pattern_mismatch": lambda: f"{shown} holds an end of line or a control character",
+        "string_pattern_mismatch": lambda: f"{shown} contains a line break or a control character",
         "int_type": lambda: f"{shown} is not a whole number",
         "float_type": lambda: f"{shown} is not a number",
         "finite_number": lambda: f"{shown} is not a finite number",
@@ -114,39 +109,41 @@ def _problem(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]
         "literal_error": lambda: _right_word(problem["input"], limit),
         "union_tag_invalid": lambda: _right_word(problem["input"].get("shape"), limit, "shape = "),
         "union_tag_not_found": lambda: 'shape is not text; write shape = "ball"',
-        "path_type": lambda: f"{shown} is not the name of a file, which is text",
+        "path_type": lambda: f"{shown} is not text; expected the name of a file",
     }
     if kind in words:
-        return told(where, words[kind]())
-    return told(where, problem["msg"].removeprefix("Value error, ").removeprefix(f"{VALUE} = "))
+        return wrong(where, words[kind](), kind.replace("_", "-"))
+    code = "contradiction" if kind == "relation" else "value"
+    return wrong(where, problem["msg"].removeprefix("Value error, ").removeprefix(f"{VALUE} = "), code)
 
 
 def _too_short(limit: dict[str, Any]) -> str:
     if limit["min_length"] == 1:
-        return "is empty; at least one value is wanted"
-    return f"has {limit['actual_length']} entries; at least {limit['min_length']} are wanted"
+        return "is empty; give at least one value"
+    entries = "entry" if limit["actual_length"] == 1 else "entries"
+    return f"has {limit['actual_length']} {entries}; at least {limit['min_length']} are needed"
 
 
 def _right_word(given: object, limit: dict[str, Any], before: str = "") -> str:
     choices = limit.get("expected") or limit["expected_tags"]
     known = [word.strip("<>") for word in choices.replace(" or ", ", ").replace("'", "").split(", ")]
-    hint = nearest(given, known) if isinstance(given, str) else f"right would be {', '.join(known)}"
+    hint = nearest(given, known) if isinstance(given, str) else f"expected {', '.join(known)}"
     return f"{before}{as_written(given)} is not known; {hint}"
 
 
 def _right_key(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> str:
-    """Return what the unknown key at the end of a path may have been meant for."""
+    """Return the key that an unknown key probably stands for."""
     known, wrong = keys(_table(parts[:-1], tables)), str(parts[-1])
     if near := _near(wrong, known):
         return f"did you mean '{near[0]}'?"
     homes = [name for name, table in tables.items() if name and not _is_branch(name) and wrong in keys(table)]
     if homes:
-        return f"it belongs below [{homes[0]}]"
+        return f"it belongs in [{homes[0]}]"
     return f"known keys are {', '.join(known)}"
 
 
 def _what_for(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> str:
-    """Return what a key that is missing stands for."""
+    """Return the description of a missing key."""
     fields = _table(parts[:-1], tables).model_fields
     about = [field.description for name, field in fields.items() if (field.alias or name) == parts[-1]]
     if not about or not about[0]:
@@ -163,10 +160,10 @@ def _table(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) -> typ
 
 
 def _near(word: str, known: Iterable[str]) -> list[str]:
-    """Return the known word that is most like one, if any is."""
+    """Return the known word most similar to a given one, if any is."""
     return difflib.get_close_matches(word[:100].lower(), list(known), n=1, cutoff=0.5)
 
 
 def keys(model: type[BaseModel]) -> list[str]:
-    """Return the keys that a table may hold, as the user writes them."""
+    """Return the keys of a table as the user writes them."""
     return [field.alias or name for name, field in model.model_fields.items()]

@@ -1,4 +1,4 @@
-"""The JSON schema of a run file, for editors: made from the tables that check it, so that it cannot fall behind."""
+"""The JSON schema of a run file, for editors, generated from the tables that validate it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,10 @@ _WITHOUT_MEANING: dict[str, type] = {"title": str, "default": type(None)}
 
 
 def json_schema() -> dict[str, Any]:
-    """Return the JSON schema of a run file.
+    """Return the JSON schema (draft 7, which the TOML plug-ins of editors know) of a run file.
 
-    Editors complete and check keys, words and the form of quantities with it; what tables ask of each other, and the
-    kind of a unit, only `load_study` sees.
-
-    Returns
-    -------
-    dict
-        In the dialect of draft 7, which the TOML plug-ins of editors know.
+    Editors complete and check keys, words and the form of quantities with it; contradictions between tables and the
+    dimension of a unit are checked by `load_study` alone.
     """
     schema = _plain(Study.model_json_schema(by_alias=True, mode="validation"))
     material = schema["properties"]["material"]
@@ -37,7 +32,7 @@ def json_schema() -> dict[str, Any]:
 
 
 def _plain(node: Any) -> Any:
-    """Leave out what says nothing: names of Python's fields and classes, and the null that TOML does not have."""
+    """Leave out names of Python's fields and classes, and the null that TOML does not have."""
     if isinstance(node, list):
         return [_plain(entry) for entry in node]
     if not isinstance(node, dict):

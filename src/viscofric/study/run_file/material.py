@@ -1,4 +1,4 @@
-"""[material] of a run file: where the rubber comes from, and how sweeps are made into one."""
+"""[material] of a run file: the source of the material model, and how sweeps are converted into it."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.tables import Problem
 
 _MOST_FILES = MOST_POINTS
-#: Keys that say where the rubber comes from, one of them in every run file.
+#: Keys for the source of the material; every run file has exactly one of them.
 SOURCES = ("dma", "master_curve", "file", "catalogue")
-#: Keys that say how sweeps are made into a rubber, without meaning for one that is ready …
+#: Keys for the conversion of sweeps, invalid for a predefined material …
 _HOW = (
     "deformation",
     "temperature",
@@ -48,17 +48,17 @@ _HOW = (
     "modes",
     "tau_ratio",
 )
-#: … and those without meaning for a master curve.
+#: … and those invalid for a master curve.
 _OF_SWEEPS = ("temperature", "vertical_shift", "fixed_shift_factors")
 
 
 def _by_kelvin(value: object) -> object:
-    """Turn the temperatures that are the keys of a table into K."""
+    """Convert the temperatures that are the keys of a table to K."""
     if not isinstance(value, dict):
         return value
     found = {kelvin(key): entry for key, entry in value.items()}
     if len(found) < len(value):
-        raise ValueError("one temperature is given twice, in different words")
+        raise ValueError("the same temperature is given twice")
     return found
 
 
@@ -74,52 +74,56 @@ def _in_catalogue(value: str) -> str:
 
 
 class MaterialTable(Table):
-    """[material]: the DMA files and how the rubber is made of them, or a rubber that is ready."""
+    """[material]: DMA files and how the material model is fitted to them, or a predefined material."""
 
-    dma: FileNames | None = Field(None, description="Sweeps: one file, a list, or a pattern such as 'sweeps/*.txt'.")
-    master_curve: FileName | None = Field(None, description="Instead: one finished master curve.")
-    file: FileName | None = Field(None, description="Instead: a ready rubber, rubber.json or another program's card.")
+    dma: FileNames | None = Field(None, description="DMA sweeps: a file, a list, or a pattern such as 'sweeps/*.txt'.")
+    master_curve: FileName | None = Field(None, description="Instead: a master curve.")
+    file: FileName | None = Field(
+        None, description="Instead: a predefined material, rubber.json or another program's card."
+    )
     catalogue: Annotated[Words, AfterValidator(_in_catalogue)] | None = Field(
-        None, description="Instead: a name of the catalogue (viscofric material list)."
+        None, description="Instead: a name in the catalogue (viscofric material list)."
     )
 
-    name: Words = Field("", description="Name of the rubber; several are told apart by it.")
+    name: Words = Field("", description="Name of the material; required for several materials.")
     deformation: Literal["tension", "shear"] | None = Field(
-        None, description="How the sweeps were taken; what the file says, if it does: E = 2(1+ν)G."
+        None, description="Deformation in the sweeps, if the file does not state it; E = 2(1+ν)G."
     )
     temperature: (
         Annotated[
             tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1), one_or_more(schema_of(Temperature))
         ]
         | None
-    ) = Field(None, description="Temperature of files that hold none: one, or one for each.")
+    ) = Field(None, description="Temperature of files that do not state it: one for all, or one for each.")
     modulus_unit: Annotated[Words, AfterValidator(_unit_of_modulus)] | None = Field(
-        None, description="Unit of moduli in files that name none, such as 'MPa'."
+        None, description="Unit of moduli in files that do not state it, such as 'MPa'."
     )
-    poisson_ratio: Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, the same at all frequencies.")
+    poisson_ratio: Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, independent of frequency.")
     reference_temperature: Temperature | None = Field(
-        None, description="Temperature where the shift factor is one; needed with sweeps and master curves."
+        None, description="Temperature at which the shift factor is one; required for sweeps and master curves."
     )
     vertical_shift: Literal["none", "free", "density"] = Field(
-        "none", description="b(T): none, fitted, or density times temperature."
+        "none", description="Vertical shift b_T: none, fitted, or density times temperature."
     )
     shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = Field(
-        "measured", description="α(T): as measured, or a law fitted to it."
+        "measured", description="Shift factors a_T: as found, or a law fitted to them."
     )
-    shift_factors: FileName | None = Field(None, description="File of shift factors that are given, not found.")
+    shift_factors: FileName | None = Field(None, description="File of shift factors to use instead of finding them.")
     fixed_shift_factors: Annotated[
         dict[float, Number],
         BeforeValidator(_by_kelvin),
         WithJsonSchema({"type": "object", "additionalProperties": {"type": "number"}}),
-    ] = Field({}, max_length=1_000, description="Single shift factors that are held, log10: { '-20 degC' = 4.2 }.")
+    ] = Field({}, max_length=1_000, description="Single shift factors to hold fixed, log10: { '-20 degC' = 4.2 }.")
     spectrum: Literal["non-negative", "regularised", "sparse"] = Field(
-        "non-negative", description="How the retardation modes are fitted."
+        "non-negative", description="Method of fitting the retardation spectrum."
     )
-    modes: Count | None = Field(None, ge=1, le=200, description="Retardation modes at most, with spectrum = 'sparse'.")
-    tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of one retardation time to the next.")
+    modes: Count | None = Field(
+        None, ge=1, le=200, description="Largest number of retardation modes, with spectrum = 'sparse'."
+    )
+    tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of neighbouring retardation times.")
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         for words in self._doubts():
             yield "", words
 
@@ -127,31 +131,31 @@ class MaterialTable(Table):
         given = [name for name in SOURCES if getattr(self, name) is not None]
         if not given:
             yield (
-                'nothing says where the rubber comes from; give dma = "sweeps.csv" (or a master_curve, a file with a '
-                "ready rubber, or a name of the catalogue)"
+                'has no source of the material; give dma = "sweeps.csv" (or a master_curve, a file with a '
+                "predefined material, or a name in the catalogue)"
             )
         if len(given) > 1:
-            yield f"{' and '.join(given)} are both given; the rubber comes from one of them"
+            yield f"{' and '.join(given)} are both given; give one of them"
         chosen = self.model_fields_set
         if given in (["file"], ["catalogue"]):
             useless = [name for name in _HOW if name in chosen]
             if useless:
-                yield f"{' and '.join(useless)} cannot be chosen for a rubber that is ready ({given[0]})"
+                yield f"{' and '.join(useless)} cannot be chosen for a predefined material ({given[0]})"
         elif given and self.reference_temperature is None:
-            yield 'reference_temperature is missing; the master curve is for it, e.g. "30 degC"'
+            yield 'reference_temperature is missing; it is the temperature of the master curve, e.g. "30 degC"'
         if given == ["master_curve"]:
             useless = [name for name in _OF_SWEEPS if name in chosen]
             if useless:
                 yield f"{' and '.join(useless)} cannot be chosen for a master curve, only for sweeps (dma)"
             if self.shift != "measured" and self.shift_factors is None:
-                yield "shift is a law fitted to shift factors; give those of the master curve as shift_factors"
+                yield "a law for shift needs the shift factors of the master curve; give them as shift_factors"
         if self.shift_factors is not None and self.fixed_shift_factors:
-            yield "shift_factors and fixed_shift_factors are both given; the first gives them all"
+            yield "shift_factors and fixed_shift_factors are both given; the first one contains all"
         if self.modes is not None and self.spectrum != "sparse":
-            yield 'modes is for spectrum = "sparse" only'
+            yield 'modes needs spectrum = "sparse"'
 
     def beside(self, folder: Path) -> MaterialTable:
-        """Return the table with its paths relative to a folder, and patterns such as ``*.txt`` written out."""
+        """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
         changes: dict[str, Any] = {}
         if self.dma is not None:
             changes["dma"] = tuple(path for one in self.dma for path in files_of(folder, one))
@@ -162,7 +166,7 @@ class MaterialTable(Table):
 
     @property
     def inputs(self) -> tuple[Path, ...]:
-        """All files that the rubber comes from."""
+        """All files of the material."""
         return (
             *(self.dma or ()),
             *(path for path in (self.master_curve, self.file, self.shift_factors) if path is not None),
@@ -170,13 +174,7 @@ class MaterialTable(Table):
 
 
 def files_of(folder: Path, path: Path) -> tuple[Path, ...]:
-    """Return the files that a path with ``*`` or ``?`` stands for, by name; the path itself if there are none.
-
-    Raises
-    ------
-    InputError
-        If there are more than a study can mean.
-    """
+    """Return the files that match a path with ``*`` or ``?``, by name; the path itself if none does."""
     whole = folder / path
     if not any(mark in str(path) for mark in "*?") or whole.exists():
         return (whole,)
@@ -184,5 +182,5 @@ def files_of(folder: Path, path: Path) -> tuple[Path, ...]:
     pattern = path.relative_to(path.anchor) if path.is_absolute() else path
     found = list(itertools.islice((one for one in base.glob(str(pattern)) if one.is_file()), _MOST_FILES + 1))
     if len(found) > _MOST_FILES:
-        raise InputError(f"{path} stands for more than {_MOST_FILES:,} files; write a narrower pattern")
+        raise InputError(f"{path} matches more than {_MOST_FILES:,} files; write a narrower pattern")
     return tuple(sorted(found)) or (whole,)

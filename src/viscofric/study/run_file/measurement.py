@@ -1,4 +1,4 @@
-"""[measurement] of a run file: traction runs or friction curves to lay beside the prediction."""
+"""[measurement] of a run file: traction runs or friction curves to compare with the prediction."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 def _number_or_word(value: object) -> object:
-    """Let a Coulomb friction coefficient be a number, or said to be the same at all speeds."""
+    """Accept a Coulomb friction coefficient, or the word 'constant' for the same one at all speeds."""
     if value is None or value == "constant":
         return value
     if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
@@ -40,40 +40,42 @@ def _number_or_word(value: object) -> object:
 
 
 class MeasurementTable(Table):
-    """[measurement]: the files of a tribometer and how they are separated, or friction curves that are ready."""
+    """[measurement]: tribometer files and how their friction is separated, or separated friction curves."""
 
-    mtm: FileNames = Field((), description="Traction runs: one file, a list, or a pattern such as 'run*.txt'.")
-    curves: FileName | None = Field(None, description="Instead: friction curves that are separated already.")
-    zero: SignedForce | None = Field(None, description="Reading of the force cell without traction, if it is known.")
+    mtm: FileNames = Field((), description="Traction runs: a file, a list, or a pattern such as 'run*.txt'.")
+    curves: FileName | None = Field(None, description="Instead: separated friction curves.")
+    zero: SignedForce | None = Field(None, description="Reading of the force cell without traction, if known.")
     zero_error: Force | None = Field(None, description="Standard error of zero.")
     coulomb: Annotated[
         Any, BeforeValidator(_number_or_word), WithJsonSchema({"anyOf": [{"type": "number"}, {"const": "constant"}]})
-    ] = Field(None, description="Coulomb friction where slip has one direction only: a coefficient, or 'constant'.")
+    ] = Field(None, description="Coulomb friction for slip in one direction only: a coefficient, or 'constant'.")
     coulomb_error: Annotated[Number, Field(gt=0.0)] | None = Field(None, description="Standard error of coulomb.")
     except_steps: Annotated[
         tuple[Count, ...], BeforeValidator(listed), one_or_more({"type": "integer"}), Field(max_length=MOST_POINTS)
-    ] = Field((), description="Steps of the test to leave out: one or a list.")
-    outliers: Literal["keep", "leave out"] = Field("keep", description="Readings far from the others of their kind.")
+    ] = Field((), description="Steps of the test to leave out: a number or a list.")
+    outliers: Literal["keep", "leave out"] = Field(
+        "keep", description="Readings far from others at the same conditions."
+    )
     speed_tolerance: Number = Field(
-        0.05, gt=0.0, lt=1.0, description="Relative gap that parts nominal speeds and slips."
+        0.05, gt=0.0, lt=1.0, description="Relative gap that separates nominal speeds and slips."
     )
     temperature_tolerance: TemperatureStep = Field(
-        1.0, description="Gap that parts nominal temperatures.", json_schema_extra={"default": "1 delta_degC"}
+        1.0, description="Gap that separates nominal temperatures.", json_schema_extra={"default": "1 delta_degC"}
     )
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         for words in self._doubts():
             yield "", words
 
     def _doubts(self) -> Iterator[str]:
         if not self.mtm and self.curves is None:
-            yield 'nothing says what was measured; give mtm = "runs.txt" (or friction curves, curves = "curves.csv")'
+            yield 'has no data; give mtm = "runs.txt" (or friction curves, curves = "curves.csv")'
         if self.mtm and self.curves is not None:
-            yield "mtm and curves are both given; the friction comes from one of them"
+            yield "mtm and curves are both given; give one of them"
         useless = sorted(self.model_fields_set - {"mtm", "curves"})
         if self.curves is not None and useless:
-            yield f"{' and '.join(useless)} cannot be chosen for friction curves, which are separated already"
+            yield f"{' and '.join(useless)} cannot be chosen for friction curves, which are already separated"
         if self.zero_error is not None and self.zero is None:
             yield "zero_error is the standard error of zero, which is not given"
         if self.coulomb_error is not None and not isinstance(self.coulomb, float):
@@ -81,7 +83,7 @@ class MeasurementTable(Table):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Settings of `viscofric.friction.measurement.tribometry.separate`."""
+        """Arguments of `viscofric.friction.measurement.tribometry.separate`."""
         return {
             "zero": self.zero if self.zero_error is None else (self.zero, self.zero_error),
             "coulomb": self.coulomb if self.coulomb_error is None else (self.coulomb, self.coulomb_error),
@@ -91,7 +93,7 @@ class MeasurementTable(Table):
         }
 
     def beside(self, folder: Path) -> MeasurementTable:
-        """Return the table with its paths relative to a folder, and patterns such as ``*.txt`` written out."""
+        """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
         changes: dict[str, Any] = {"mtm": tuple(path for one in self.mtm for path in files_of(folder, one))}
         if self.curves is not None:
             changes["curves"] = folder / self.curves
@@ -99,5 +101,5 @@ class MeasurementTable(Table):
 
     @property
     def inputs(self) -> tuple[Path, ...]:
-        """All files that the measurement comes from."""
+        """All files of the measurement."""
         return self.mtm if self.curves is None else (self.curves,)

@@ -1,4 +1,4 @@
-"""What the tables of a run file ask of each other."""
+"""Contradictions between the tables of a run file."""
 
 from __future__ import annotations
 
@@ -20,13 +20,7 @@ if TYPE_CHECKING:
 
 
 def relations(tables: Tables) -> Iterator[Problem]:
-    """Yield what does not fit together between tables, each with its path in the file.
-
-    Parameters
-    ----------
-    tables : mapping of str to Table
-        Those that are right in themselves, by their names in the run file.
-    """
+    """Yield the contradictions between tables that are valid by themselves, each with its path in the file."""
     yield from _names_of_materials(tables)
     yield from _body(tables)
     yield from _loads(tables)
@@ -46,29 +40,29 @@ def _names_of_materials(tables: Tables) -> Iterator[Problem]:
     times = Counter(material.name for material in materials)
     for number, material in enumerate(materials):
         if not material.name:
-            yield f"material.{number}.name", "is missing; several materials are told apart by their names"
+            yield f"material.{number}.name", "is missing; several materials need names"
         elif times[material.name] > 1:
             yield f"material.{number}.name", f"{material.name!r} is the name of {times[material.name]} materials"
 
 
 def _body(tables: Tables) -> Iterator[Problem]:
-    """Yield whether not just one thing slides over the rubber, and what does not go with it."""
+    """Yield the errors of a file without exactly one of [indenter] and [surface], and conditions of the other one."""
     if "indenter" not in tables or "surface" not in tables:
         return
     indenter, surface, conditions = tables["indenter"], tables["surface"], tables.get("conditions")
     if indenter is None and surface is None:
-        yield "indenter", "is missing (what slides or rolls over the rubber); give it, or [surface] for a rough one"
+        yield "indenter", "is missing; give it, or [surface] for a rough surface"
         return
     if indenter is not None and surface is not None:
-        yield "surface", "is there beside [indenter]; a study has one of them"
+        yield "surface", "is given besides [indenter]; a study has one of them"
         return
     if conditions is None:
         return
     wanted, other, of = ("load", "pressure", "an indenter") if surface is None else ("pressure", "load", "a [surface]")
     if getattr(conditions, other):
-        yield f"conditions.{other}", f"is not for {of}; give its {wanted} instead, such as {_EXAMPLES[wanted]!r}"
+        yield f"conditions.{other}", f"is not for {of}; give {wanted} instead, such as {_EXAMPLES[wanted]!r}"
     elif not getattr(conditions, wanted):
-        yield f"conditions.{wanted}", f"is missing; {of} has one, such as {_EXAMPLES[wanted]!r}"
+        yield f"conditions.{wanted}", f"is missing; {of} needs one, such as {_EXAMPLES[wanted]!r}"
     if surface is None and conditions.direction:
         yield "conditions.direction", "is for a rough [surface]; the motion of an indenter is along x"
 
@@ -91,12 +85,12 @@ def _loads(tables: Tables) -> Iterator[Problem]:
 
 def _thickness(tables: Tables) -> Iterator[Problem]:
     if tables.get("layer") is not None and getattr(tables.get("conditions"), "thickness", None) is not None:
-        words = "checks that the rubber is a half-space, which that of [layer] is not; leave it out"
+        words = "checks the half-space assumption, which does not apply with [layer]; leave it out"
         yield "conditions.thickness", words
 
 
 def _together(tables: Tables, known: dict[str, tuple[Any, ...]]) -> list[list[str]]:
-    """Return what is stepped together, as far as it is known."""
+    """Return the groups of axes that vary together, without unknown names."""
     groups = tables["sweep"].together if "sweep" in tables else ()
     return [[name for name in group if name in known] for group in groups]
 
@@ -111,26 +105,26 @@ def _sweep(tables: Tables) -> Iterator[Problem]:
             if name not in choices and whole:
                 near = difflib.get_close_matches(name, choices, n=1, cutoff=0.5)
                 hint = f"did you mean {near[0]!r}?" if near else f"the axes are {', '.join(choices)}"
-                yield f"sweep.together.{number}.{place}", f"{name!r} is no axis of this study; {hint}"
+                yield f"sweep.together.{number}.{place}", f"{name!r} is not an axis of this study; {hint}"
         lengths = {name: len(known[name]) for name in group if name in choices}
         if len(set(lengths.values())) > 1:
             told = ", ".join(f"{name} has {count}" for name, count in lengths.items())
-            yield f"sweep.together.{number}", f"what is stepped together has equally many values, but {told}"
+            yield f"sweep.together.{number}", f"axes that vary together need the same number of values, but {told}"
     if whole:
         yield from _twice(tables, known)
 
 
 def _twice(tables: Tables, known: dict[str, tuple[Any, ...]]) -> Iterator[Problem]:
-    """Yield axes that hold a point twice."""
+    """Yield axes with a repeated point."""
     for axis in axes_of(known, _together(tables, known)):
         if "material" in axis.columns:
-            continue  # told by their names
+            continue  # reported by their names
         points = list(zip(*axis.columns.values(), strict=False))
         twice = _repeated(points)
         if twice:
             places = " and ".join(_place(name) for name in axis.columns)
             where = f" (entry {twice[0] + 1})" if len(twice) == 1 else f" ({len(twice)} entries)"
-            yield places, f"holds the same value twice{where}; each is solved once"
+            yield places, f"contains the same value twice{where}"
 
 
 def _repeated(points: list[tuple[Any, ...]]) -> list[int]:
@@ -160,16 +154,16 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
     if tables.get("measurement") is None:
         return
     if len(tables.get("material", ())) > 1:
-        yield "measurement", f"is of one rubber, but there are {len(tables['material'])} materials"
+        yield "measurement", f"needs one material, but there are {len(tables['material'])}"
     indenter = tables.get("indenter")
     if tables.get("surface") is not None:
-        yield "measurement", "is of a ball, but there is a rough [surface]"
+        yield "measurement", "needs a ball, but there is a rough [surface]"
     if indenter is not None and not isinstance(indenter, BallTable):
-        yield "measurement", f"is of a ball, but the indenter is a {indenter.shape}"
+        yield "measurement", f"needs a ball, but the indenter is a {indenter.shape}"
     elif indenter is not None and len(indenter.radius) > 1:
-        yield "measurement", f"is of one ball, but indenter.radius has {len(indenter.radius)} values"
+        yield "measurement", f"needs one ball, but indenter.radius has {len(indenter.radius)} values"
     if tables.get("layer") is not None:
-        yield "measurement", "is compared on a half-space, but there is a [layer]"
+        yield "measurement", "needs a half-space, but there is a [layer]"
 
 
 def _members(tables: Tables) -> Iterator[Problem]:
@@ -180,12 +174,12 @@ def _members(tables: Tables) -> Iterator[Problem]:
             which = f"material[{number}]" if len(tables["material"]) > 1 else "[material]"
             yield (
                 "uncertainty.members",
-                f"needs sweeps (dma), which tell how well the rubber is known; {which} has none",
+                f"needs sweeps (dma), whose scatter gives the uncertainty; {which} has none",
             )
 
 
 def _place(name: str) -> str:
-    """Return where the values of an axis stand."""
+    """Return the key of an axis."""
     table = "conditions" if name in CONDITIONS else _TABLES.get(name, "indenter")
     return f"{table}.{name}"
 

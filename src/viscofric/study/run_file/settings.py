@@ -1,4 +1,4 @@
-"""[sweep], [solver], [uncertainty], [outputs] and [cluster] of a run file: how the cases are made, solved and kept."""
+"""[sweep], [solver], [uncertainty], [outputs] and [cluster] of a run file."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ Names = Annotated[tuple[str, ...], Field(min_length=2, max_length=10)]
 
 
 class SweepTable(Table):
-    """[sweep]: which axes go together; all others make a full product."""
+    """[sweep]: axes that vary together; all others form a full product."""
 
     together: tuple[Names, ...] = Field(
         (),
         max_length=10,
-        description="Groups of axes that are stepped together, such as [['load', 'radius']]; each has as many values.",
+        description="Groups of axes that vary together, such as [['load', 'radius']]; all of the same length.",
     )
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         seen: set[str] = set()
         for number, group in enumerate(self.together):
             for place, name in enumerate(group):
@@ -44,23 +44,23 @@ class SweepTable(Table):
 
 
 class SolverTable(Table):
-    """[solver]: how accurate the friction is to be, and how the cases are solved."""
+    """[solver]: accuracy of friction, and how the cases are solved."""
 
-    accuracy: Number = Field(1e-3, ge=1e-4, le=0.1, description="Numerical error of friction, relative.")
+    accuracy: Number = Field(1e-3, ge=1e-4, le=0.1, description="Relative numerical error of friction.")
     cases: Literal["curves", "each"] = Field(
         "curves",
-        description="Whether similar cases are solved as one curve and interpolated within the accuracy, or each.",
+        description="Solve similar cases as one curve and interpolate within the accuracy, or solve each case.",
     )
     master_curve_points: Count | None = Field(
         None,
         ge=2,
         le=MOST_POINTS,
-        description="Points of the friction master curve; 41 if not given, but none with cases = 'each' unless "
+        description="Points of the friction master curve; default: 41, or none with cases = 'each' unless "
         "friction was measured.",
     )
 
     def points_along(self, *, measured: bool) -> int:
-        """Return the points of the friction master curve, given whether friction was measured; 0 for none."""
+        """Return the number of points of the friction master curve; 0 for none."""
         if self.master_curve_points is not None:
             return self.master_curve_points
         return 0 if self.cases == "each" and not measured else _POINTS
@@ -73,27 +73,29 @@ def _enough(value: int) -> int:
 
 
 class UncertaintyTable(Table):
-    """[uncertainty]: the rubber drawn as other measurements might have given it."""
+    """[uncertainty]: bootstrap samples of the material."""
 
     draws: Annotated[Count, AfterValidator(_enough)] = Field(
         200,
         ge=0,
         le=_MOST_SAMPLES,
-        description="Draws of the rubber for the linearised 95 % bands; 0: none.",
+        description="Bootstrap samples of the material for the linearised 95 % bands; 0: none.",
     )
     members: Count = Field(
-        0, ge=0, le=_MOST_MEMBERS, description="Draws of the rubber that every case is really solved with, too."
+        0, ge=0, le=_MOST_MEMBERS, description="Bootstrap samples of the material with which every case is also solved."
     )
-    seed: Count = Field(0, ge=0, le=BIGGEST_SEED, description="Of the random draws: the same seed, the same rubbers.")
+    seed: Count = Field(
+        0, ge=0, le=BIGGEST_SEED, description="Seed of the random numbers; the same seed gives the same samples."
+    )
 
 
 class OutputsTable(Table):
-    """[outputs]: what is kept of the solved cases, and in which files."""
+    """[outputs]: the stored fields, and the formats of the results."""
 
     fields: Literal["few", "all", "none"] = Field(
-        "few", description="Pressure and displacement: of a few chosen cases, of all that are solved, or of none."
+        "few", description="Stored pressure and displacement: of a few cases, of all solved ones, or of none."
     )
-    formats: tuple[Format, ...] = Field((), max_length=10, description="Files besides results.nc (netCDF).")
+    formats: tuple[Format, ...] = Field((), max_length=10, description="Formats to write besides results.nc (netCDF).")
 
 
 def _bytes(value: object) -> int:
@@ -103,7 +105,7 @@ def _bytes(value: object) -> int:
 def _seconds(value: object) -> int:
     found = round(positive(with_unit(value), "s", VALUE))
     if found < 1:
-        raise ValueError(f"{value!r} is less than a second; write the time that a job may take, such as '2 h'")
+        raise ValueError(f"{value!r} is less than a second; give the time limit of a job, such as '2 h'")
     return found
 
 
@@ -117,17 +119,15 @@ Line = Annotated[str, Field(min_length=1, max_length=1_000, pattern=r"^[^\r\n\x0
 
 
 class ClusterTable(Table):
-    """[cluster]: jobs of a SLURM cluster, each a worker that solves cases (extra "cluster", dask-jobqueue)."""
+    """[cluster]: jobs of a SLURM cluster that solve cases (extra "cluster", dask-jobqueue)."""
 
-    queue: Line | None = Field(None, description="Partition that the jobs are sent to; the cluster's default without.")
-    account: Line | None = Field(None, description="Account that they are charged to.")
-    jobs: Count = Field(1, ge=1, le=1_000, description="How many jobs, each of these cores and this memory.")
+    queue: Line | None = Field(None, description="Partition of the jobs; default: that of the cluster.")
+    account: Line | None = Field(None, description="Account of the jobs.")
+    jobs: Count = Field(1, ge=1, le=1_000, description="Number of jobs, each with these cores and this memory.")
     cores: Count = Field(1, ge=1, le=1_024, description="Cores of a job; each solves one case at a time.")
     memory: Bytes = Field(description="Memory of a job.")
-    walltime: Seconds = Field(description="Time after which a job ends; what it was solving is taken up by another.")
-    extra: tuple[Line, ...] = Field(
-        (), max_length=100, description="More directives, each as after #SBATCH: ['--gres=gpu:1']."
-    )
+    walltime: Seconds = Field(description="Time limit of a job; another job takes over its unfinished cases.")
+    extra: tuple[Line, ...] = Field((), max_length=100, description="Further #SBATCH directives: ['--gres=gpu:1'].")
     prologue: tuple[Line, ...] = Field(
         (), max_length=100, description="Shell commands before the worker starts: ['module load python']."
     )

@@ -1,4 +1,4 @@
-"""The run file: what a study asks for, read from TOML and checked before anything is computed."""
+"""The run file: a study as written in TOML, validated before anything is computed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from viscofric.study.run_file.contact import (
     IndenterTable,
     LayerTable,
 )
-from viscofric.study.run_file.errors import place, problems, told, wrong_tables
+from viscofric.study.run_file.errors import place, problems, wrong, wrong_tables
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.measurement import MeasurementTable
 from viscofric.study.run_file.relations import relations
@@ -70,24 +70,26 @@ class Study(Table):
 
     title: str = Field("Viscoelastic friction", max_length=300, description="Title of the report.")
     data_origin: Literal["measured", "synthetic"] = Field(
-        "measured", description="Whether the data were measured or made up; report and figures then say so."
+        "measured", description="Origin of the data; report and figures label synthetic data."
     )
     materials: Annotated[
         tuple[MaterialTable, ...], Field(min_length=1, max_length=_MOST_MATERIALS), BeforeValidator(_several)
-    ] = Field(alias="material", description="The rubber; [[material]] for each of several, with a name of its own.")
-    indenter: IndenterTable | None = Field(None, description="What slides or rolls over the rubber.")
-    surface: SurfaceTable | None = Field(None, description="A rough surface that slides over it, instead.")
-    layer: LayerTable | None = Field(None, description="Rubber of finite thickness; a half-space without this table.")
-    conditions: ConditionsTable = Field(description="Loads, speeds and temperatures to predict friction at.")
-    sweep_table: SweepTable = Field(SweepTable(), alias="sweep", description="Which axes go together.")
-    measurement: MeasurementTable | None = Field(None, description="Measured friction to lay beside the prediction.")
-    solver: SolverTable = Field(SolverTable(), description="How accurate the friction is to be.")
-    uncertainty: UncertaintyTable = Field(UncertaintyTable(), description="How well the rubber is known.")
-    outputs: OutputsTable = Field(OutputsTable(), description="What is kept of the solved cases.")
-    cluster: ClusterTable | None = Field(None, description="Jobs of a SLURM cluster to solve the cases.")
+    ] = Field(alias="material", description="The material; [[material]] for each of several, with different names.")
+    indenter: IndenterTable | None = Field(None, description="The indenter that slides or rolls over the rubber.")
+    surface: SurfaceTable | None = Field(None, description="Instead: a rough surface that slides over the rubber.")
+    layer: LayerTable | None = Field(
+        None, description="Finite thickness of the rubber; a half-space without this table."
+    )
+    conditions: ConditionsTable = Field(description="Loads, speeds and temperatures of the prediction.")
+    sweep_table: SweepTable = Field(SweepTable(), alias="sweep", description="Axes that vary together.")
+    measurement: MeasurementTable | None = Field(None, description="Measured friction to compare with the prediction.")
+    solver: SolverTable = Field(SolverTable(), description="Accuracy of the predicted friction.")
+    uncertainty: UncertaintyTable = Field(UncertaintyTable(), description="Uncertainty of the material.")
+    outputs: OutputsTable = Field(OutputsTable(), description="Stored fields and formats of the results.")
+    cluster: ClusterTable | None = Field(None, description="SLURM jobs that solve the cases.")
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together between the tables."""
+        """Yield the contradictions between tables."""
         yield from relations(self._tables)
 
     @property
@@ -109,16 +111,11 @@ class Study(Table):
 
     @property
     def body(self) -> AnyIndenterTable | SurfaceTable:
-        """What slides over the rubber."""
+        """[indenter] or [surface]."""
         return self.indenter or self.surface  # type: ignore[return-value]  # one of them is there
 
     def sweep(self) -> Sweep:
-        """Return all cases that the study asks for, with their axes.
-
-        Returns
-        -------
-        Sweep
-        """
+        """Return all cases that the study asks for, with their axes."""
         return sweep_of(self._tables)
 
 
@@ -186,14 +183,14 @@ def load_study(path: str | Path) -> Study:
 
 
 def read_study_text(path: Path) -> str:
-    """Return the text of a run file."""
+    """Return the text of a run file; raise `StudyError` if it cannot be read."""
     try:
         with path.open("rb") as file:
             return decoded(file.read(_MOST_BYTES), path)
     except FileNotFoundError:
-        raise StudyError(f"{path}: no such file.") from None
+        raise StudyError(f"{path}: no such file.", code="no-file") from None
     except IsADirectoryError:
-        raise StudyError(f"{path}: is a folder; a run file (TOML) is wanted.") from None
+        raise StudyError(f"{path}: is a folder; expected a run file (TOML).", code="is-folder") from None
     except StudyError:
         raise
     except (OSError, ValueError) as error:
@@ -201,15 +198,15 @@ def read_study_text(path: Path) -> str:
 
 
 def decoded(data: bytes, path: Path) -> str:
-    """Return the text that the bytes of a run file are."""
+    """Return the text of a run file's bytes; raise `StudyError` if it is not UTF-8."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise StudyError(f"{path}: is not UTF-8 text; save it as UTF-8.") from None
+        raise StudyError(f"{path}: is not UTF-8 text; save it as UTF-8.", code="not-utf8") from None
 
 
 def parse_study(text: str, path: Path) -> Study:
-    """Check the text of a run file; see `load_study`."""
+    """Validate the text of a run file; see `load_study`."""
     values = _toml(text, path)
     try:
         study = Study.model_validate(values)
@@ -221,13 +218,7 @@ def parse_study(text: str, path: Path) -> Study:
 
 
 def material_of(values: dict[str, Any]) -> MaterialTable:
-    """Check the values of [material] alone, with paths as they are.
-
-    Raises
-    ------
-    StudyError
-        With every wrong key, unit and range.
-    """
+    """Validate the values of [material] alone, with paths unchanged; raise `StudyError` with every error."""
     try:
         return MaterialTable.model_validate(values)
     except ValidationError as error:
@@ -236,27 +227,31 @@ def material_of(values: dict[str, Any]) -> MaterialTable:
 
 def _toml(text: str, path: Path) -> dict[str, Any]:
     if len(text) > LONGEST_RUN_FILE:
-        raise StudyError(f"{path}: has more than {LONGEST_RUN_FILE:,} characters; is this a run file?")
+        raise StudyError(f"{path}: has more than {LONGEST_RUN_FILE:,} characters; is this a run file?", code="too-long")
     try:
         values = parse_toml(text)
-    except InputError as error:
-        raise StudyError(f"{path}: {error} for a run file.") from None
+    except InputError:
+        raise _too_deep(path) from None
     except ValueError as error:  # of TOML, and of whole numbers with thousands of digits
-        raise StudyError(_of_syntax(path, str(error))) from None
+        raise StudyError(_of_syntax(path, str(error)), code="not-toml") from None
     if _depth(values) > _DEEPEST:
-        raise StudyError(f"{path}: lists or tables lie within each other too deeply for a run file.")
+        raise _too_deep(path)
     return values
 
 
+def _too_deep(path: Path) -> StudyError:
+    return StudyError(f"{path}: lists or tables are nested too deeply for a run file.", code="too-deep")
+
+
 def _of_syntax(path: Path, words: str) -> str:
-    """Say what is wrong with the TOML, in words for people, and where."""
+    """Return what is wrong with the TOML, with line and column."""
     where = str(path)
     if at := re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)$", words):
         where += f", line {at[1]}, column {at[2]}" if at[1] else ", at its end"
         words = words[: at.start()]
     if twice := re.match(r"Cannot (?:declare|mutate immutable namespace) \(('.*?),?\)", words):
         table = ".".join(part.strip(" '") for part in twice[1].split(","))
-        return f"{where}: the table [{table[:100]}] is there twice, or has keys in two places."
+        return f"{where}: the table [{table[:100]}] is given twice, or has keys in two places."
     if words.startswith("Cannot overwrite a value"):
         return f"{where}: a key is given twice in the same table."
     if "integer string conversion" in words:
@@ -265,7 +260,7 @@ def _of_syntax(path: Path, words: str) -> str:
 
 
 def _depth(values: dict[str, Any]) -> int:
-    """Return how deeply lists and tables lie within each other; dotted keys make them as deep as they like."""
+    """Return the depth of nested lists and tables; dotted keys can nest them without limit."""
     depth, level = 0, list(values.values())
     while level and depth <= _DEEPEST:
         depth += 1
@@ -286,18 +281,18 @@ def _adapter(name: str) -> TypeAdapter[Any]:
 
 
 def _of_sound_tables(error: ValidationError, values: dict[str, Any]) -> list[Note]:
-    """Say what does not fit together between the tables that are right in themselves."""
-    wrong = {problem["loc"][0] for problem in error.errors() if problem["loc"]}
+    """Return the contradictions between those tables that are valid by themselves."""
+    wrong_keys = {problem["loc"][0] for problem in error.errors() if problem["loc"]}
     if any(problem["type"] == "relation" and len(problem["loc"]) < 1 for problem in error.errors()):
         return []
     sound: dict[str, Any] = {}
-    unknown = wrong - {field.alias or name for name, field in FIELDS.items()}
+    unknown = wrong_keys - {field.alias or name for name, field in FIELDS.items()}
     for name, field in FIELDS.items():
         key = field.alias or name
-        # A table whose name is misspelt may be one of these.
-        if key not in wrong and not (unknown and key in ("indenter", "surface") and key not in values):
+        # An unknown key may be one of these, misspelt.
+        if key not in wrong_keys and not (unknown and key in ("indenter", "surface") and key not in values):
             sound[key] = _adapter(name).validate_python(values[key]) if key in values else field.get_default()
-    return [told(place(_parts(key), values), words) for key, words in relations(sound)]
+    return [wrong(place(_parts(key), values), words) for key, words in relations(sound)]
 
 
 def _parts(key: str) -> list[str | int]:

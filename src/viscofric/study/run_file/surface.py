@@ -1,4 +1,4 @@
-"""[surface] of a run file: a rough surface that slides over the rubber, made or measured."""
+"""[surface] of a run file: a rough surface that slides over the rubber, generated or measured."""
 
 from __future__ import annotations
 
@@ -63,65 +63,66 @@ def _unit_of_length(value: str) -> str:
 
 
 class SurfaceTable(Table):
-    """[surface]: a rough surface that repeats itself, self-affine by its numbers, or read from a file."""
+    """[surface]: a periodic rough surface, generated as self-affine or read from a file."""
 
     shape: ClassVar[str] = "rough surface"
-    #: What its contacts are, and the keys of [conditions] that they take.
+    #: Class of its cases, and the keys of [conditions] that they take.
     CASE: ClassVar[type[Case]] = SurfaceCase
     CONDITIONS: ClassVar[tuple[str, ...]] = ("pressure", "direction")
     #: Whether its load is per length.
     LINE: ClassVar[bool] = False
 
-    hurst: Number | None = Field(None, gt=0.0, le=1.0, description="Hurst exponent of a surface that is made.")
-    rms_height: Length | None = Field(None, description="Root mean square of its heights; or rms_slope.")
-    rms_slope: Number | None = Field(None, gt=0.0, description="Root mean square of its slopes; or rms_height.")
-    longest: Length | None = Field(None, description="Longest wavelength; the period without.")
+    hurst: Number | None = Field(None, gt=0.0, le=1.0, description="Hurst exponent of a generated surface.")
+    rms_height: Length | None = Field(None, description="Rms height; or give rms_slope.")
+    rms_slope: Number | None = Field(None, gt=0.0, description="Rms slope; or give rms_height.")
+    longest: Length | None = Field(None, description="Longest wavelength; default: the period.")
     rolloff: Length | None = Field(
-        None, description="Wavelength above which its spectrum is flat; the longest without."
+        None, description="Wavelength above which the spectrum is flat; default: the longest."
     )
-    shortest: Length | None = Field(None, description="Shortest wavelength; eight points of the grid or more.")
+    shortest: Length | None = Field(None, description="Shortest wavelength; at least eight points of the grid.")
     points: Points = Field(
-        default_factory=tuple, description="Points along both axes, or [along, across]; [512, 1] is a profile."
+        default_factory=tuple,
+        description="Number of points along both axes, or [along, across]; [512, 1] is a profile.",
     )
-    spacing: Length | None = Field(
-        None, description="Distance of neighbouring points; of a file only where it does not say it."
-    )
-    period: Length | None = Field(None, description="Length after which it repeats itself along x, instead of spacing.")
+    spacing: Length | None = Field(None, description="Spacing of points; for a file, only if it does not state it.")
+    period: Length | None = Field(None, description="Period along x, instead of spacing.")
     seed: Seeds = Field(
-        default_factory=tuple, description="Random numbers that it is made of; each seed makes a surface of its own."
+        default_factory=tuple, description="Seed of the random numbers; each seed gives a different surface."
     )
-    aspect: Number = Field(1.0, gt=0.0, description="How many times longer it is correlated along its lay than across.")
+    aspect: Number = Field(1.0, gt=0.0, description="Ratio of correlation lengths along and across the lay.")
     angle: Direction = Field(0.0, description="Direction of the lay, from x towards y.")
-    exact: bool = Field(True, description="Whether each surface has just the rms value, or all of them in the mean.")
+    exact: bool = Field(True, description="Whether each surface has exactly the rms value, or only their mean.")
 
-    file: FileName | None = Field(None, description="A measured surface, instead: its file.")
+    file: FileName | None = Field(None, description="Instead: file of a measured surface.")
     unit: Annotated[Words, AfterValidator(_unit_of_length)] | None = Field(
-        None, description="Unit of the file's heights, where it does not say it."
+        None, description="Unit of heights in files that do not state it."
     )
-    channel: Words | Count | None = Field(None, description="Which map of several in the file: its name or number.")
-    missing: Number | None = Field(None, description="Number that stands for a missing height, such as -9999.0.")
-    lines: Literal["x", "y"] = Field("x", description="Axis along which the lines of a text matrix follow one another.")
+    channel: Words | Count | None = Field(None, description="Name or number of one of several maps in the file.")
+    missing: Number | None = Field(None, description="Number that marks a missing height, such as -9999.0.")
+    lines: Literal["x", "y"] = Field("x", description="Axis along which the lines of a text matrix follow each other.")
     prepare: Annotated[tuple[Step, ...], BeforeValidator(listed)] = Field(
         (),
         max_length=_MOST_STEPS,
-        description="Steps in their order: 'fill', 'remove tilt', 'window', 'shortest 40 um' …",
+        description="Preparation steps in their order: 'fill', 'remove tilt', 'window', 'shortest 40 um' …",
     )
 
     modulus: Modulus | None = Field(None, description="Young's modulus of an elastic surface; rigid without it.")
     poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic surface.")
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         if "poisson_ratio" in self.model_fields_set and self.modulus is None:
-            yield "poisson_ratio", "is for an elastic surface, whose modulus is not given; a rigid one has none"
+            yield "poisson_ratio", "is for an elastic surface, but modulus is not given; a rigid one has none"
         given = self.model_fields_set
         if self.file is None and self.hurst is None:
-            yield "", 'nothing says what it is; give file = "scan.csv", or the hurst exponent of one to be made'
+            yield "", 'has no source; give file = "scan.csv", or the hurst exponent of a generated surface'
             return
-        wrong, kind = (MADE, "made, but there is a file") if self.file else (READ, "read from a file")
+        wrong, kind = (
+            (MADE, "a generated surface, but there is a file") if self.file else (READ, "a surface read from a file")
+        )
         found = [name for name in wrong if name in given]
         for name in found:
-            yield name, f"is for a surface that is {kind}; leave it out"
+            yield name, f"is for {kind}; leave it out"
         if self.file is None and not found:
             missing = list(self._missing())
             yield from missing
@@ -129,17 +130,17 @@ class SurfaceTable(Table):
                 yield from self._cannot_be_made()
 
     def _missing(self) -> Iterator[Problem]:
-        """Yield what a surface lacks to be made."""
+        """Yield the keys that are missing to generate a surface."""
         for name, example in (("shortest", '"40 um"'), ("points", "256"), ("seed", "1")):
             if name not in self.model_fields_set:
-                yield name, f"is missing; a surface is made with {name} = {example}, for instance"
+                yield name, f"is missing; a generated surface needs it, e.g. {name} = {example}"
         for one, other in (("rms_height", "rms_slope"), ("spacing", "period")):
             both = [getattr(self, one), getattr(self, other)]
             if both.count(None) != 1:
                 yield one, f"give {one} or {other}, {'one of them' if None in both else 'not both'}"
 
     def _cannot_be_made(self) -> Iterator[Problem]:
-        """Yield why its numbers make no surface."""
+        """Yield why no surface can be generated from the numbers."""
         nx, ny = self.shape_of_grid
         period = max(nx, ny) * self.step
         longest, shortest = self.longest or period, self.shortest or 0.0
@@ -148,10 +149,10 @@ class SurfaceTable(Table):
         if nx < _FEWEST_POINTS:
             yield "points", f"{nx} along x are too few; {_FEWEST_POINTS} are the least"
         elif not shortest < rolloff <= longest:
-            words = f"{shortest:g} m, rolloff {rolloff:g} m and longest {longest:g} m must grow in this order"
-            yield "shortest", words if self.longest else f"{words}; the period is the longest where none is given"
+            words = f"{shortest:g} m, rolloff {rolloff:g} m and longest {longest:g} m must increase in this order"
+            yield "shortest", words if self.longest else f"{words}; the longest is the period by default"
         elif shortest <= least:
-            yield "shortest", f"{shortest:g} m is no more than two points of the grid, {least:.4g} m; eight are good"
+            yield "shortest", f"{shortest:g} m is not above two points of the grid, {least:.4g} m; use about eight"
         elif period < shortest:
             yield "shortest", f"{shortest:g} m is longer than the period, {period:g} m"
         if ny == 1 and self.aspect != 1.0:
@@ -159,34 +160,28 @@ class SurfaceTable(Table):
 
     @property
     def axes(self) -> dict[str, tuple[Any, ...]]:
-        """What makes several surfaces, with all its values."""
+        """The seeds of a generated surface."""
         return {} if self.file is not None else {"seed": self.seed}
 
     @property
     def shape_of_grid(self) -> tuple[int, int]:
-        """Points along x and y of a made surface."""
+        """Points along x and y of a generated surface."""
         return self.points[0], self.points[-1]
 
     @property
     def _rolloff(self) -> float | None:
-        """The roll-off, m: no longer than the longest wavelength by rounding."""
+        """The roll-off, m: no longer than the longest wavelength, apart from rounding."""
         longest = self.longest or max(self.points) * self.step
         near = self.rolloff is not None and 0.0 < self.rolloff - longest < _ROUNDING * longest
         return longest if near else self.rolloff
 
     @property
     def step(self) -> float:
-        """Distance of neighbouring points of a made surface, m."""
+        """Spacing of the points of a generated surface, m."""
         return self.spacing if self.spacing is not None else (self.period or math.nan) / self.points[0]
 
     def made(self, *seed: int) -> SurfaceSource:
-        """Return the surface of one value for each axis.
-
-        Raises
-        ------
-        DataFileError
-            If its file cannot be read.
-        """
+        """Return the surface for one value of each axis; raise `DataFileError` if its file cannot be read."""
         if self.file is not None:
             steps = None if self.spacing is None else (self.spacing, self.spacing)
             return ScannedSurface(
@@ -220,11 +215,11 @@ class SurfaceTable(Table):
 
     @property
     def inputs(self) -> tuple[Path, ...]:
-        """All files that the surface comes from."""
+        """The file of a measured surface."""
         return () if self.file is None else (self.file,)
 
 
-#: Keys of a surface that is made, and of one that is read.
+#: Keys of a generated surface, and of one read from a file.
 MADE = (
     "hurst",
     "rms_height",

@@ -1,4 +1,4 @@
-"""Tables of a run file: their base class, and the kinds of their fields: text with a unit in, SI out."""
+"""Base class of a run file's tables, and the types of their keys: text with a unit on input, SI inside."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler
 
 
-#: A key within the table, such as "load" or "load.2", and a sentence about it; "" is the table as a whole.
+#: A key within the table, such as "load" or "load.2" ("": the whole table), and a sentence about it.
 Problem: TypeAlias = tuple[str, str]
 
 
@@ -44,7 +44,7 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         yield from ()
 
     @model_validator(mode="after")
@@ -56,7 +56,7 @@ class Table(BaseModel):
 
 
 def all_at_once(title: str, problems: list[Problem]) -> ValidationError:
-    """Return the error that tells several problems, each at its key."""
+    """Return one validation error for several problems, each at its key."""
     details = [
         InitErrorDetails(
             type=PydanticCustomError("relation", "{words}", {"words": words}),
@@ -68,7 +68,7 @@ def all_at_once(title: str, problems: list[Problem]) -> ValidationError:
     return ValidationError.from_exception_data(title, details)
 
 
-# Stands for the field's name in messages about units; the location says it better.
+# Name of every field in messages about units; the location of the error names the field.
 VALUE = "value"
 MOST_POINTS = 10_000
 _LONGEST_NAME = 255  # bytes between two slashes, on all common file systems
@@ -76,12 +76,12 @@ _SPACE = 32
 
 
 def as_written(value: object) -> str:
-    """Return how a value is written, on one line and cut where it is too long for a sentence."""
+    """Return how a value is written, on one line, shortened for a sentence."""
     return str(value).lower() if isinstance(value, bool) else brief(value)
 
 
 def with_unit(value: object) -> Quantity:
-    """Refuse bare numbers: in a run file every quantity carries its unit."""
+    """Refuse bare numbers: in a run file every quantity has a unit."""
     if not isinstance(value, str):
         raise ValueError(f"{as_written(value)} has no unit; write text such as '25 N', '100 mm/s', '30 degC'")
     return value
@@ -91,12 +91,12 @@ def kelvin(value: object) -> float:
     """Return a temperature, given as text with its unit, in K."""
     found = to_si(with_unit(value), "K", VALUE)
     if found <= 0.0:
-        raise ValueError(f"{brief(value)} lies below absolute zero")
+        raise ValueError(f"{brief(value)} is below absolute zero")
     return found
 
 
 class PerLength(float):
-    """A load per length, N/m, as that of a cylinder; any other load is a plain float in N."""
+    """A load per length, N/m, as for a cylinder; every other load is a plain float in N."""
 
 
 def _load(value: object) -> float:
@@ -107,7 +107,7 @@ def _load(value: object) -> float:
         try:
             return PerLength(positive(text, "N/m", VALUE))
         except InputError as other:
-            # A load per length below zero is told as such, all else as a force.
+            # A negative load per length is reported as such, everything else as a force.
             raise (other if "above zero" in str(other) else error) from None
 
 
@@ -116,7 +116,7 @@ def _positive(unit: str) -> BeforeValidator:
 
 
 def _text(*units: str) -> WithJsonSchema:
-    """JSON schema of a quantity: a number and a unit, such as those."""
+    """JSON schema of a quantity: a number and a unit."""
     number = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?\s*[^0-9\s.,+\-].*$"
     return WithJsonSchema({"type": "string", "pattern": number, "examples": list(units)})
 
@@ -129,7 +129,7 @@ Angle = Annotated[float, _positive("rad"), _text("5 deg")]
 Modulus = Annotated[float, _positive("Pa"), _text("200 GPa")]
 Pressure = Annotated[float, _positive("Pa"), _text("50 kPa")]
 Direction = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "rad", VALUE)), _text("30 deg")]
-# Plain, for else pydantic makes a bare float of a load per length.
+# Plain, or pydantic would convert a load per length to a plain float.
 Load = Annotated[float, PlainValidator(_load), _text("25 N", "2 N/mm")]
 Temperature = Annotated[float, BeforeValidator(kelvin), _text("30 degC")]
 TemperatureStep = Annotated[float, _positive("delta_degC"), _text("1 delta_degC")]
@@ -150,29 +150,29 @@ Seed = Annotated[
 
 
 def listed(value: object) -> object:
-    """Let one entry stand for a list of one."""
+    """Turn a single entry into a list of one."""
     return [value] if isinstance(value, str | int | float) else value
 
 
 def one_or_more(entry: dict[str, Any], most: int = MOST_POINTS) -> WithJsonSchema:
-    """Return the JSON schema of a field that may be one entry or a list of them; see `listed`."""
+    """Return the JSON schema of a key that takes one entry or a list of them; see `listed`."""
     return WithJsonSchema({"anyOf": [entry, {"type": "array", "items": entry, "minItems": 1, "maxItems": most}]})
 
 
 def _file_name(value: object) -> object:
     if isinstance(value, str):
         if not value.strip():
-            raise ValueError("is empty; the name of a file is wanted")
+            raise ValueError("is empty; expected the name of a file")
         parts = re.split(r"[/\\]", value)
         if max(len(os.fsencode(part)) for part in parts) > _LONGEST_NAME or any(ord(mark) < _SPACE for mark in value):
-            raise ValueError(f"{brief(value)} cannot be the name of a file")
+            raise ValueError(f"{brief(value)} is not a valid file name")
         if "**" in value:
-            raise ValueError(f"{brief(value)} looks into all folders; write a pattern such as 'sweeps/*.txt'")
+            raise ValueError(f"{brief(value)} searches all folders; use a pattern such as 'sweeps/*.txt'")
     return value
 
 
 def schema_of(kind: Any) -> dict[str, Any]:
-    """Return the JSON schema of a kind of quantity."""
+    """Return the JSON schema of a type of quantity."""
     (found,) = [mark.json_schema for mark in kind.__metadata__ if isinstance(mark, WithJsonSchema)]
     return dict(found or {})
 
@@ -189,12 +189,12 @@ FileNames = Annotated[
 Words = Annotated[str, Field(max_length=300, pattern=r"^[^\x00-\x1f\x7f]*$")]
 
 
-# Branches of a choice between types appear in pydantic's locations, not in the file: no key looks like these.
+# Branches of a choice between types; they appear in pydantic's locations, and cannot be keys.
 RANGE, LIST, SEED_RANGE = "<range>", "<list>", "<seeds>"
 
 
 class _Span(Table, ABC):
-    """What stands for several values."""
+    """A range of values."""
 
     @abstractmethod
     def values(self) -> tuple[Any, ...]:
@@ -202,17 +202,17 @@ class _Span(Table, ABC):
 
 
 class _Range(_Span):
-    """From one value to another; its ends are those of a subclass."""
+    """A range with two ends, whose types a subclass sets."""
 
     first: float
     last: float
-    points: Count = Field(ge=2, le=MOST_POINTS, description="How many values, both ends included.")
+    points: Count = Field(ge=2, le=MOST_POINTS, description="Number of values, including both ends.")
     spacing: Literal["log", "linear"] = Field(
-        "log", description="Between the values: equal ratios (log) or equal steps (linear)."
+        "log", description="Equal ratios (log) or equal steps (linear) between the values."
     )
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         if self.first == self.last:
             yield "to", "is the same as from; give one value instead of a range"
         if type(self.first) is not type(self.last):
@@ -226,74 +226,74 @@ class _Range(_Span):
 
 
 class _EvenRange(_Range):
-    """From one value to another in equal steps."""
+    """A range with equal steps."""
 
-    spacing: Literal["linear"] = Field("linear", description="Between the values: equal steps.")
+    spacing: Literal["linear"] = Field("linear", description="Equal steps between the values.")
 
 
 _FROM, _TO = "First value.", "Last value."
 
 
 class SpeedRange(_Range):
-    """Speeds from one to another."""
+    """A range of speeds."""
 
     first: Speed = Field(alias="from", description=_FROM)
     last: Speed = Field(alias="to", description=_TO)
 
 
 class LengthRange(_Range):
-    """Lengths from one to another."""
+    """A range of lengths."""
 
     first: Length = Field(alias="from", description=_FROM)
     last: Length = Field(alias="to", description=_TO)
 
 
 class AngleRange(_Range):
-    """Angles from one to another."""
+    """A range of angles."""
 
     first: Angle = Field(alias="from", description=_FROM)
     last: Angle = Field(alias="to", description=_TO)
 
 
 class LoadRange(_Range):
-    """Loads from one to another."""
+    """A range of loads."""
 
     first: Load = Field(alias="from", description=_FROM)
     last: Load = Field(alias="to", description=_TO)
 
 
 class PressureRange(_Range):
-    """Pressures from one to another."""
+    """A range of pressures."""
 
     first: Pressure = Field(alias="from", description=_FROM)
     last: Pressure = Field(alias="to", description=_TO)
 
 
 class DirectionRange(_EvenRange):
-    """Directions from one to another, in equal steps."""
+    """A range of directions."""
 
     first: Direction = Field(alias="from", description=_FROM)
     last: Direction = Field(alias="to", description=_TO)
 
 
 class SeedRange(_Span):
-    """All whole numbers from one to another."""
+    """All whole numbers between two ends."""
 
     first: Seed = Field(alias="from", description=_FROM)
     last: Seed = Field(alias="to", description=_TO)
 
     def problems(self) -> Iterator[Problem]:
-        """Yield what does not fit together within the table."""
+        """Yield the contradictions within the table."""
         if not 0 < self.last - self.first < MOST_POINTS:
             yield "to", f"must lie above from, by less than {MOST_POINTS:,}"
 
     def values(self) -> tuple[int, ...]:
-        """Return all of them."""
+        """Return all values."""
         return tuple(range(self.first, self.last + 1))
 
 
 class TemperatureRange(_EvenRange):
-    """Temperatures from one to another, in equal steps."""
+    """A range of temperatures."""
 
     first: Temperature = Field(alias="from", description=_FROM)
     last: Temperature = Field(alias="to", description=_TO)
@@ -301,7 +301,7 @@ class TemperatureRange(_EvenRange):
 
 @dataclass(frozen=True)
 class _Many:
-    """Marks a field whose values may be one, a list or a range; it holds all of them as a tuple."""
+    """Marks a key that takes one value, a list or a range; its field is a tuple of all values."""
 
     one: Any
     span: type[_Span]
