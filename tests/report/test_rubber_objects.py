@@ -14,8 +14,9 @@ from matplotlib.figure import Figure
 
 import viscofric as vf
 from viscofric.data import IsothermalSweeps
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
-from viscofric.report.data import ModulusBand, moduli_of_sweeps, modulus_band
+from viscofric.report.data import moduli_of_sweeps
 from viscofric.report.figures import rubber, shift_factors, style, superposition
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 from viscofric.rheology.superposition.result import check_superposition
@@ -191,7 +192,11 @@ def test_master_curve_without_a_spectrum_shows_points_only(axes: Axes, fit: vf.S
 
 def test_band_of_moduli_is_filled_between_its_bounds(axes: Axes, fit: vf.Superposition) -> None:
     omega = np.geomspace(1.0, 100.0, 5)
-    band = ModulusBand(omega, np.array([[2e6] * 5, [3e6] * 5]), np.array([[1e5] * 5, [4e5] * 5]))
+    limits = {"storage_modulus_lower": 2e6, "storage_modulus_upper": 3e6}
+    limits |= {"loss_modulus_lower": 1e5, "loss_modulus_upper": 4e5}
+    columns = {name: (np.full(5, limit), "Pa", name) for name, limit in limits.items()}
+    coordinates = {"angular_frequency": (omega, "rad/s", "angular frequency")}
+    band = dataset("angular_frequency", columns, coordinates=coordinates)
     rubber.plot_master_curve(axes, fit, band=band)
     storage, loss = bands(axes)
     assert heights_at(storage, 1.0) == pytest.approx((2.0, 3.0))
@@ -214,12 +219,10 @@ def test_samples_give_the_band_that_they_state(axes: Axes, fit: vf.Superposition
         assert heights_at(loss, omega[place]) == pytest.approx(ends)
 
 
-def test_band_of_other_frequencies_is_refused() -> None:
-    class Band:
-        lower = upper = np.ones(3)
-
-    with pytest.raises(InputError, match="each of 5 frequencies"):
-        modulus_band(Band, np.ones(5))
+def test_residuals_need_a_fit(axes: Axes, fit: vf.Superposition) -> None:
+    with pytest.raises(InputError) as caught:
+        rubber.plot_residuals(axes, fit)
+    assert caught.value.code == "no-fit"
 
 
 def test_residuals_are_decades_of_measured_over_fit(axes: Axes, fit: vf.Superposition, spectrum: Any) -> None:

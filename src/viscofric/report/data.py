@@ -1,59 +1,76 @@
-"""Columns that figures draw, from data sets or from the objects of the Python interface."""
+"""The one step from a result to what figures draw: its labelled data set, and from that plain columns.
+
+Figures take a data set of a study's results, or an object of the Python interface with ``to_dataset()``.
+"""
 
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
-from viscofric.errors import InputError
-from viscofric.friction.curves import FrictionCurves
+from viscofric.datasets import dataset
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.report.results import is_extrapolated, number, values
-from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.superposition.result import Superposition
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray as xr
 
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.arrays import Array, Mask
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
+    from viscofric.rheology.superposition.result import Superposition
 
+    #: Sweeps as read, isotherms as joined, or either as a dataset along `reading`.
     Sweeps: TypeAlias = IsothermalSweeps | Superposition | Sequence[Isotherm] | xr.Dataset
+    #: A master curve, what it came from, or a dataset along `reading`.
     Master: TypeAlias = MasterCurve | Superposition | xr.Dataset
+    #: Shift factors, what they came with, or a dataset along `temperature`.
     Shifts: TypeAlias = ShiftFactors | Superposition | xr.Dataset
-    from viscofric.arrays import Mask
-
+    #: Friction coefficients as curves, or a dataset along `case` (predicted) or `point` (measured).
     Friction: TypeAlias = FrictionCurves | xr.Dataset
+    #: The same, or all temperatures on one curve.
     ReducedFriction: TypeAlias = FrictionMasterCurve | xr.Dataset
+
+#: Half-width of a 95 % band over the standard error.
+LEVEL_95 = 1.959963984540054
+_POINTS_OF_A_LINE = 200
+_SIDES = ("lower", "upper")
+
+
+def as_dataset(source: Any, *arguments: Any) -> xr.Dataset:
+    """Return a data set as it is, or the one that a result makes of itself (with these arguments)."""
+    found: xr.Dataset = source if hasattr(source, "data_vars") else source.to_dataset(*arguments)
+    return found
 
 
 class Moduli(NamedTuple):
-    """Measured moduli, one row per reading.
+    """Moduli, one row per reading.
 
     Parameters
     ----------
-    temperature : (n,) array
-        K.
-    angular_frequency : (n,) array
-        rad/s.
+    temperature, angular_frequency : (n,) array
+        K, rad/s.
     storage, loss : (n,) array
         Pa.
     symbol : str
         E, or G for moduli measured in shear.
+    reference : float
+        K; NaN where none is stated.
     """
 
     temperature: Array
     angular_frequency: Array
     storage: Array
     loss: Array
-    symbol: str = "E"
+    symbol: str
+    reference: float
 
     @property
     def loss_tangent(self) -> Array:
@@ -61,65 +78,48 @@ class Moduli(NamedTuple):
         return np.asarray(self.loss / self.storage)
 
 
-class ModulusBand(NamedTuple):
-    """Lower and upper bounds of E' and E''.
-
-    Parameters
-    ----------
-    angular_frequency : (n,) array
-        rad/s.
-    storage, loss : (2, n) array
-        Lower and upper bound, Pa.
-    """
-
-    angular_frequency: Array
-    storage: Array
-    loss: Array
-
-
-class ShiftTable(NamedTuple):
-    """Measured shift factors: K, log10 α, its standard error, and the reference in K."""
-
-    temperature: Array
-    log10: Array
-    error: Array
-    reference: float
-
-
 def moduli_of_sweeps(source: Sweeps | SuperpositionCheck) -> Moduli:
     """Return the readings of sweeps, isotherm by isotherm; those of a check are without their vertical shift."""
+    if hasattr(source, "data_vars"):
+        return moduli(source)
     if hasattr(source, "cole_cole"):
         points = source.cole_cole
-        return Moduli(points.temperature, np.arange(float(len(points.x))), points.x, points.y)
-    symbol = "G" if isinstance(source, IsothermalSweeps) and source.deformation == "shear" else "E"
-    if isinstance(source, (IsothermalSweeps, Superposition)):
-        return _of_isotherms(source.isotherms, symbol)
-    if isinstance(source, (list, tuple)):
-        return _of_isotherms(source, symbol)
-    return _of_dataset(cast("xr.Dataset", source))
+        columns = {
+            "temperature": (points.temperature, "K", "temperature"),
+            "angular_frequency": (np.arange(float(len(points.x))), "1", "order of the frequencies"),
+            "storage_modulus": (points.x, "Pa", "storage modulus"),
+            "loss_modulus": (points.y, "Pa", "loss modulus"),
+        }
+        return moduli(dataset("reading", columns))
+    isotherms: Any = getattr(source, "isotherms", source)
+    deformation: Any = getattr(source, "deformation", "tension")
+    return moduli(IsothermalSweeps(tuple(isotherms), deformation))
 
 
 def moduli_of_master_curve(source: Master) -> Moduli:
     """Return the points of a master curve; their frequencies are reduced."""
-    if isinstance(source, Superposition):
-        source = source.master_curve
-    if isinstance(source, MasterCurve):
-        return Moduli(source.temperature, source.angular_frequency, source.storage_modulus, source.loss_modulus)
-    return _of_dataset(source)
+    return moduli(getattr(source, "master_curve", source))
 
 
-def shift_table(source: Shifts) -> ShiftTable:
-    """Return measured shift factors."""
-    if isinstance(source, Superposition):
-        source = source.shift_factors
-    if isinstance(source, ShiftFactors):
-        return ShiftTable(source.temperatures, source.log10_values, source.standard_errors, source.reference)
-    return ShiftTable(
-        values(source, "temperature"),
-        values(source, "log10_shift_factor"),
-        np.nan_to_num(values(source, "standard_error")),
-        number(source.attrs, "reference_temperature"),
+def moduli(source: Any, prefix: str = "") -> Moduli:
+    """Return moduli of a data set, those whose names begin with a prefix."""
+    data = as_dataset(source)
+    return Moduli(
+        values(data, "temperature"),
+        values(data, "angular_frequency"),
+        values(data, f"{prefix}storage_modulus"),
+        values(data, f"{prefix}loss_modulus"),
+        "G" if data.attrs.get("deformation") == "shear" else "E",
+        number(data.attrs, "reference_temperature"),
     )
+
+
+class ModulusBand(NamedTuple):
+    """Lower and upper bounds (2, n) of E' and E'' (Pa) over the angular frequency (n,), rad/s."""
+
+    angular_frequency: Array
+    storage: Array
+    loss: Array
 
 
 def modulus_band(source: Any, angular_frequency: Array) -> ModulusBand:
@@ -127,51 +127,36 @@ def modulus_band(source: Any, angular_frequency: Array) -> ModulusBand:
 
     Parameters
     ----------
-    source : ModulusBand, MaterialSamples, Band or xarray.Dataset
-        Samples give their 95 % band; a `Band` holds complex moduli at the given frequencies; a dataset has
-        `angular_frequency`, `storage_modulus_lower`, `storage_modulus_upper`, `loss_modulus_lower` and
-        `loss_modulus_upper`.
+    source : MaterialSamples, IdentifiedMaterial or xarray.Dataset
+        A dataset has `storage_modulus_lower`, `storage_modulus_upper`, `loss_modulus_lower` and `loss_modulus_upper`
+        along `angular_frequency`.
     angular_frequency : (n,) array
-        Where samples are asked, rad/s.
+        At which the bounds of an object are calculated, rad/s.
     """
-    if isinstance(source, ModulusBand):
-        return source
-    if hasattr(source, "data_vars"):
-        bounds = [np.stack([values(source, f"{name}_modulus_{side}") for side in _SIDES]) for name in _MODULI]
-        return ModulusBand(values(source, "angular_frequency"), *bounds)
-    band = source.modulus_band(angular_frequency) if hasattr(source, "modulus_band") else source
-    sides = np.stack([np.asarray(getattr(band, side)) for side in _SIDES])
-    if sides.shape != (2, np.size(angular_frequency)):
-        raise InputError(
-            f"a band of moduli must have lower and upper values for each of {np.size(angular_frequency)} frequencies."
-        )
-    return ModulusBand(angular_frequency, sides.real, sides.imag)
-
-
-_SIDES = ("lower", "upper")
-_MODULI = ("storage", "loss")
-
-
-def _of_isotherms(isotherms: Sequence[Isotherm], symbol: str) -> Moduli:
-    def column(name: str) -> Array:
-        return np.concatenate([np.empty(0), *(getattr(isotherm, name) for isotherm in isotherms)])
-
-    temperature = np.repeat([isotherm.temperature for isotherm in isotherms], [len(each) for each in isotherms])
-    return Moduli(
-        np.asarray(temperature, dtype=float),
-        column("angular_frequency"),
-        column("storage_modulus"),
-        column("loss_modulus"),
-        symbol,
+    data = as_dataset(source, angular_frequency)
+    storage, loss = (
+        np.stack([values(data, f"{name}_modulus_{side}") for side in _SIDES]) for name in ("storage", "loss")
     )
+    return ModulusBand(values(data, "angular_frequency"), storage, loss)
 
 
-def _of_dataset(source: xr.Dataset) -> Moduli:
-    return Moduli(
-        values(source, "temperature"),
-        values(source, "angular_frequency"),
-        values(source, "storage_modulus"),
-        values(source, "loss_modulus"),
+class ShiftTable(NamedTuple):
+    """Shift factors (n,): temperature (K), log10 α, its standard error (zero if unknown), and the reference (K)."""
+
+    temperature: Array
+    log10: Array
+    error: Array
+    reference: float
+
+
+def shift_table(source: Shifts) -> ShiftTable:
+    """Return shift factors."""
+    data = as_dataset(source)
+    return ShiftTable(
+        values(data, "temperature"),
+        values(data, "log10_shift_factor"),
+        np.nan_to_num(values(data, "standard_error")),
+        number(data.attrs, "reference_temperature"),
     )
 
 
@@ -184,29 +169,13 @@ def law_of(source: xr.Dataset | None) -> ShiftLaw | None:
     return law
 
 
-def vertical_shift_of(source: xr.Dataset | None) -> VerticalShift | None:
-    """Return the vertical shift that results hold, or None if they hold none."""
-    from viscofric.rheology.cards import native
-
-    text = None if source is None else source.attrs.get("vertical_shift")
-    shift: VerticalShift | None = native.vertical_shift_of(json.loads(text)) if text else None
-    return shift
-
-
-_POINTS_OF_A_LINE = 200
-#: Half-width of a 95 % band over the standard error.
-LEVEL_95 = 1.959963984540054
-
-
 class Predicted(NamedTuple):
     """Predicted friction, one row per case.
 
     Parameters
     ----------
-    speed : (n,) array
-        m/s.
-    temperature, load : (n,) array
-        K, N.
+    speed, temperature, load : (n,) array
+        m/s, K, N.
     friction : (n,) array
     lower, upper : (n,) array
         Limits of the 95 % band; NaN where there is none.
@@ -234,8 +203,20 @@ class Predicted(NamedTuple):
         return bool(np.any(np.isfinite(self.lower) & np.isfinite(self.upper)))
 
 
+def predicted(source: Friction) -> Predicted:
+    """Return predicted friction."""
+    data = as_dataset(source)
+    of_study = "friction_coefficient" in data.variables
+    friction = ("friction_coefficient", "friction_lower", "friction_upper")
+    if not of_study:
+        friction = ("viscoelastic", "viscoelastic_lower", "viscoelastic_upper")
+    columns = [values(data, name) for name in ("speed", "temperature", "load", *friction)]
+    none = np.zeros(columns[0].shape, dtype=bool)
+    return Predicted._make([*columns, is_extrapolated(data) if of_study else none])
+
+
 class Measured(NamedTuple):
-    """Measured friction coefficients, one row per point: m/s (reduced or not), K, and their scatter."""
+    """Measured friction coefficients (n,): speed (m/s, reduced or not), temperature (K), friction and scatter."""
 
     speed: Array
     temperature: Array
@@ -243,44 +224,19 @@ class Measured(NamedTuple):
     scatter: Array
 
 
-def predicted(source: Friction) -> Predicted:
-    """Return predicted friction."""
-    if isinstance(source, FrictionCurves):
-        none = np.full(len(source), np.nan)
-        lower, upper = (
-            none if side is None else side for side in (source.viscoelastic_lower, source.viscoelastic_upper)
-        )
-        columns = (source.speed, source.temperature, source.load, source.viscoelastic, lower, upper)
-        return Predicted(*columns, np.zeros(len(source), dtype=bool))
-    names = ("speed", "temperature", "load", "friction_coefficient", "friction_lower", "friction_upper")
-    return Predicted._make([*(values(source, name) for name in names), is_extrapolated(source)])
-
-
-def measured(source: Friction, kind: str = "viscoelastic") -> Measured:
-    """Return measured friction over the speed.
+def measured(source: Friction | ReducedFriction, kind: str = "viscoelastic", speed: str = "speed") -> Measured:
+    """Return measured friction over the speed; NaN throughout where that kind was not measured.
 
     Parameters
     ----------
-    source : FrictionCurves or xarray.Dataset
+    source : FrictionCurves, FrictionMasterCurve or xarray.Dataset
     kind : {"viscoelastic", "coulomb"}
-        NaN throughout where that was not measured.
+    speed : {"speed", "reduced_speed"}
     """
-    if isinstance(source, FrictionCurves):
-        none = np.full(len(source), np.nan)
-        friction, scatter = (
-            none if column is None else column for column in (getattr(source, kind), getattr(source, f"{kind}_scatter"))
-        )
-        return Measured(source.speed, source.temperature, friction, _bars(scatter))
-    columns = (values(source, name) for name in ("speed", "temperature", kind))
-    return Measured._make([*columns, _bars(values(source, f"{kind}_scatter"))])
-
-
-def measured_at_reference(source: ReducedFriction) -> Measured:
-    """Return measured friction over the reduced speed."""
-    if isinstance(source, FrictionMasterCurve):
-        return Measured(source.reduced_speed, source.temperature, source.friction, _bars(source.scatter))
-    columns = (values(source, name) for name in ("reduced_speed", "temperature", "viscoelastic"))
-    return Measured._make([*columns, _bars(values(source, "viscoelastic_scatter"))])
+    data = as_dataset(source)
+    scatter = values(data, f"{kind}_scatter")  # infinite or absent where it is not known
+    bars = np.where(np.isfinite(scatter), scatter, 0.0)
+    return Measured(values(data, speed), values(data, "temperature"), values(data, kind), bars)
 
 
 def measured_line(source: ReducedFriction) -> Predicted | None:
@@ -300,8 +256,3 @@ def measured_line(source: ReducedFriction) -> Predicted | None:
     temperature, load = np.full(speed.shape, source.reference), np.full(speed.shape, source.load)
     none = np.zeros(speed.shape, dtype=bool)
     return Predicted(speed, temperature, load, friction, friction - doubt, friction + doubt, none)
-
-
-def _bars(scatter: Array) -> Array:
-    """Lengths of error bars; none where the scatter is not known (infinite in curves, absent in datasets)."""
-    return np.where(np.isfinite(scatter), scatter, 0.0)

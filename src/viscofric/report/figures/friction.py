@@ -12,8 +12,8 @@ from viscofric.errors import InputError
 from viscofric.report.data import (
     Measured,
     Predicted,
+    as_dataset,
     measured,
-    measured_at_reference,
     measured_line,
     predicted,
 )
@@ -28,7 +28,7 @@ from viscofric.report.figures.style import (
     plain_numbers,
     speed_ticks,
 )
-from viscofric.report.results import nearest, nominal_temperatures
+from viscofric.report.results import nearest, nominal_temperatures, number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -126,14 +126,16 @@ def plot_friction_master_curve(
     elif measurement is not None and (smooth := measured_line(measurement)) is not None:
         handles += _plot_line(axes, smooth, "smoothed")
     if measurement is not None:
-        points = measured_at_reference(measurement)
+        points = measured(measurement, speed="reduced_speed")
         nominal = nominal_temperatures(points.temperature)
         handles += [
             Line2D([], [], color=look.colour, marker=look.marker, linestyle="none", label=degrees(float(kelvin)))
             for look, kelvin in zip(looks(nominal.size), nominal, strict=True)
         ][::-1]
         _plot_measured(axes, points, nominal)
-    at = getattr(measurement, "reference", None) if reference_temperature is None else reference_temperature
+    at = reference_temperature
+    if at is None and measurement is not None:
+        at = number(as_dataset(measurement).attrs, "reference_temperature")
     axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(at))
     title = "" if measurement is None else "points: measured ± scatter"
     _finish(axes, handles, title, r"viscoelastic friction coefficient $\mu$")

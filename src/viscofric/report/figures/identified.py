@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.report.data import Moduli, moduli_of_master_curve, modulus_band
+from viscofric.report.data import Moduli, as_dataset, moduli, moduli_of_master_curve, modulus_band
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -17,9 +17,11 @@ from viscofric.report.figures.style import (
     legend_above,
     new_figure,
 )
+from viscofric.report.results import number, values
 from viscofric.rheology.material import Material
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -31,30 +33,32 @@ if TYPE_CHECKING:
 _MEGAPASCAL = 1e6
 
 
-def plot_identified_modulus(axes: Axes, found: IdentifiedMaterial, known: Material | Master | None = None) -> None:
-    """Draw the modulus that friction identifies with its 95 % band, the identified frequencies marked.
+def plot_identified_modulus(
+    axes: Axes, found: IdentifiedMaterial | xr.Dataset, known: Material | Master | None = None
+) -> None:
+    """Draw the modulus identified from friction with its 95 % band, the identified frequencies marked.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    found : IdentifiedMaterial
-        From `viscofric.identify_material`.
+    found : IdentifiedMaterial or xarray.Dataset
+        From `viscofric.identify_material`, or its `to_dataset`.
     known : Material, MasterCurve, Superposition or xarray.Dataset, optional
-        The same rubber as a DMA knows it, at the same reference temperature: a line, or points.
+        The same material from a DMA, at the same reference temperature: a line, or points.
     """
-    low, high = found.identified.low, found.identified.high
-    frequency = found.frequencies
-    modulus = np.asarray(found.material.complex_modulus(frequency))
-    bounds = modulus_band(found.samples, frequency)
-    reference = found.material.reference
+    data = as_dataset(found)
+    bounds, modulus = modulus_band(data, values(data, "angular_frequency")), moduli(data)
+    frequency = bounds.angular_frequency
+    low, high, limit = (number(data.attrs, f"identified_{name}") for name in ("low", "high", "limit"))
     inside = (frequency >= low) & (frequency <= high)
     handles: list[Any] = []
     if high > low:
-        known_to = f"known to {100.0 * found.identified.limit:g} %" + (" but for the level" * found.identified.relative)
+        relative = number(data.attrs, "anchored") == 0.0
+        known_to = f"known to {100.0 * limit:g} %" + (" but for the level" if relative else "")
         handles.append(axes.axvspan(low, high, color=GREY, alpha=0.15, linewidth=0.0, zorder=0, label=known_to))
     for symbol, value, limits, colour in (
-        ("$E'$", modulus.real, bounds.storage, BLUE),
-        ("$E''$", modulus.imag, bounds.loss, VERMILION),
+        ("$E'$", modulus.storage, bounds.storage, BLUE),
+        ("$E''$", modulus.loss, bounds.loss, VERMILION),
     ):
         value, limits = value / _MEGAPASCAL, limits / _MEGAPASCAL
         shade: dict[str, Any] = {"color": colour, "alpha": 0.22, "linewidth": 0.0, "zorder": 1}
@@ -66,7 +70,7 @@ def plot_identified_modulus(axes: Axes, found: IdentifiedMaterial, known: Materi
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(frequency[0], frequency[-1])
-    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(reference))
+    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(modulus.reference))
     axes.set_ylabel("modulus (MPa)")
     decade_ticks(axes.xaxis)
     decade_ticks(axes.yaxis)

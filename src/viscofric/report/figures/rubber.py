@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
-from viscofric.report.data import Moduli, moduli_of_master_curve, moduli_of_sweeps, modulus_band
+from viscofric.errors import InputError
+from viscofric.report.data import as_dataset, moduli, moduli_of_master_curve, moduli_of_sweeps, modulus_band
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -20,7 +21,6 @@ from viscofric.report.figures.style import (
 )
 from viscofric.report.results import nearest, nominal_temperatures, values
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.superposition.result import Superposition
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
 
     from viscofric.arrays import Array
-    from viscofric.report.data import Master, Sweeps
+    from viscofric.report.data import Master, Moduli, Sweeps
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 
     Fitted = RetardationSpectrum | ModulusTable | xr.Dataset
@@ -55,7 +55,7 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
     Returns
     -------
     matplotlib.cm.ScalarMappable
-        Temperatures in °C to colours, for a colour bar (`house_style.temperature_bar`).
+        Temperatures in °C to colours, for a colour bar (`style.temperature_bar`).
     """
     measured = moduli_of_sweeps(isotherms)
     value = (measured.storage if modulus == "storage" else measured.loss) / _PASCAL_PER_MEGAPASCAL
@@ -114,13 +114,15 @@ def plot_master_curve(
         The fit; a dataset has `storage_modulus` and `loss_modulus` along `angular_frequency`.
     reference_temperature : float, optional
         K, for the label; known already where a master curve is given as an object.
-    band : ModulusBand, MaterialSamples or xarray.Dataset, optional
-        Bounds of E' and E''; see `figure_data.modulus_band`.
+    band : MaterialSamples or xarray.Dataset, optional
+        Bounds of E' and E''; a dataset has `storage_modulus_lower`, `storage_modulus_upper`, `loss_modulus_lower`
+        and `loss_modulus_upper` along `angular_frequency`.
     """
     measured = moduli_of_master_curve(master_curve)
     frequency = measured.angular_frequency
-    line, fitted = _fitted_line(master_curve, spectrum_curve, frequency)
-    bounds = None if band is None else modulus_band(band, _wide(frequency) if line is None else line)
+    wide = _wide(frequency)
+    fitted = _fitted(master_curve, spectrum_curve, wide)
+    bounds = None if band is None else modulus_band(band, wide)
     handles: list[Any] = []
     bands: list[Any] = []
     for name, symbol, marker, colour, dashes in (
@@ -138,8 +140,9 @@ def plot_master_curve(
             fillstyle="none",
             label=f"{symbol} measured",
         )
-        if line is not None:
-            part = (fitted.real if name == "storage" else fitted.imag) / _PASCAL_PER_MEGAPASCAL
+        if fitted is not None:
+            order = np.argsort(fitted.angular_frequency, kind="stable")
+            line, part = fitted.angular_frequency[order], getattr(fitted, name)[order] / _PASCAL_PER_MEGAPASCAL
             handles += axes.plot(line, part, color=INK, linestyle=dashes, linewidth=1.2, label=f"{symbol} fitted")
         if bounds is not None:
             lower, upper = getattr(bounds, name) / _PASCAL_PER_MEGAPASCAL
@@ -153,7 +156,7 @@ def plot_master_curve(
             bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, **look))
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel(_reduced_label(master_curve, reference_temperature))
+    axes.set_xlabel(_reduced_label(measured, reference_temperature))
     axes.set_ylabel("modulus (MPa)")
     decade_ticks(axes.xaxis)
     decade_ticks(axes.yaxis)
@@ -177,12 +180,15 @@ def plot_residuals(
     """
     measured = moduli_of_master_curve(master_curve)
     frequency = measured.angular_frequency
-    fitted = _fitted_at_readings(master_curve, spectrum, frequency)
+    at_readings = None if hasattr(spectrum, "data_vars") else spectrum  # a dataset has frequencies of its own
+    fitted = _fitted(master_curve, at_readings, frequency)
+    if fitted is None:
+        raise InputError("there is no fit to compare with: give a spectrum.", code="no-fit")
     handles: list[Any] = []
     largest = 0.01
     for symbol, value, fit, marker, colour in (
-        ("$E'$", measured.storage, fitted.real, "s", BLUE),
-        ("$E''$", measured.loss, fitted.imag, "o", VERMILION),
+        ("$E'$", measured.storage, fitted.storage, "s", BLUE),
+        ("$E''$", measured.loss, fitted.loss, "o", VERMILION),
     ):
         left = np.log10(value / fit)
         rms = float(np.sqrt(np.mean(left**2))) if left.size else 0.0
@@ -200,45 +206,29 @@ def plot_residuals(
     axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=0)
     axes.set_xscale("log")
     axes.set_ylim(-1.12 * largest, 1.12 * largest)
-    axes.set_xlabel(_reduced_label(master_curve, reference_temperature))
+    axes.set_xlabel(_reduced_label(measured, reference_temperature))
     axes.set_ylabel(r"$\log_{10}\,\frac{\mathrm{measured}}{\mathrm{fit}}$")
     decade_ticks(axes.xaxis)
     legend_above(axes, handles)
 
 
-def _reduced_label(master_curve: Master, reference: float | None) -> str:
-    if isinstance(master_curve, Superposition):
-        master_curve = master_curve.master_curve
-    known = getattr(master_curve, "reference", None) if reference is None else reference
-    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(known)
+def _reduced_label(measured: Moduli, reference: float | None) -> str:
+    at = measured.reference if reference is None else reference
+    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(at)
 
 
 def _wide(frequency: Array) -> Array:
     return np.geomspace(frequency.min() / _BEYOND, frequency.max() * _BEYOND, 300)
 
 
-def _fitted_line(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> tuple[Array | None, Any]:
-    """Return frequencies and complex moduli of the fit, ascending; None without a fit."""
-    if spectrum is not None and not hasattr(spectrum, "data_vars"):
-        line = _wide(frequency)
-        return line, spectrum.complex_modulus(line)
-    source: Any = master_curve if spectrum is None else spectrum
-    prefix = "fitted_" if spectrum is None else ""
-    if not hasattr(source, "data_vars"):
-        return None, None
-    line = values(source, "angular_frequency")
-    fitted = values(source, prefix + "storage_modulus") + 1j * values(source, prefix + "loss_modulus")
-    order = np.argsort(line, kind="stable")
-    return line[order], fitted[order]
+def _fitted(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> Moduli | None:
+    """Return the fit: of an object at some frequencies (n,), rad/s, else where a dataset has it; None without one."""
+    if spectrum is not None:
+        return moduli(spectrum if hasattr(spectrum, "data_vars") else spectrum.modulus_dataset(frequency))
+    found = getattr(master_curve, "data_vars", {})
+    return moduli(cast("xr.Dataset", master_curve), "fitted_") if "fitted_storage_modulus" in found else None
 
 
-def _fitted_at_readings(master_curve: Any, spectrum: Fitted | None, frequency: Array) -> Any:
-    if spectrum is not None and not hasattr(spectrum, "data_vars"):
-        return spectrum.complex_modulus(frequency)
-    return values(master_curve, "fitted_storage_modulus") + 1j * values(master_curve, "fitted_loss_modulus")
-
-
-_PASCAL_PER_MEGAPASCAL = 1e6
 #: Modes weaker than the strongest by more than this are left below the axis: they change nothing that can be seen.
 _DECADES_SHOWN = 10.0
 
@@ -258,12 +248,9 @@ def plot_retardation_spectrum(
     samples : MaterialSamples, optional
         For the 95 % band of each C_k, drawn where all samples share their retardation times.
     """
-    frequencies = None
-    if isinstance(spectrum, RetardationSpectrum):
-        tau, C = spectrum.tau, spectrum.C
-        frequencies = None if spectrum.fit is None else spectrum.fit.frequency_range
-    else:
-        tau, C = values(spectrum, "retardation_time"), values(spectrum, "creep_coefficient")
+    modes, fit = as_dataset(spectrum), getattr(spectrum, "fit", None)
+    frequencies = None if fit is None else fit.frequency_range
+    tau, C = values(modes, "retardation_time"), values(modes, "creep_coefficient")
     _draw_modes(axes, tau, C * _PASCAL_PER_MEGAPASCAL, BLUE, "o")
     handles = [] if samples is None else _draw_band(axes, samples)
     if frequencies is not None:
@@ -283,8 +270,9 @@ def plot_relaxation_spectrum(axes: Axes, spectrum: RelaxationSpectrum | Retardat
     spectrum : RelaxationSpectrum or RetardationSpectrum
         The latter is converted, exactly.
     """
-    series = spectrum.to_relaxation() if isinstance(spectrum, RetardationSpectrum) else spectrum
-    _draw_modes(axes, series.tau, series.E / _PASCAL_PER_MEGAPASCAL, VERMILION, "s")
+    series = as_dataset(spectrum.to_relaxation() if isinstance(spectrum, RetardationSpectrum) else spectrum)
+    modulus = values(series, "modulus") / _PASCAL_PER_MEGAPASCAL
+    _draw_modes(axes, values(series, "relaxation_time"), modulus, VERMILION, "s")
     axes.set_xlabel(r"relaxation time $\tau_k$ (s)")
     axes.set_ylabel(r"modulus of a mode $E_k$ (MPa)")
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.report.data import LEVEL_95, shift_table
+from viscofric.report.data import LEVEL_95, as_dataset, shift_table
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -20,7 +20,8 @@ from viscofric.report.figures.style import (
     looks,
     plain_numbers,
 )
-from viscofric.report.results import SAME_TEMPERATURE
+from viscofric.report.results import SAME_TEMPERATURE, values
+from viscofric.rheology.shifts.laws import WLF, Arrhenius, WLFArrhenius
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.units import CELSIUS_ZERO
@@ -28,11 +29,13 @@ from viscofric.units import CELSIUS_ZERO
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import xarray as xr
     from matplotlib.axes import Axes
 
     from viscofric.arrays import Array
     from viscofric.report.data import Shifts, ShiftTable
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.rheology.superposition.result import Superposition
 
 
 #: 10 to this power is still a float, and beyond any axis.
@@ -84,31 +87,39 @@ def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | 
     legend_above(axes, handles, columns=1)
 
 
-def plot_vertical_shift(axes: Axes, vertical_shift: VerticalShift, temperatures: Array | None = None) -> None:
+def plot_vertical_shift(
+    axes: Axes, vertical_shift: VerticalShift | Superposition | xr.Dataset, temperatures: Array | None = None
+) -> None:
     """Draw the vertical shift b(T): a table with its standard errors, or a law.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    vertical_shift : VerticalShift
+    vertical_shift : VerticalShift, Superposition or xarray.Dataset
+        A dataset has `log10_vertical_shift` along `temperature` (K) and, of a table, its `vertical_standard_error`.
     temperatures : (n,) array, optional
         K; where to draw a law.  By default 100 K about its reference.
     """
-    measured = getattr(vertical_shift, "temperatures", None)
-    if measured is not None:
-        b = vertical_shift(measured)
-        error = np.log(10.0) * b * vertical_shift.standard_errors  # type: ignore[attr-defined]
-        axes.errorbar(measured - CELSIUS_ZERO, b, yerr=error, fmt="o", color=BLUE, markersize=4.5, elinewidth=1.0)
+    data = _vertical(vertical_shift, temperatures)
+    warm, b = values(data, "temperature") - CELSIUS_ZERO, 10.0 ** values(data, "log10_vertical_shift")
+    if "vertical_standard_error" in data:
+        error = np.log(10.0) * b * values(data, "vertical_standard_error")
+        axes.errorbar(warm, b, yerr=error, fmt="o", color=BLUE, markersize=4.5, elinewidth=1.0)
     else:
-        reference = vertical_shift.reference
-        near = np.array([reference - 50.0, reference + 50.0]) if temperatures is None else temperatures
-        line = np.linspace(float(near.min()), float(near.max()), 200)
-        axes.plot(line - CELSIUS_ZERO, vertical_shift(line), color=VERMILION)
+        axes.plot(warm, b, color=VERMILION)
     axes.axhline(1.0, color=GREY, linewidth=0.8, zorder=0)
     axes.set_xlabel("temperature (°C)")
     axes.set_ylabel(r"vertical shift $b_T$")
     plain_numbers(axes, "x")
     plain_numbers(axes, "y")
+
+
+def _vertical(source: Any, temperatures: Array | None) -> xr.Dataset:
+    """Return a vertical shift as a dataset; that of a law at many temperatures."""
+    if hasattr(source, "data_vars") or not hasattr(source, "reference") or hasattr(source, "temperatures"):
+        return as_dataset(source)
+    near = source.reference + np.array([-50.0, 50.0]) if temperatures is None else temperatures
+    return as_dataset(source, np.linspace(float(near.min()), float(near.max()), 200))
 
 
 def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLaw]) -> None:
@@ -181,7 +192,8 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
         if abs(other.reference - table.reference) > SAME_TEMPERATURE:
             raise InputError(
                 f"shift factors of friction are 1 at {degrees(table.reference)}, those of the modulus at "
-                f"{degrees(other.reference)}: must be the same to be drawn together."
+                f"{degrees(other.reference)}: must be the same to be drawn together.",
+                code="other-reference",
             )
         other = _between(other, table.temperature)
         handles.append(_points(axes, other, INK, "s", "of the modulus, ± standard error"))
@@ -263,12 +275,12 @@ def draw_law(axes: Axes, law: ShiftLaw, temperatures: Array, whose: str = "") ->
 def _described(law: ShiftLaw) -> str:
     """Name a law with its constants, where they are two that everybody quotes."""
     at = f"at {degrees(law.reference)}"
-    if hasattr(law, "C1") and not hasattr(law, "glass_transition"):
-        return f"WLF: $C_1$ = {law.C1:.4g}, $C_2$ = {law.C2:.4g} K {at}"  # type: ignore[attr-defined]
-    if hasattr(law, "glass_transition"):
+    if isinstance(law, WLFArrhenius):
         return f"WLF above {degrees(law.glass_transition)}, Arrhenius below"
-    if type(law).__name__ == "Arrhenius":
-        return f"Arrhenius: {law.activation_energy / 1e3:.4g} kJ/mol"  # type: ignore[attr-defined]
+    if isinstance(law, WLF):
+        return f"WLF: $C_1$ = {law.C1:.4g}, $C_2$ = {law.C2:.4g} K {at}"
+    if isinstance(law, Arrhenius):
+        return f"Arrhenius: {law.activation_energy / 1e3:.4g} kJ/mol"
     return f"{getattr(law, 'title', type(law).__name__)} {at}"
 
 

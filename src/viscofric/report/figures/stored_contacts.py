@@ -226,10 +226,10 @@ def _merged(contact: Contact) -> tuple[Array, Array, Array]:
 
 def _shift_factor(tree: xr.DataTree, kelvin: float) -> float | None:
     """Return α(T) as the study took it, None where the results do not tell."""
-    from viscofric.report.data import law_of, vertical_shift_of
+    from viscofric.report.data import law_of
 
     factors, law = group(tree, "shift_factors"), law_of(group(tree, "shift_law"))
-    if factors is not None and vertical_shift_of(factors) is not None:
+    if factors is not None and "log10_vertical_shift" in factors:
         return None
     if factors is not None and str(factors.attrs.get("shift_used", "measured")) == "measured":
         return float(10.0 ** _measured(factors).log10(kelvin))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.files import write_atomically
-from viscofric.report.data import law_of, vertical_shift_of
+from viscofric.report.data import law_of
 from viscofric.report.figures import saving
 from viscofric.report.figures.contacts import contacts_figure, rough_contacts_figure, trail_figure
 from viscofric.report.figures.convergence import convergence_figure
@@ -93,11 +93,10 @@ def _shift_factors(tree: xr.DataTree) -> Figure | None:
 
 def _vertical_shift(tree: xr.DataTree) -> Figure | None:
     factors = group(tree, "shift_factors")
-    shift = vertical_shift_of(factors)
-    if factors is None or shift is None:
+    if factors is None or "log10_vertical_shift" not in factors:
         return None
     figure = new_figure()
-    plot_vertical_shift(figure.subplots(), shift, values(factors, "temperature"))
+    plot_vertical_shift(figure.subplots(), factors)
     return figure
 
 

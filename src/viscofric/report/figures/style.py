@@ -259,4 +259,4 @@ def slender_bar(figure: Figure, scale: ScalarMappable, panels: Sequence[Axes], l
 
 def at_temperature(kelvin: float | None, before: str = "") -> str:
     """Return the end of an axis's label that names its reference temperature, if that is known."""
-    return "" if kelvin is None else f"{before} at {degrees(kelvin)}"
+    return "" if kelvin is None or math.isnan(kelvin) else f"{before} at {degrees(kelvin)}"
