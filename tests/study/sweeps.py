@@ -11,13 +11,13 @@ import numpy as np
 import xarray
 
 import viscofric as vf
+from viscofric.datasets import dataset
 from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.cases.record import ContactFields, Failure, Record
 from viscofric.study.cases.sweep import Axis, Sweep
-from viscofric.study.labels import dataset
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, provenance
-from viscofric.study.sweep_labels import field_groups, material_groups, prediction
+from viscofric.study.results.tree import field_groups, material_groups, prediction
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -114,7 +114,14 @@ def made_results(folder: Path, sweep: Sweep | None = None, failed: Sequence[int]
     outcomes = made_outcomes(sweep, failed, fields=[len(sweep.cases) - 1])
     materials = sweep.axes[0].columns["material"]
     groups, attributes = material_groups(
-        [{"/spectrum": dataset("mode", {"retardation_time": [1e-3, 1.0], "creep_coefficient": [1e-7, 2e-7]})}]
+        [
+            {
+                "/spectrum": dataset(
+                    "mode",
+                    {"retardation_time": ([1e-3, 1.0], "s", ""), "creep_coefficient": ([1e-7, 2e-7], "1/Pa", "")},
+                )
+            }
+        ]
         * len(materials),
         [{"reference_temperature": 303.15} for name in materials],
     )

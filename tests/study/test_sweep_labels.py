@@ -15,7 +15,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.study.cases.indenter_case import IndenterCase
 from viscofric.study.cases.record import NUMBERS, Record
 from viscofric.study.cases.sweep import Axis, Sweep
-from viscofric.study.sweep_labels import field_groups, material_groups, prediction
+from viscofric.study.results.tree import field_groups, material_groups, prediction
 
 
 def test_every_case_stands_at_its_coordinates() -> None:

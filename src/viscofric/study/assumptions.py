@@ -7,22 +7,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.assumption_check import assumptions_dataset
+from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
 from viscofric.notes import Note, note_of
+from viscofric.study.cases.surfaces import MadeSurface, surface_of
 from viscofric.study.study_rubber import curves_of
-from viscofric.study.surface_words import surface_checks
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     import xarray
 
-    from viscofric.friction.assumption_check import AssumptionCheck
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.cases.indenter_case import IndenterCase
     from viscofric.study.cases.record import Record
+    from viscofric.study.cases.surface_case import SurfaceCase
     from viscofric.study.contacts import Contacts, Solved
+    from viscofric.study.run_file.study import Study
 
 _OF_HALF_SPACES = "half-space"
 # What a run warns of; what else does not hold is told contact by contact, or is no fault.
@@ -54,7 +55,7 @@ def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> l
         Cases asked for, and those at the measured points.
     """
     if contacts.study.indenter is None:
-        return surface_checks(contacts.study, asked.of_records)
+        return _surface_checks(contacts.study, asked.of_records)
     alike: dict[object, list[tuple[IndenterCase, Record]]] = {}
     for case, record in zip(asked.of_records, asked.records, strict=True):
         alike.setdefault(case.alike, []).append((case, record))
@@ -98,3 +99,29 @@ def _keep_worst(found: dict[str, AssumptionCheck], checks: Iterable[AssumptionCh
 
 def _share(check: AssumptionCheck) -> float:
     return (check.value or 0.0) / check.limit
+
+
+# The compliance of a wave as long as a bonded or sliding layer is thick is that of a half-space within 1 %.
+_THICKEST_WAVE = 1.0
+
+
+def _surface_checks(study: Study, cases: Sequence[SurfaceCase]) -> list[AssumptionCheck]:
+    """Check whether the rubber is a half-space to the longest wave; steep slopes are told by the contacts' warnings."""
+    thickness = study.conditions.thickness
+    if thickness is None or not cases:
+        return []
+    period = max(n * d for n, d in zip(*_grid(cases[0]), strict=True) if n > 1)
+    longest = cases[0].surface.wavelengths[1] if isinstance(cases[0].surface, MadeSurface) else period
+    value = longest / thickness
+    holds = value <= _THICKEST_WAVE
+    sentence = (
+        f"The longest wave of the surface, {1e3 * longest:.3g} mm, is {value:.2g} times as long as the rubber is "
+        "thick; "
+        + ("the rubber is a half-space to it." if holds else "give the rubber's thickness as a [layer] instead.")
+    )
+    return [AssumptionCheck("half-space", value, _THICKEST_WAVE, holds, sentence)]
+
+
+def _grid(case: SurfaceCase) -> tuple[tuple[int, int], tuple[float, float]]:
+    surface = surface_of(case.surface)
+    return surface.shape, surface.spacing

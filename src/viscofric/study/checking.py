@@ -14,7 +14,6 @@ from viscofric.study.cases.surfaces import surface_of
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
 from viscofric.study.rubber import make_rubber, shift_of
-from viscofric.study.surface_words import surface_notes, uncertainty_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -60,7 +59,7 @@ class CheckedStudy:
             cases,
             [rubber.material for rubber in self.rubbers],
             accuracy=study.solver.accuracy,
-            sensitive=uncertainty_of(study).draws > 0 and any(rubber.fit is not None for rubber in self.rubbers),
+            sensitive=study.applied_uncertainty.draws > 0 and any(rubber.fit is not None for rubber in self.rubbers),
             fields=study.outputs.fields == "all",
             each=study.solver.cases == "each",
         )
@@ -79,7 +78,7 @@ class CheckedStudy:
         """What was doubtful, changed or left out in reading the data, and what jobs may lack: one sentence each."""
         said = [note for rubber in self.rubbers for note in rubber.notes]
         said += self.measured.notes if self.measured is not None else ()
-        said += surface_notes(self.study)
+        said += self.study.notes
         return tuple(dict.fromkeys([*said, *self._of_jobs()]))
 
     def _of_jobs(self) -> Iterator[str]:

@@ -11,21 +11,18 @@ from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.errors import StudyError
 from viscofric.files import file_path
 from viscofric.notes import Note, note_of, records
-from viscofric.study import labels
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
-from viscofric.study.rubber_labels import rubber_data
+from viscofric.study.results.tree import field_groups, master_prediction, material_groups, prediction, setting
+from viscofric.study.rubber import rubber_groups
 from viscofric.study.run_file.study import parse_study, read_study_text
 from viscofric.study.running.folder import study_folder
 from viscofric.study.running.running import Event, choose_executor, run_plan, silent
-from viscofric.study.setting import setting
 from viscofric.study.study_rubber import StudyRubber, all_within, band_columns
-from viscofric.study.surface_words import surface_notes, uncertainty_of
-from viscofric.study.sweep_labels import field_groups, material_groups, prediction
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -154,7 +151,7 @@ def _inputs(
     curves = None if table is None else stage("measurement", lambda: read_measurement(table))
     rubbers: list[StudyRubber] = stage(
         "material",
-        lambda: [StudyRubber.of(one, uncertainty_of(study), conditions.temperature) for one in study.materials],
+        lambda: [StudyRubber.of(one, study.applied_uncertainty, conditions.temperature) for one in study.materials],
     )
     if curves is None:
         return rubbers, None
@@ -199,7 +196,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
     if not asked.records:
         raise StudyError(f"no case could be solved; the first one failed: {failures[0]}")
     groups, about = material_groups(
-        [rubber_data(one.rubber, one.bands.samples) for one in rubbers], [one.rubber.attributes for one in rubbers]
+        [rubber_groups(one.rubber, one.bands.samples) for one in rubbers], [one.rubber.attributes for one in rubbers]
     )
     known = all(rubber.frequency_range is not None for rubber in rubbers)
 
@@ -215,7 +212,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
     groups |= field_groups(contacts.sweep, asked.outcomes)
     if along.records:
         curves = rubbers[0].bands.curves(along.records)
-        groups["/prediction_master"] = labels.prediction_data(along.records, within(along), curves)
+        groups["/prediction_master"] = master_prediction(along.records, along.cases[0].geometry, within(along), curves)
         if measured is not None:
             points: list[Any] = [None if isinstance(one, Failure) else one for one in at_points.outcomes]
             pairs = zip(at_points.cases, points, strict=True)
@@ -229,7 +226,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
     tree.attrs = {
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
-        "notes": _listed([*notes, *surface_notes(study), *(measured.notes if measured else ())]),
+        "notes": _listed([*notes, *study.notes, *(measured.notes if measured else ())]),
         "warnings": _listed(
             [
                 *doubtful,
@@ -241,7 +238,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
         ),
         "failures": _listed(failures),
         **about,
-        **setting(contacts),
+        **setting(study, contacts.sweep, rubbers),
     }
     return tree
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import Note, note_of
 from viscofric.readers import read_mtm
-from viscofric.study import labels
+from viscofric.study.results.tree import as_measured, measurement_data
 
 if TYPE_CHECKING:
     import xarray
@@ -113,11 +114,10 @@ class Measurement:
         """
         predicted = bands.curves([record for record in at_points if record is not None])
         alpha = np.asarray(self._master.shift(self.curves.temperature))
+        solved = np.array([record is not None for record in at_points], dtype=bool)
         return {
-            "/measurement": labels.measurement_data(
-                self.curves, self.curves.speed * alpha, at_points, within, predicted
-            ),
-            "/measurement_master": labels.measured_master_data(self._master),
+            "/measurement": measurement_data(self.curves, self.curves.speed * alpha, solved, within, predicted),
+            "/measurement_master": as_measured(self._master.to_dataset()),
             **self._agreement(at_points, predicted, at_reference),
             **self._shift_factors(),
         }
@@ -140,7 +140,10 @@ class Measurement:
         except InputError as error:
             where = "The master curves of prediction and measurement were not compared"
             self.notes.append(error.note.at(where).coded("not-compared"))
-        return {"/agreement": labels.agreement_data(found, sentences, int(np.count_nonzero(~comparable)))}
+        words = json.dumps(sentences, ensure_ascii=False)
+        return {
+            "/agreement": found.to_dataset().assign_attrs(sentences=words, left_out=int(np.count_nonzero(~comparable)))
+        }
 
     def _shift_factors(self) -> Groups:
         if self._found is None or self.material.shift is None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.notes import Note
@@ -19,11 +22,14 @@ from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.superpose import superpose
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.data import IsothermalSweeps, MasterCurve
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.superposition.result import Superposition
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.study.run_file.material import MaterialTable
 
 
@@ -284,3 +290,57 @@ def shift_of(rubber: Rubber) -> ShiftLaw:
             )
         )
     return material.shift
+
+
+def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dict[str, xarray.Dataset]:
+    """Return the data sets of a material; `samples` give the bands of its moduli."""
+    groups: dict[str, xarray.Dataset] = {}
+    fit, spectrum = rubber.fit, rubber.material.spectrum
+    if fit is not None and rubber.sweeps is not None:
+        isotherms = rubber.sweeps.in_tension(rubber.material.poisson_ratio).to_dataset()
+        groups["/isotherms"] = isotherms.drop_attrs(deep=False).drop_vars("strain_amplitude", errors="ignore")
+        given = np.unique(rubber.sweeps.temperatures)
+        groups["/shift_factors"] = fit.to_dataset().assign_attrs(
+            shift_used=rubber.shift_used,
+            shift_origin=rubber.shift_origin,
+            isotherms_given=len(given),
+            temperatures_given=json.dumps(given.tolist()),
+        )
+        groups["/superposition"] = fit.check.to_dataset()
+    curve = rubber.master_curve if fit is None else fit.master_curve
+    if curve is not None:
+        fitted = isinstance(spectrum, RetardationSpectrum) and spectrum.fit is not None  # a liquid has no spectrum
+        groups["/master_curve"] = spectrum.master_curve_dataset(curve) if fitted else curve.to_dataset()  # type: ignore[union-attr]
+    if rubber.laws is not None:
+        groups["/laws"] = rubber.laws.to_dataset()
+    if rubber.law is not None:
+        groups["/shift_law"] = _shift_law(rubber)
+    if isinstance(spectrum, RetardationSpectrum):
+        wide = _wide(spectrum)
+        groups["/spectrum"] = spectrum.to_dataset()
+        moduli = spectrum.modulus_dataset(wide)
+        groups["/spectrum_curve"] = moduli if samples is None else moduli.assign(samples.to_dataset(wide).data_vars)
+    return groups
+
+
+def _shift_law(rubber: Rubber) -> xarray.Dataset:
+    """Return the law over the temperatures that it was fitted to, or 50 K about its reference."""
+    law = rubber.law
+    assert law is not None
+    ends = law.fitted_range or (law.reference - 50.0, law.reference + 50.0)
+    rms: dict[str, float] = {}
+    if rubber.fit is not None:
+        factors = rubber.fit.shift_factors
+        ends = float(factors.temperatures[0]), float(factors.temperatures[-1])
+        residual = factors.log10_values - law.log10(factors.temperatures)
+        rms["rms"] = float(np.sqrt(np.mean(residual**2)))
+    kelvin = np.linspace(max(ends[0], law.extrapolation_limits[0] + 1.0), ends[1], 201)
+    return law.to_dataset(kelvin).assign_attrs(rms)
+
+
+def _wide(spectrum: RetardationSpectrum) -> Any:
+    """Return angular frequencies to two decades beyond the measured ones, or beyond the modes."""
+    low, high = (1.0 / spectrum.tau.max(), 1.0 / spectrum.tau.min()) if len(spectrum) else (1.0, 1.0)
+    if spectrum.fit is not None:
+        low, high = spectrum.fit.frequency_range
+    return np.geomspace(low / 100.0, high * 100.0, 600)

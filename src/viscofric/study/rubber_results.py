@@ -17,8 +17,7 @@ from viscofric.rheology.cards import CardFormat, CardLaw, write_card
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, input_hashes, provenance
-from viscofric.study.rubber import make_rubber
-from viscofric.study.rubber_labels import rubber_data
+from viscofric.study.rubber import make_rubber, rubber_groups
 from viscofric.study.study_rubber import draw_rubber
 from viscofric.units import CELSIUS_ZERO, celsius
 
@@ -74,7 +73,7 @@ def run_material(
     Returns
     -------
     results : StudyResults
-        With the groups of `viscofric.study.rubber_labels`.
+        With the groups of `viscofric.study.results.tree`.
     rubber : Rubber
         The material with what it was made from.
     files : list of Path
@@ -91,7 +90,7 @@ def run_material(
     hashes = input_hashes(wanted.inputs)
     rubber = make_rubber(wanted, liquids=True)
     draws = draw_rubber(rubber, samples)
-    tree = xarray.DataTree.from_dict(rubber_data(rubber, draws))
+    tree = xarray.DataTree.from_dict(rubber_groups(rubber, draws))
     tree.attrs = {
         "title": title,
         "data_origin": "synthetic" if synthetic else "measured",

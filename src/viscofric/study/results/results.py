@@ -43,7 +43,7 @@ class StudyResults:
     Attributes
     ----------
     tree : xarray.DataTree
-        Laid out as told in `viscofric.study.labels` and `viscofric.study.sweep_labels`.
+        Groups as in `viscofric.study.results.tree`.
     folder : Path
         Where it is stored.
     """

@@ -10,6 +10,7 @@ from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationE
 
 from viscofric.errors import InputError, StudyError
 from viscofric.files import file_path, parse_toml
+from viscofric.notes import Note
 from viscofric.study.cases.sweep import Sweep, sweep_of
 from viscofric.study.run_file.contact import (
     SHAPES,
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from viscofric.notes import Note
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.tables import Problem
 
@@ -43,6 +43,14 @@ _MOST_MATERIALS = 100
 
 def _several(value: object) -> object:
     return [value] if isinstance(value, dict | MaterialTable) else value
+
+
+_NO_BANDS = Note(
+    "no-bands",
+    "Friction on a rough surface has no linearised 95 % bands, which are found for indenters only; [uncertainty] "
+    "members solves every case with rubbers drawn from the sweeps, and several seeds show how friction scatters from "
+    "surface to surface.",
+)
 
 
 class Study(Table):
@@ -113,6 +121,16 @@ class Study(Table):
     def body(self) -> AnyIndenterTable | SurfaceTable:
         """[indenter] or [surface]."""
         return self.indenter or self.surface  # type: ignore[return-value]  # one of them is there
+
+    @property
+    def applied_uncertainty(self) -> UncertaintyTable:
+        """[uncertainty] as far as it applies: linearised bands exist for indenters only."""
+        return self.uncertainty if self.indenter else self.uncertainty.model_copy(update={"draws": 0})
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What the study asks for in vain."""
+        return () if self.indenter or self.uncertainty.draws == 0 else (_NO_BANDS,)
 
     def sweep(self) -> Sweep:
         """Return all cases that the study asks for, with their axes."""

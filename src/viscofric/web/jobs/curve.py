@@ -18,7 +18,6 @@ from viscofric.study.running.executors import Serial
 from viscofric.study.running.running import run_plan
 from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import band_columns
-from viscofric.study.surface_words import surface_notes
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import study_rubber
@@ -181,7 +180,7 @@ def _of_rubbers(contacts: Contacts, *, known: bool) -> list[str]:
 def _notes(contacts: Contacts, study: Study) -> list[str]:
     notes = [note for one in contacts.rubbers for note in (*one.rubber.notes, *one.bands.notes)]
     notes += _of_rubbers(contacts, known=False)
-    return list(dict.fromkeys([*notes, *surface_notes(study)]))
+    return list(dict.fromkeys([*notes, *study.notes]))
 
 
 #: Friction counts as unresolved where its error is more than so many times what was asked for.

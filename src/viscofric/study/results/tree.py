@@ -1,0 +1,321 @@
+"""The tree of a study's results: which data set stands where; each result labels itself.
+
+===============================  ==================================================================================
+``/prediction``                  all cases over the axes with more than one point; `failed` is 1 for cases without a
+                                 solution, whose numbers are NaN, with the reasons in the root's attribute `failures`
+``/prediction_master``           friction at the reference temperature over the reduced speeds α(T)·v
+``/fields/<n>``                  pressure and displacement of case n, where they are kept
+``/measurement``                 separated measurement, and the prediction at the same points (if measured)
+``/measurement_master``          measured friction over the reduced speed, at the load of the master curve
+``/agreement``                   prediction and measurement compared, per temperature (if measured)
+``/friction_shift_factors``      α(T) from friction alone, and that of the modulus (if measured curves overlap)
+``/assumptions``                 assumptions of the predictions, checked
+``/isotherms``                   measured moduli (tensile) in use
+``/shift_factors``               log10 α of each isotherm with its standard error (and the vertical shift)
+``/shift_law``                   law in use, or the best one, over the same temperatures
+``/laws``                        all laws that describe the shift factors, compared
+``/superposition``               whether superposition holds, in numbers and sentences
+``/master_curve``                isotherms shifted to the reference temperature, and the fit at the same points
+``/spectrum``                    retardation spectrum at the reference temperature
+``/spectrum_curve``              its storage and loss modulus over a wider range (with a band, if there are samples)
+``/materials/<n>/…``             the groups of each of several materials, numbered from 1
+===============================  ==================================================================================
+
+All variables are in SI units and have `units` and `long_name`.  A predefined material has its spectrum only.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.datasets import dataset
+from viscofric.study.cases.record import FIELD_MEANING, MEANING, Record
+from viscofric.study.cases.surfaces import MadeSurface
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import xarray
+
+    from viscofric.friction.curves import FrictionCurves
+    from viscofric.study.cases.record import Failure, Meaning
+    from viscofric.study.cases.sweep import Axis, Sweep
+    from viscofric.study.run_file.contact import AnyIndenterTable
+    from viscofric.study.run_file.study import Study
+    from viscofric.study.study_rubber import BandColumns, StudyRubber
+
+    Groups = dict[str, xarray.Dataset]
+
+_WITHIN = "within_measured_frequencies"
+# Flags of a case, with their values for a case without a solution.
+_FLAGS = {"interpolated": 0, _WITHIN: -1}
+# Numbers of a record that are coordinates of a sweep.
+_PLACES = ("speed", "temperature", "load", "pressure")
+# Meaning of what is not a number of a record: bands and flags, and coordinates.
+_OTHER: dict[str, Meaning] = {
+    "friction_material_error": ("1", "standard error of the friction coefficient that the rubber's uncertainty leaves"),
+    "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
+    "friction_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
+    _WITHIN: ("1", "whether v/a, reduced, lies within the measured frequencies (1), not (0); -1: failed"),
+    "interpolated": ("1", "whether it lies between solved contacts (1) or was solved itself (0)"),
+    "failed": ("1", "whether the case could not be solved (1); its other variables are missing then"),
+    "material": ("1", "name of the rubber"),
+    "sample": ("1", "member of the rubber's posterior; 0 is the best estimate"),
+    "radius": ("m", "radius of the indenter"),
+    "radius_x": ("m", "radius of curvature of the indenter along the motion"),
+    "radius_y": ("m", "radius of curvature of the indenter across the motion"),
+    "angle": ("rad", "angle between the cone's flank and the surface"),
+    "thickness": ("m", "thickness of the rubber"),
+    "seed": ("1", "seed of the rough surface, one of many of the same statistics"),
+    "direction": ("rad", "direction of the motion, from x towards y"),
+}
+_ROUGH_WITHIN = (
+    "1",
+    "whether 2πv/λ, reduced, lies within the measured frequencies for all waves of the surface (1), not (0)",
+)
+_PREDICTED: dict[str, Meaning] = {
+    "reduced_speed": ("m/s", "speed times shift factor"),
+    "predicted": ("1", "predicted viscoelastic friction coefficient"),
+    "predicted_error": ("1", "numerical error estimate of the predicted friction coefficient"),
+    "predicted_material_error": ("1", "standard error of predicted friction that the rubber's uncertainty leaves"),
+    "predicted_lower": ("1", "lower end of the 95 % band of the predicted friction coefficient"),
+    "predicted_upper": ("1", "upper end of the 95 % band of the predicted friction coefficient"),
+    _WITHIN: _OTHER[_WITHIN],
+}
+# Columns of a measurement, in their order.
+_MEASURED = (
+    *("speed", "temperature", "load", "replicates", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter"),
+    *("coulomb", "coulomb_error", "coulomb_scatter", "consistency", "consistency_error"),
+)
+# Name of a coordinate besides a field of the same name.
+_BESIDE_FIELDS = {"pressure": "mean_pressure"}
+
+
+def prediction(
+    sweep: Sweep,
+    outcomes: Sequence[Record | Failure],
+    *,
+    within: Sequence[bool] | None = None,
+    curves: FrictionCurves | BandColumns | None = None,
+) -> xarray.Dataset:
+    """Return the cases of a sweep over its axes; those with one point are scalar coordinates.
+
+    Axes that vary together share a dimension, which has no coordinate of its own name.  `within` (whether the contact's
+    frequency was measured) and `curves` (their bands) are of the solved cases, in their order.
+    """
+    import xarray
+
+    solved = np.array([isinstance(outcome, Record) for outcome in outcomes], dtype=bool)
+    records = [outcome for outcome in outcomes if isinstance(outcome, Record)]
+    columns: dict[str, Any] = {
+        name: [getattr(record, name) for record in records]
+        for name in (records[0].numbers if records else ())
+        if name not in _PLACES
+    }
+    columns |= {} if curves is None else _band(curves, "friction")
+    columns["interpolated"] = [record.interpolated for record in records]
+    if within is not None:
+        columns[_WITHIN] = within
+    meaning = _meaning(sweep.geometry)
+    dimensions = [axis.name for axis in sweep.axes if len(axis) > 1]
+    shape = [len(axis) for axis in sweep.axes if len(axis) > 1]
+
+    def labelled(name: str, values: Any) -> Any:
+        return dimensions, np.reshape(values, shape), _attributes(name, meaning)
+
+    variables = {}
+    for name, values in columns.items():
+        whole = _spread(values, solved, _FLAGS.get(name))
+        if np.isinf(whole).all():  # the half-width of a line contact
+            continue
+        variables[name] = labelled(name, whole)
+    variables["failed"] = labelled("failed", (~solved).astype(np.int8))
+    coordinates = {name: value for axis in sweep.axes for name, value in _coordinates(axis, meaning).items()}
+    return xarray.Dataset(variables, coordinates)
+
+
+def master_prediction(
+    records: Sequence[Record], geometry: str, within: Sequence[bool] | None, curves: FrictionCurves
+) -> xarray.Dataset:
+    """Return the contacts along the friction master curve, with their bands where known."""
+    meaning = _meaning(geometry)
+    columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in MEANING[geometry]}
+    columns |= _band(curves, "friction")
+    if within is not None:
+        columns[_WITHIN] = np.array(within, dtype=np.int8)
+    return dataset("case", {name: (values, *meaning[name]) for name, values in columns.items()})
+
+
+def field_groups(sweep: Sweep, outcomes: Sequence[Record | Failure]) -> Groups:
+    """Return pressure and displacement of the cases that kept them, with their place in the sweep."""
+    import xarray
+
+    groups = {}
+    meaning = _meaning(sweep.geometry)
+    for number, outcome in enumerate(outcomes):
+        if not isinstance(outcome, Record) or outcome.fields is None:
+            continue
+        kept = outcome.fields
+        plane = ["x", "y"][: np.ndim(kept.pressure)]
+        variables: dict[str, Any] = {
+            name: (plane, getattr(kept, name), _attributes(name, FIELD_MEANING))
+            for name in ("pressure", "displacement")
+        }
+        coordinates: dict[str, Any] = {
+            name: (name, getattr(kept, name), _attributes(name, FIELD_MEANING)) for name in plane
+        }
+        for axis, point in zip(sweep.axes, np.unravel_index(number, sweep.shape), strict=True):
+            coordinates |= {
+                _BESIDE_FIELDS.get(name, name): ((), values[int(point)], _attributes(name, meaning))
+                for name, values in axis.columns.items()
+                if _is_informative(name, values)
+            }
+        groups[f"/fields/{number + 1}"] = xarray.Dataset(variables, coordinates, {"case": number + 1})
+    return groups
+
+
+def measurement_data(
+    measured: FrictionCurves,
+    reduced_speed: Any,
+    solved: Any,
+    within: Sequence[bool] | None,
+    predicted: FrictionCurves,
+) -> xarray.Dataset:
+    """Return the separated measurement with the prediction at the `solved` points, NaN at the others."""
+    columns: dict[str, Any] = {"reduced_speed": reduced_speed}
+    values = {"predicted": predicted.viscoelastic, "predicted_error": predicted.viscoelastic_error}
+    for name, column in (values | _band(predicted, "predicted")).items():
+        columns[name] = np.full(len(solved), np.nan)
+        columns[name][solved] = column
+    if within is not None:
+        columns[_WITHIN] = np.array(within, dtype=np.int8)
+    known = measured.to_dataset().reset_coords()
+    known = known[[name for name in _MEASURED if name in known]].drop_attrs(deep=False)
+    return as_measured(known).merge(
+        dataset("point", {name: (values, *_PREDICTED[name]) for name, values in columns.items()})
+    )
+
+
+def material_groups(
+    groups: Sequence[Mapping[str, xarray.Dataset]], attributes: Sequence[Mapping[str, Any]]
+) -> tuple[Groups, dict[str, Any]]:
+    """Place the groups and attributes of each material: at the root for one, in branches of their own for several."""
+    import xarray
+
+    if len(groups) == 1:
+        return dict(groups[0]), dict(attributes[0])
+    found: Groups = {}
+    for number, (of_one, about) in enumerate(zip(groups, attributes, strict=True), 1):
+        branch = f"/materials/{number}"
+        found[branch] = xarray.Dataset(attrs=dict(about))
+        found |= {f"{branch}{name}": data for name, data in of_one.items()}
+    return found, {}
+
+
+def setting(study: Study, sweep: Sweep, rubbers: Sequence[StudyRubber]) -> dict[str, Any]:
+    """Return the root's attributes of the whole study: accuracy, body, and conditions with a single value."""
+    known: dict[str, Any] = {"accuracy": study.solver.accuracy}
+    if study.indenter is None:
+        known |= _surface_setting(study, sweep)
+    else:
+        known["indenter"] = _indenter(study.indenter)
+        radii = study.indenter.axes.get("radius", ())
+        if len(radii) == 1:
+            known["indenter_radius"] = radii[0]
+    for name in ("load", "pressure"):
+        values = getattr(study.conditions, name)
+        if len(values) == 1:
+            known[name] = float(values[0])
+    if len(rubbers) == 1 and rubbers[0].frequency_range is not None:
+        known["frequency_range"] = rubbers[0].frequency_range
+    if study.uncertainty.members or any(rubber.bands.samples is not None for rubber in rubbers):
+        known["seed"] = study.uncertainty.seed
+    return known
+
+
+def _indenter(table: AnyIndenterTable) -> str:
+    lengths = {name: values for name, values in table.axes.items() if name != "angle"}
+    parts = [f"{name.replace('_', ' ')} {_between([1e3 * value for value in lengths[name]])} mm" for name in lengths]
+    if "angle" in table.axes:
+        parts.append(f"angle {_between([math.degrees(value) for value in table.axes['angle']])}°")
+    elastic = "" if table.modulus is None else f", of E = {table.modulus:.4g} Pa"
+    return f"{table.shape} of {' and '.join(parts)}{elastic}"
+
+
+def _between(values: Sequence[float]) -> str:
+    low, high = f"{min(values):.6g}", f"{max(values):.6g}"
+    return low if low == high else f"{low} to {high}"
+
+
+def _surface_setting(study: Study, sweep: Sweep) -> dict[str, Any]:
+    """Describe the rough surface in words and numbers."""
+    first: Any = sweep.cases[0]
+    topography = first.surface.topography()
+    many = f", {len(study.body.axes['seed'])} seeds" if len(study.body.axes.get("seed", ())) > 1 else ""
+    elastic = "" if study.body.modulus is None else f", of E = {study.body.modulus:.4g} Pa"
+    nx, ny = topography.shape
+    kind = "self-affine" if isinstance(first.surface, MadeSurface) else "measured"
+    points = f"profile of {nx} points" if ny == 1 else f"{nx} × {ny} points"
+    words = (
+        f"{kind} rough surface ({points}, period {1e3 * topography.size[0]:.4g} mm, rms height "
+        f"{1e6 * topography.rms_height:.4g} µm, rms slope {topography.rms_slope:.4g}{many}){elastic}"
+    )
+    return {
+        "indenter": words,
+        "surface_steps": json.dumps(list(topography.history), ensure_ascii=False),
+        "surface_rms_height": topography.rms_height,
+        "surface_rms_slope": topography.rms_slope,
+    }
+
+
+def as_measured(data: xarray.Dataset) -> xarray.Dataset:
+    """Say in their long names that friction coefficients were measured."""
+    for name in ("viscoelastic", "coulomb"):
+        if name in data:
+            data[name].attrs["long_name"] = f"measured {data[name].attrs['long_name']}"
+    return data
+
+
+def _band(curves: FrictionCurves | BandColumns, name: str) -> dict[str, Any]:
+    """Return the columns of the material's uncertainty, where it is known."""
+    found = {
+        "material_error": curves.material_error,
+        "lower": curves.viscoelastic_lower,
+        "upper": curves.viscoelastic_upper,
+    }
+    return {f"{name}_{kind}": column for kind, column in found.items() if column is not None}
+
+
+def _meaning(geometry: str) -> dict[str, Meaning]:
+    return MEANING[geometry] | _OTHER | ({_WITHIN: _ROUGH_WITHIN} if geometry == "rough" else {})
+
+
+def _attributes(name: str, meaning: Mapping[str, Meaning]) -> dict[str, str]:
+    unit, words = meaning[name]
+    return {"units": unit, "long_name": words}
+
+
+def _spread(values: Any, solved: Any, otherwise: int | None) -> Any:
+    """Return a column of all cases, with NaN or `otherwise` for those without a solution."""
+    kind = float if otherwise is None else np.int8
+    whole = np.full(len(solved), np.nan if otherwise is None else otherwise, dtype=kind)
+    whole[solved] = values
+    return whole
+
+
+def _coordinates(axis: Axis, meaning: Mapping[str, Meaning]) -> dict[str, Any]:
+    along: Any = axis.name if len(axis) > 1 else ()
+    return {
+        name: (along, list(values) if len(axis) > 1 else values[0], _attributes(name, meaning))
+        for name, values in axis.columns.items()
+        if len(axis) > 1 or _is_informative(name, values)
+    }
+
+
+def _is_informative(name: str, values: tuple[float | str, ...]) -> bool:
+    """Whether a coordinate says anything: a material without a name or the best estimate alone does not."""
+    return len(values) > 1 or not (name in ("material", "sample") and values[0] in ("", 0))
