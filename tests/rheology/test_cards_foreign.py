@@ -9,7 +9,7 @@ import pytest
 
 from viscofric.errors import DataFileError
 from viscofric.rheology.cards import open_card, read_card
-from viscofric.rheology.shifts.laws import GAS_CONSTANT
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
 
 OMEGA = np.logspace(-6, 6, 61)
 

@@ -13,7 +13,8 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.cards.card import number_text
 from viscofric.rheology.material import Material
-from viscofric.rheology.shifts.laws import GAS_CONSTANT, WLF, Arrhenius
+from viscofric.rheology.shifts.laws import WLF, Arrhenius
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 OMEGA = np.logspace(-6, 9, 121)

@@ -25,7 +25,8 @@ from viscofric.rheology.cards.card import (
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
 from viscofric.rheology.cards.moduli import relative_series, tensile
-from viscofric.rheology.shifts.laws import GAS_CONSTANT, WLF, Arrhenius
+from viscofric.rheology.shifts.laws import WLF, Arrhenius
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.units import CELSIUS_ZERO
 

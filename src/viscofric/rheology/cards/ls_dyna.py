@@ -29,7 +29,8 @@ from viscofric.rheology.cards.card import (
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
 from viscofric.rheology.cards.moduli import tensile
-from viscofric.rheology.shifts.laws import GAS_CONSTANT, LN10, WLF, Arrhenius
+from viscofric.rheology.shifts.laws import WLF, Arrhenius
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 if TYPE_CHECKING:

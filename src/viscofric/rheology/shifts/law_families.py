@@ -8,16 +8,8 @@ import numpy as np
 
 from viscofric.arguments import whole_number
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.laws import (
-    GAS_CONSTANT,
-    LN10,
-    VFT,
-    WLF,
-    Arrhenius,
-    InversePolynomial,
-    ParametricLaw,
-    WLFArrhenius,
-)
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
