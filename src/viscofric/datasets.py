@@ -27,7 +27,8 @@ def dataset(
     ----------
     dimension : str or tuple of str
     columns : mapping
-        Name → (values, unit, long name); an entry that is None is left out.
+        Name → (values, unit, long name); an entry that is None is left out.  Values with fewer axes than there are
+        dimensions lie along the first of them; single numbers along none.
     coordinates : mapping, optional
         The same for coordinates, along `dimension` or, under a dimension's own name, along that dimension.
     attributes : mapping, optional
@@ -40,8 +41,9 @@ def dataset(
 
     def variable(name: str, entry: tuple[Any, str, str]) -> Any:
         values, unit, long_name = entry
-        along = (name,) if name in dimensions else dimensions
-        return along, np.asarray(values), {"units": unit, "long_name": long_name}
+        array = np.asarray(values)
+        along = (name,) if name in dimensions else dimensions[: array.ndim]
+        return along, array, {"units": unit, "long_name": long_name}
 
     return xarray.Dataset(
         {name: variable(name, entry) for name, entry in columns.items() if entry is not None},

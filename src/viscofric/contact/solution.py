@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
+from viscofric.datasets import dataset
+
 if TYPE_CHECKING:
     import xarray
 
@@ -183,22 +185,18 @@ class ContactSolution:
         return float(self.x @ self.pressure.sum(axis=1)) / float(self.pressure.sum())
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return pressure and displacement as a labelled data set with units in its attributes."""
-        import xarray
-
-        def labelled(values: Array, name: str, unit: str) -> tuple[tuple[str, str], Array, dict[str, str]]:
-            return ("x", "y"), values, {"units": unit, "long_name": name}
-
-        return xarray.Dataset(
+        """Return pressure and displacement over x and y, with load, speed and main results as attributes."""
+        return dataset(
+            ("x", "y"),
             {
-                "pressure": labelled(self.pressure, "contact pressure", "Pa"),
-                "displacement": labelled(self.displacement, "displacement into the solid", "m"),
+                "pressure": (self.pressure, "Pa", "contact pressure"),
+                "displacement": (self.displacement, "m", "displacement into the solid"),
             },
-            coords={
-                "x": ("x", self.x, {"units": "m", "long_name": "position along the motion"}),
-                "y": ("y", self.y, {"units": "m", "long_name": "position across the motion"}),
+            coordinates={
+                "x": (self.x, "m", "position along the motion"),
+                "y": (self.y, "m", "position across the motion"),
             },
-            attrs={
+            attributes={
                 "speed": self.speed,
                 "direction": list(self.direction),
                 "load": self.load,

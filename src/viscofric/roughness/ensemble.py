@@ -14,6 +14,7 @@ import numpy as np
 from viscofric.arguments import insist_on_function
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.datasets import dataset
 from viscofric.errors import ConvergenceError, InputError, brief
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.material import Material, insist_on_material
@@ -115,25 +116,23 @@ class RoughFriction:
         return interval_of_mean(self.friction_coefficient, probability)
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return everything as labelled data with units in its attributes."""
-        import xarray
-
-        told = {
+        """Return everything over temperature, speed and surface, with the nominal pressure as an attribute."""
+        names = {
             "friction_coefficient": "friction coefficient",
             "friction_error": "estimated error of the friction coefficient",
             "contact_area_fraction": "points under pressure over all",
             "corrected_area_fraction": "real over nominal contact area",
             "stretch": "length of contact patches along over across the motion",
         }
-        axes = ("temperature", "speed", "surface")
-        return xarray.Dataset(
-            {name: (axes, getattr(self, name), {"units": "1", "long_name": text}) for name, text in told.items()},
-            coords={
-                "temperature": ("temperature", self.temperature, {"units": "K"}),
-                "speed": ("speed", self.speed, {"units": "m/s"}),
-                "surface": ("surface", list(self.surfaces)),
+        return dataset(
+            ("temperature", "speed", "surface"),
+            {name: (getattr(self, name), "1", long_name) for name, long_name in names.items()},
+            coordinates={
+                "temperature": (self.temperature, "K", "temperature"),
+                "speed": (self.speed, "m/s", "sliding speed"),
+                "surface": (list(self.surfaces), "1", "name of the surface"),
             },
-            attrs={"pressure": self.pressure},
+            attributes={"pressure": self.pressure},
         )
 
 

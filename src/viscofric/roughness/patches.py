@@ -10,14 +10,18 @@ import numpy as np
 
 from viscofric.arguments import numbers, whole_number
 from viscofric.contact.periodic.solution import PeriodicSolution
+from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, Mask
 
 
+#: Of a distribution, where their number is given; edges may be as many as one likes.
+MOST_CLASSES = 10**6
 _BORDER = (math.pi - 1.0 + math.log(2.0)) / 24.0
 
 
@@ -63,6 +67,22 @@ class ContactStatistics:
     pressure_deviation: float
     gap_outside: float
     gap_deviation: float
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return all numbers, each without a dimension."""
+        meanings = {
+            "area_fraction": ("1", "points under pressure over all"),
+            "corrected_area_fraction": ("1", "real over nominal contact area"),
+            "patches": ("1", "number of contact patches"),
+            "chord_along": ("m", "mean length of contact along the motion"),
+            "chord_across": ("m", "mean length of contact across the motion"),
+            "stretch": ("1", "length of contact patches along over across the motion"),
+            "pressure_in_contact": ("Pa", "mean pressure in contact"),
+            "pressure_deviation": ("Pa", "standard deviation of the pressure in contact"),
+            "gap_outside": ("m", "mean gap where there is no contact"),
+            "gap_deviation": ("m", "standard deviation of the gap over the whole surface"),
+        }
+        return dataset((), {name: (getattr(self, name), *meaning) for name, meaning in meanings.items()})
 
 
 def contact_statistics(solution: PeriodicSolution) -> ContactStatistics:
@@ -157,10 +177,6 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
             raise InputError(f"edges = {brief(edges)}: must be two pressures at least, Pa, that increase.")
     counts, found = np.histogram(loaded, limits)
     return 0.5 * (found[1:] + found[:-1]), counts / (solution.pressure.size * np.diff(found))
-
-
-#: As a number; edges may be as many as one likes.
-MOST_CLASSES = 10**6
 
 
 def _insist(solution: object) -> None:

@@ -31,6 +31,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.flash import Flash
@@ -92,10 +93,8 @@ class PerssonTheory:
     error: float
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return everything as labelled data with units in its attributes."""
-        import xarray
-
-        told = {
+        """Return everything over temperature, speed and wave number; attributes are ``pressure`` and ``error``."""
+        meanings = {
             "friction_coefficient": ("1", "friction coefficient"),
             "contact_area_fraction": ("1", "real over nominal contact area"),
             "flash_temperature": ("K", "largest rise of temperature"),
@@ -103,19 +102,15 @@ class PerssonTheory:
             "friction_by_scale": ("1", "friction coefficient of all longer waves"),
             "temperature_rise_by_scale": ("K", "rise of temperature that waves of this length meet"),
         }
-        axes = ("temperature", "speed", "wave_number")
-        fields = {name: (getattr(self, name), unit, text) for name, (unit, text) in told.items()}
-        return xarray.Dataset(
-            {
-                name: (axes[: values.ndim], values, {"units": unit, "long_name": text})
-                for name, (values, unit, text) in fields.items()
+        return dataset(
+            ("temperature", "speed", "wave_number"),
+            {name: (getattr(self, name), *meaning) for name, meaning in meanings.items()},
+            coordinates={
+                "temperature": (self.temperature, "K", "temperature of the rubber before it meets the surface"),
+                "speed": (self.speed, "m/s", "sliding speed"),
+                "wave_number": (self.wave_number, "rad/m", "wave number"),
             },
-            coords={
-                "temperature": ("temperature", self.temperature, {"units": "K"}),
-                "speed": ("speed", self.speed, {"units": "m/s"}),
-                "wave_number": ("wave_number", self.wave_number, {"units": "rad/m"}),
-            },
-            attrs={"pressure": self.pressure, "error": self.error},
+            attributes={"pressure": self.pressure, "error": self.error},
         )
 
 

@@ -12,10 +12,13 @@ import scipy.fft
 from viscofric.arguments import MOST_PER_DECADE, whole_number
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
+from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.units import Quantities, to_si_array
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array
 
 
@@ -47,6 +50,17 @@ class FrictionByWavelength:
     def cumulative(self) -> Array:
         """Friction coefficient of all waves down to each edge, (n + 1,) array that begins at zero."""
         return np.concatenate([[0.0], np.cumsum(self.contribution)])
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the contributions along ``band``, each with its longest and shortest wavelength."""
+        return dataset(
+            "band",
+            {"contribution": (self.contribution, "1", "friction coefficient of the waves between two wavelengths")},
+            coordinates={
+                "longest": (self.edges[:-1], "m", "longest wavelength"),
+                "shortest": (self.edges[1:], "m", "shortest wavelength"),
+            },
+        )
 
 
 def friction_by_wavelength(

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from viscofric.arguments import numbers
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
@@ -28,7 +30,34 @@ _NODES = 12  # of the quadrature in each segment
 
 
 @dataclass(frozen=True, eq=False)
-class PowerSpectrum:
+class _Spectrum:
+    """A density that is a power law between its points, and zero beyond them."""
+
+    _unit: ClassVar[str]
+    _name: ClassVar[str]
+    wave_number: Array
+    density: Array
+
+    def __post_init__(self) -> None:
+        q, density = _checked(self.wave_number, self.density)
+        object.__setattr__(self, "wave_number", q)
+        object.__setattr__(self, "density", density)
+
+    def __call__(self, wave_number: ArrayLike) -> Array:
+        """Return C at any wave numbers (rad/m), in its own unit; zero beyond the points."""
+        return _interpolated(self.wave_number, self.density, wave_number)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the density over wave numbers (rad/m)."""
+        return dataset(
+            "wave_number",
+            {"density": (self.density, self._unit, self._name)},
+            coordinates={"wave_number": (self.wave_number, "rad/m", "wave number")},
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class PowerSpectrum(_Spectrum):
     """Isotropic power spectrum C(q) of a rough surface: a power law between its points, nothing beyond them.
 
     The convention is Persson's: ⟨h²⟩ = ∫ d²q C(q) = 2π ∫ q C(q) dq, C in m⁴ [1]_.  Others put a factor 1/(2π)² before
@@ -61,13 +90,8 @@ class PowerSpectrum:
     (4.84, 2.9)
     """
 
-    wave_number: Array
-    density: Array
-
-    def __post_init__(self) -> None:
-        q, density = _checked(self.wave_number, self.density, "m⁴")
-        object.__setattr__(self, "wave_number", q)
-        object.__setattr__(self, "density", density)
+    _unit: ClassVar[str] = "m**4"
+    _name: ClassVar[str] = "power spectral density of the surface"
 
     @classmethod
     def self_affine(
@@ -111,10 +135,6 @@ class PowerSpectrum:
         q = 2.0 * math.pi / np.array(lengths)
         shape = cls(q, np.minimum((q * roll / (2.0 * math.pi)) ** (-2.0 - 2.0 * H), 1.0))
         return shape.scaled(rms_height=rms_height, rms_slope=rms_slope)
-
-    def __call__(self, wave_number: ArrayLike) -> Array:
-        """Return C at any wave numbers (rad/m), m⁴; zero beyond the points."""
-        return _interpolated(self.wave_number, self.density, wave_number)
 
     @property
     def longest(self) -> float:
@@ -189,7 +209,7 @@ def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[fl
 
 
 @dataclass(frozen=True, eq=False)
-class LineSpectrum:
+class LineSpectrum(_Spectrum):
     """Power spectrum of line scans: a power law between its points, nothing beyond; ⟨h²⟩ = 2 ∫₀ C(q) dq, C in m³.
 
     Parameters
@@ -214,17 +234,8 @@ class LineSpectrum:
     '2.2e-06 m rms'
     """
 
-    wave_number: Array
-    density: Array
-
-    def __post_init__(self) -> None:
-        q, density = _checked(self.wave_number, self.density, "m³")
-        object.__setattr__(self, "wave_number", q)
-        object.__setattr__(self, "density", density)
-
-    def __call__(self, wave_number: ArrayLike) -> Array:
-        """Return C at any wave numbers (rad/m), m³; zero beyond the points."""
-        return _interpolated(self.wave_number, self.density, wave_number)
+    _unit: ClassVar[str] = "m**3"
+    _name: ClassVar[str] = "power spectral density of lines"
 
     def moment(self, order: float) -> float:
         """Return 2 ∫ q^order C(q) dq: ⟨h²⟩ for 0, ⟨(dh/dx)²⟩ for 2, ⟨(d²h/dx²)²⟩ for 4."""
@@ -254,7 +265,7 @@ class LineSpectrum:
         return PowerSpectrum(self.wave_number, _isotropic_density(self.wave_number, self))
 
 
-def _checked(q: ArrayLike, density: ArrayLike, unit: str) -> tuple[Array, Array]:
+def _checked(q: ArrayLike, density: ArrayLike) -> tuple[Array, Array]:
     """Return wave numbers and densities as read-only rows: positive, finite, increasing; two at least."""
     found = (
         np.atleast_1d(np.array(numbers(q, "wave_number", infinite=True))),
@@ -265,7 +276,7 @@ def _checked(q: ArrayLike, density: ArrayLike, unit: str) -> tuple[Array, Array]
             f"a power spectrum must be two rows of equal length, two points at least, not {np.shape(q)} wave numbers "
             f"and {np.shape(density)} densities."
         )
-    for values, name in zip(found, ("wave numbers (rad/m)", f"densities ({unit})"), strict=True):
+    for values, name in zip(found, ("wave numbers", "densities"), strict=True):
         if not np.all(np.isfinite(values) & (values > 0.0)):
             raise InputError(f"a power spectrum's {name} must be finite and above zero.")
         values.flags.writeable = False

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from viscofric.arguments import check_cost, flag, numbers, sentences, text
+from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.roughness import preparation, waves
 from viscofric.units import Quantity, two_lengths
@@ -338,11 +339,10 @@ class Topography:
         return preparation.rough_indenter(self.complete(), self.spacing, shape)
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return the heights as labelled data with units, and the history, in its attributes."""
-        import xarray
-
-        return xarray.Dataset(
-            {"height": (("x", "y"), self.heights, {"units": "m", "long_name": "height"})},
-            coords={axis: (axis, getattr(self, axis), {"units": "m"}) for axis in ("x", "y")},
-            attrs={"name": self.name, "periodic": int(self.periodic), "history": "; ".join(self.history)},
+        """Return the heights over x and y; attributes are ``name``, ``periodic`` (1 or 0) and ``history``."""
+        return dataset(
+            ("x", "y"),
+            {"height": (self.heights, "m", "height")},
+            coordinates={"x": (self.x, "m", "position along x"), "y": (self.y, "m", "position along y")},
+            attributes={"name": self.name, "periodic": int(self.periodic), "history": "; ".join(self.history)},
         )

@@ -10,8 +10,11 @@ import numpy as np
 
 from viscofric.contact.derivatives.adjoint import Way, friction_way
 from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
+from viscofric.datasets import dataset
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array
     from viscofric.contact.derivatives.adjoint import Gradient
     from viscofric.contact.free.scale import Scale
@@ -91,6 +94,22 @@ class FrictionDerivatives:
     logarithmic: LogarithmicDerivatives
     way: Way
     error: float
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the derivatives along ``mode`` and as single numbers, those by logarithms as ``log_…``.
+
+        That by the load is given by its logarithm only, since its unit is that of the contact (1/N or m/N).
+        """
+        held = "load" if self.indentation is None else "indentation"
+        units = {"C": "Pa", "tau": "1/s", "E_inf": "1/Pa", "speed": "s/m", "indentation": "1/m"}
+        plain = {name: (getattr(self, name), unit, f"∂μ/∂{name}") for name, unit in units.items()}
+        logarithmic = {
+            f"log_{name}": (getattr(self.logarithmic, name), "1", f"∂μ/∂ln {name}")
+            for name in ("C", "tau", "E_inf", "speed", held)
+        }
+        if self.indentation is None:
+            del plain["indentation"]
+        return dataset("mode", plain | logarithmic, attributes={"way": self.way, "error": self.error})
 
 
 def differentiate(

@@ -1,9 +1,8 @@
 """What plots show around a solved contact: the surface beside and behind it, where power flows, stresses below."""
 
+from viscofric.contact.fields.highest import HighestStress, highest_von_mises
 from viscofric.contact.fields.stress import Stress
 from viscofric.contact.fields.subsurface import (
-    HighestStress,
-    highest_von_mises,
     line_stress,
     stress_at,
     stress_layer,

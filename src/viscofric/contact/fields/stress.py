@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import numbers
-from viscofric.errors import InputError
+from viscofric.datasets import dataset
+from viscofric.errors import InputError, brief
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
@@ -51,6 +53,35 @@ class Stress:
         """Largest shear stress, half the difference of the extreme principal stresses, Pa."""
         principal = self.principal
         return np.asarray(0.5 * (principal[..., -1] - principal[..., 0]))
+
+    def to_dataset(self, **coordinates: ArrayLike) -> xarray.Dataset:
+        """Return the components and von Mises' stress over the coordinates of the points.
+
+        Parameters
+        ----------
+        **coordinates : array
+            One for each axis of the components, in their order, such as ``x=contact.x, depth=depths``; m.
+
+        Raises
+        ------
+        InputError
+            If there is not one coordinate for each axis, or one has another length.
+        """
+        places = {name: numbers(values, name) for name, values in coordinates.items()}
+        if tuple(values.shape for values in places.values()) != tuple((count,) for count in self.xx.shape):
+            raise InputError(
+                f"coordinates: must be one row for each axis of the stress, of {self.xx.shape} points, not "
+                f"{brief({name: values.shape for name, values in places.items()})}.",
+                code="not-on-points",
+            )
+        components = {
+            name: (getattr(self, name), "Pa", f"stress {name}") for name in ("xx", "yy", "zz", "yz", "xz", "xy")
+        }
+        return dataset(
+            tuple(places),
+            {**components, "von_mises": (self.von_mises, "Pa", "von Mises' equivalent stress")},
+            coordinates={name: (values, "m", name) for name, values in places.items()},
+        )
 
 
 def rectangle_corners(X: Array, Y: Array, z: float | Array, poisson_ratio: float) -> Array:

@@ -16,10 +16,12 @@ from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, La
 from viscofric.contact.influence.line import line_memory_influence, strip_potential
 from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.units import checked_poisson_ratio, positive, to_si, velocity
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, Mask
@@ -49,6 +51,17 @@ class SurfaceDisplacement:
     x: Array
     y: Array
     displacement: Array
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the displacement over x and y."""
+        return dataset(
+            ("x", "y"),
+            {"displacement": (self.displacement, "m", "displacement into the solid")},
+            coordinates={
+                "x": (self.x, "m", "position along the motion"),
+                "y": (self.y, "m", "position across the motion"),
+            },
+        )
 
 
 def surface_displacement(

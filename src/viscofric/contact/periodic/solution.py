@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from viscofric.datasets import dataset
+
 if TYPE_CHECKING:
     import xarray
 
@@ -121,23 +123,16 @@ class PeriodicSolution:
     warnings: tuple[str, ...] = ()
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return pressure, displacement and gap as a labelled data set with units in its attributes."""
-        import xarray
-
-        def labelled(values: Array, name: str, unit: str) -> tuple[tuple[str, str], Array, dict[str, str]]:
-            return ("x", "y"), values, {"units": unit, "long_name": name}
-
-        return xarray.Dataset(
+        """Return pressure, displacement and gap over x and y, with speed and main results as attributes."""
+        return dataset(
+            ("x", "y"),
             {
-                "pressure": labelled(self.pressure, "contact pressure", "Pa"),
-                "displacement": labelled(self.displacement, "displacement into the solid", "m"),
-                "gap": labelled(self.gap, "gap", "m"),
+                "pressure": (self.pressure, "Pa", "contact pressure"),
+                "displacement": (self.displacement, "m", "displacement into the solid"),
+                "gap": (self.gap, "m", "gap"),
             },
-            coords={
-                "x": ("x", self.x, {"units": "m", "long_name": "position along x"}),
-                "y": ("y", self.y, {"units": "m", "long_name": "position along y"}),
-            },
-            attrs={
+            coordinates={"x": (self.x, "m", "position along x"), "y": (self.y, "m", "position along y")},
+            attributes={
                 "speed": self.speed,
                 "direction": self.direction,
                 "mean_pressure": self.mean_pressure,

@@ -1,0 +1,63 @@
+"""Results of contacts as labelled data sets."""
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.contact.fields import HighestStress
+
+RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+
+
+@pytest.fixture(scope="module")
+def contact():
+    return vf.solve_steady(RUBBER, vf.Cylinder("10 mm"), speed="1 m/s", load="100 N/m", accuracy=0.1, derivatives=True)
+
+
+def test_a_contact_has_its_fields_over_x_and_y(contact):
+    found = contact.to_dataset()
+    assert dict(found.sizes) == {"x": len(contact.x), "y": 1}
+    assert {name: found[name].attrs["units"] for name in found.variables} == {
+        "pressure": "Pa",
+        "displacement": "m",
+        "x": "m",
+        "y": "m",
+    }
+    assert found.attrs["friction_coefficient"] == contact.friction_coefficient
+    assert found.attrs["direction"] == [1.0, 0.0]
+
+
+def test_derivatives_lie_along_the_modes(contact):
+    found = contact.derivatives.to_dataset()
+    assert dict(found.sizes) == {"mode": 1}
+    assert found["C"].dims == found["log_tau"].dims == ("mode",)
+    assert float(found["log_load"]) == contact.derivatives.logarithmic.load
+    assert "load" not in found
+    assert found["speed"].attrs["units"] == "s/m"
+    assert found.attrs["error"] == contact.derivatives.error
+    deep = vf.solve_steady(RUBBER, vf.Ball("10 mm"), speed=1.0, indentation=5e-5, accuracy=0.1, derivatives=True)
+    assert float(deep.derivatives.to_dataset()["indentation"]) == deep.derivatives.indentation
+
+
+def test_a_displacement_has_its_window(contact):
+    modes = RUBBER.spectrum
+    solid = {"E_inf": modes.E_inf, "C": modes.C, "tau": modes.tau, "poisson_ratio": 0.5}
+    surface = vf.surface_displacement(contact.x, contact.y, contact.pressure, speed=1.0, **solid)
+    np.testing.assert_array_equal(surface.to_dataset()["displacement"], surface.displacement)
+
+
+def test_stresses_are_labelled_with_given_coordinates(contact):
+    depths = [1e-4, 3e-4]
+    stress = vf.line_stress(contact.x, contact.pressure, depths, 0.5)
+    found = stress.to_dataset(x=contact.x, depth=depths)
+    assert found["von_mises"].dims == ("x", "depth")
+    assert found["xx"].attrs == {"units": "Pa", "long_name": "stress xx"}
+    for wrong in ({"x": contact.x}, {"depth": depths, "x": contact.x}, {}):
+        with pytest.raises(vf.InputError) as refused:
+            stress.to_dataset(**wrong)
+        assert refused.value.code == "not-on-points"
+
+
+def test_the_highest_stress_is_four_numbers():
+    found = HighestStress(2e5, 1e-4, 0.0, 3e-4).to_dataset()
+    assert {name: float(found[name]) for name in found} == {"von_mises": 2e5, "x": 1e-4, "y": 0.0, "depth": 3e-4}
