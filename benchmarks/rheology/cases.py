@@ -15,7 +15,7 @@ import viscofric as vf
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "rheology"))
-from planted import FREQUENCIES, PROGRAMME, Planted, planted_sweeps, synthetic_polymer  # noqa: E402
+from planted import FREQUENCIES, PROGRAMME, Planted, planted_sweeps, synthetic_polymer, synthetic_soft_rubber  # noqa: E402
 
 if TYPE_CHECKING:
     from viscofric.data import IsothermalSweeps, MasterCurve
@@ -36,15 +36,6 @@ class Case:
         """Measured temperature nearest to 20 °C, K: some peers know no other references."""
         temperatures = self.sweeps.temperatures
         return float(temperatures[np.argmin(np.abs(temperatures - REFERENCE))])
-
-
-def synthetic_soft_rubber() -> vf.Material:
-    """Return an invented soft rubber: two decades of modulus, a long tail to low frequencies, WLF about 20 °C."""
-    tau = np.exp(np.arange(-26.0, 12.0))
-    weight = (tau / 1e-3) ** 0.25 / (1.0 + (tau / 1e-3) ** 0.6)
-    C = (1.0 / 2e6 - 1.0 / 3e8) * weight / weight.sum()
-    shift = vf.WLF(C1=7.0, C2=130.0, reference="20 degC")
-    return vf.Material(vf.RetardationSpectrum(2e6, 3e8, C, tau), shift, name="invented soft rubber (synthetic)")
 
 
 #: Rubbers whose sweeps are planted.
@@ -75,6 +66,7 @@ def offset_problems() -> list[dict[str, Any]]:
         ):
             found.append({"material": material, "noise": noise, "offset": offset, "shared": shared})
         found.append({"material": material, "noise": 0.005, "offset": 0.01, "vertical": "free", "rising": True})
+        found.append({"material": material, "noise": 0.005, "offset": 0.0, "vertical": "free", "rising": True})
         found.append({"material": material, "noise": 0.005, "offset": 0.0, "rising": True})
     for one in found:
         how = "shared " if one.get("shared") else ""

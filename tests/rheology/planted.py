@@ -29,6 +29,15 @@ def synthetic_polymer() -> vf.Material:
     return vf.Material(vf.RetardationSpectrum(1e6, 2e9, C, tau), shift, name="invented polymer (synthetic)")
 
 
+def synthetic_soft_rubber() -> vf.Material:
+    """Return an invented soft rubber: two decades of modulus, a long tail to low frequencies, WLF about 20 °C."""
+    tau = np.exp(np.arange(-26.0, 12.0))
+    weight = (tau / 1e-3) ** 0.25 / (1.0 + (tau / 1e-3) ** 0.6)
+    C = (1.0 / 2e6 - 1.0 / 3e8) * weight / weight.sum()
+    shift = vf.WLF(C1=7.0, C2=130.0, reference="20 degC")
+    return vf.Material(vf.RetardationSpectrum(2e6, 3e8, C, tau), shift, name="invented soft rubber (synthetic)")
+
+
 @dataclass(frozen=True)
 class Planted:
     """Sweeps and the truth that they were made of.

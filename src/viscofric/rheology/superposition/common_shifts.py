@@ -180,7 +180,9 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep]) -> CommonShifts:
     levels = spread + np.kron(np.ones((2, 2)), problem.vertical_prior())
     profiles = StepProfiles(problem, search.smoothers, sweeps, levels)
     covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
-    return replace(_result(search, covariance, freedom), offsets=IsothermOffsets(offsets.covariance, both))
+    return replace(
+        _result(search, covariance, freedom), offsets=IsothermOffsets(offsets.covariance, both, offsets.sizes)
+    )
 
 
 def _result(search: _Search, covariance: Array, freedom: float) -> CommonShifts:

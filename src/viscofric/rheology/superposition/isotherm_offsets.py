@@ -3,7 +3,9 @@
 A sample clamped anew, dimensions read again: E' and E'' of an isotherm are each too large or too small by one factor
 at all its frequencies.  More points do not average that out.  The variance follows from the misfit of neighbours that
 no shift removes, by restricted maximum likelihood (H. D. Patterson, R. Thompson, Biometrika 58 (1971) 545) with the
-shifts linearised.  Some twenty isotherms know a variance to a factor of two, so it is averaged over its likelihood.
+shifts linearised.  Some twenty isotherms determine a variance to a factor of two only, and worse where vertical shifts
+are fitted too.  Standard errors include its mean over the likelihood; each bootstrap sample takes one of the sizes,
+with the probability of that size.
 """
 
 from __future__ import annotations
@@ -24,11 +26,35 @@ if TYPE_CHECKING:
 SIZES = np.logspace(-3.4, -1.0, 13)
 #: … and none, which beforehand is so many times as likely as all these together.
 NONE = 3.0
+#: … or so many times where vertical shifts are fitted.  Few degrees of freedom are left there (3 of 13 isotherms of a
+#: soft rubber), so that this choice matters: with 3, errors of α were half of what they should be in a quarter of the
+#: sweeps that had offsets; with 0.3, errors of sweeps that have none are up to 1.6 times as large as with 3.
+NONE_BESIDE_VERTICAL = 0.3
 #: Of offsets of log E' and log E'' the sum and the difference, over √2, each have a variance of their own.  Beforehand
 #: the two sizes are alike within a factor of 2: where the curves are power laws, a shift takes up the sum.  The
 #: variance of a factor that E' and E'' share is then found some 20 % too small.  A factor of 4 mends that, but sweeps
 #: of three points along a power law, without offsets, would get 1.8 times the errors that their points make.
 TURN = np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)
+
+
+@dataclass(frozen=True, eq=False)
+class OffsetSizes:
+    """Sizes that offsets may have, and the probability of each.
+
+    Parameters
+    ----------
+    deviations : (k, 2) array
+        Standard deviations of the sum of both offsets of an isotherm and of their difference, over √2; decades.
+    probability : (k,) array
+        Adds up to 1.
+    """
+
+    deviations: Array
+    probability: Array
+
+    def draw(self, random: np.random.Generator, samples: int) -> Array:
+        """Return sizes (samples, 2), drawn by their probabilities."""
+        return self.deviations[random.choice(len(self.probability), samples, p=self.probability)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,10 +68,13 @@ class IsothermOffsets:
     with_shifts : (2n, 2n) array
         Covariance of errors of log10 α and then of log10 b of n isotherms (rows) with the offsets of log E' and then of
         log E'' (columns), decades².
+    sizes : OffsetSizes
+        Which sizes offsets may have; `covariance` is the mean over them.
     """
 
     covariance: Array
     with_shifts: Array
+    sizes: OffsetSizes
 
     def __repr__(self) -> str:
         storage, loss = self.standard_deviations
@@ -64,7 +93,27 @@ class IsothermOffsets:
         for row in range(2):
             for column in range(2):
                 with_shifts[row, :, column, first:last] = continued(own[row, :, column], gauge, first, last)
-        return IsothermOffsets(self.covariance, with_shifts.reshape(2 * size, 2 * size))
+        return IsothermOffsets(self.covariance, with_shifts.reshape(2 * size, 2 * size), self.sizes)
+
+    def resized(self, random: np.random.Generator, errors: Array) -> Array:
+        """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly.
+
+        Parameters
+        ----------
+        random : numpy.random.Generator
+            For the sizes.
+        errors : (samples, m + 2n) array
+            Drawn with the mean covariance: errors of log10 α, then of log10 b if m = 2n (fitted), then offsets of
+            log E' and those of log E''; decades.
+        """
+        count = len(self.with_shifts)
+        shifts, offsets = errors[:, :-count], errors[:, -count:]
+        mean = np.sqrt(np.diag(TURN @ self.covariance @ TURN.T))
+        scale = self.sizes.draw(random, len(errors)) / mean
+        turned = TURN @ offsets.reshape(len(errors), 2, -1)
+        change = (TURN.T @ ((scale[:, :, None] - 1.0) * turned)).reshape(offsets.shape)
+        follow = self.with_shifts @ np.kron(np.linalg.inv(self.covariance), np.eye(count // 2))
+        return np.concatenate([shifts + change @ follow[: shifts.shape[1]].T, offsets + change], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,10 +126,13 @@ class Offsets:
         Of those of log E' and log E'' of one isotherm, decades².
     expected : (2n,) array
         Mean of each of log E' and then of log E'', given the measurement and the shifts as they were found; decades.
+    sizes : OffsetSizes
+        Which sizes they may have; `covariance` is the mean over them.
     """
 
     covariance: Array
     expected: Array
+    sizes: OffsetSizes
 
 
 def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> Offsets:
@@ -110,12 +162,16 @@ def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> 
     before = np.exp(-0.5 * ratio**2) if not tied else np.where(ratio == 0.0, 1.0, 0.0)
     likelihood = _likelihood(left, wish)
     weight = before / before.sum() * np.exp(likelihood - max(float(likelihood.max()), 0.0))
-    weight /= weight.sum() + NONE * np.exp(-max(float(likelihood.max()), 0.0))
+    none = (NONE_BESIDE_VERTICAL if tied else NONE) * np.exp(-max(float(likelihood.max()), 0.0))
+    weight /= weight.sum() + none
     variances = np.array([np.sum(weight * sums**2), np.sum(weight * differences**2)])
     deviations = np.repeat(np.sqrt(variances), size)
     beside = np.eye(2 * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
     expected = deviations * np.linalg.solve(beside, deviations * (turn @ score[free:]))
-    return Offsets(TURN.T @ np.diag(variances) @ TURN, turn.T @ expected)
+    pairs = np.stack(np.broadcast_arrays(sums, differences), axis=-1).reshape(-1, 2)
+    probability = np.append(weight.ravel(), max(1.0 - float(weight.sum()), 0.0))
+    sizes = OffsetSizes(np.append(pairs, [[0.0, 0.0]], axis=0), probability / probability.sum())
+    return Offsets(TURN.T @ np.diag(variances) @ TURN, turn.T @ expected, sizes)
 
 
 def _likelihood(left: Array, wish: Array) -> Array:

@@ -85,7 +85,8 @@ def sample_materials(
     are those of the fitted spectrum with errors like its residuals (`Residuals`); and the spectrum is fitted
     anew.  Errors of the shifts and of the moduli about the curve are independent to first order, for in the
     least squares that find both they belong to orthogonal spaces.  Offsets of whole isotherms
-    (`Superposition.offsets`) are drawn together with the errors of the shifts, which follow them.
+    (`Superposition.offsets`) are drawn together with the errors of the shifts, which follow them; the size
+    of offsets differs from sample to sample, by its own likelihood, for isotherms are few.
 
     What the spectrum misses beyond noise, alike over neighbouring points, is not drawn either, for it has no
     distribution; `MaterialSamples.misfit` holds its size, by which the bands of E(ω) are widened.
@@ -279,6 +280,7 @@ def _tables(
     errors = _drawn(random, covariance, samples)
     offsets = np.zeros((samples, size, 2))
     if fit.offsets is not None:
+        errors = fit.offsets.resized(random, errors)
         offsets = np.swapaxes(errors[:, count:].reshape(samples, 2, size), 1, 2)
     tables = [ShiftFactors(shifts.temperatures, shifts.log10_values + row[:size], shifts.reference) for row in errors]
     if not isinstance(vertical, VerticalShiftFactors):
