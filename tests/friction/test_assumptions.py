@@ -12,10 +12,9 @@ import viscofric as vf
 from friction.made_runs import friction_curves
 from viscofric.errors import InputError
 from viscofric.friction import warming
-from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
-from viscofric.friction.contact_size import ContactSize
+from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, assumptions_dataset
 from viscofric.friction.coupling import coupling
-from viscofric.friction.flash_temperature import bulk_temperature, flash_temperature, shared_flash_temperature
+from viscofric.friction.warming import bulk_temperature, flash_temperature, shared_flash_temperature
 from viscofric.notes import Note, Remedy, codes
 from viscofric.thermal import FILLED_RUBBER, STEEL
 

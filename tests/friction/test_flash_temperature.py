@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from viscofric.errors import InputError
-from viscofric.friction.flash_temperature import (
+from viscofric.friction.warming import (
     bulk_temperature,
     flash_temperature,
     shared_flash_temperature,

@@ -14,7 +14,7 @@ from friction.synthetic_curves import curves_of, noisy, planted_law, synthetic_c
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.prediction import predict_friction
-from viscofric.friction.shifting.selection import widened, widening
+from viscofric.friction.shifting.found_shifts import widened, widening
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import codes

@@ -15,7 +15,7 @@ from scipy.stats import binom
 from friction.made_runs import FOUR, exported_runs, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
 from viscofric.friction.measurement.conditions import Condition
-from viscofric.friction.measurement.entry import Entry
+from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.measurement.zeros import Zeros
 from viscofric.notes import codes

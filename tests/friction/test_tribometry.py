@@ -18,7 +18,7 @@ from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from viscofric.errors import InputError
 from viscofric.friction.measurement.conditions import conditions
 from viscofric.friction.measurement.course import of_the_disc
-from viscofric.friction.measurement.least_squares import operators, residuals
+from viscofric.friction.measurement.fit import operators, residuals
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
 

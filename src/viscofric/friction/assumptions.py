@@ -8,8 +8,7 @@ import numpy as np
 
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
-from viscofric.friction.assumption_check import AssumptionCheck, verdict
-from viscofric.friction.contact_size import ContactSize
+from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, verdict
 from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.half_space import check_half_space
@@ -88,7 +87,7 @@ def check_assumptions(
     Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction by what the rubber's own, to first order
     in the loss, changes by on that way, at every point by itself.  ΔT is the flash
     temperature of the Coulomb heat μ_c F v_slip, shared between the bodies, and the warming of the bulk by the
-    viscoelastic loss (see `viscofric.friction.flash_temperature`), on a contact as small as it may be.
+    viscoelastic loss (see `viscofric.friction.warming`), on a contact as small as it may be.
     That is an upper bound on what matters: the Coulomb heat warms a thin skin only.  Heat left from one turn of the
     disc to the next is not counted; a thermometer in the rubber tells of it.
 

@@ -18,14 +18,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.bodies import Layer
-from viscofric.friction.assumption_check import AssumptionCheck, verdict
-from viscofric.friction.contact_size import place_of
+from viscofric.friction.assumption_check import AssumptionCheck, place_of, verdict
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.friction.contact_size import ContactSize
+    from viscofric.friction.assumption_check import ContactSize
     from viscofric.friction.curves import FrictionCurves
 
 

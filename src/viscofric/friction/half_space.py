@@ -14,7 +14,7 @@ from viscofric.units import plain, positive
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.friction.contact_size import ContactSize
+    from viscofric.friction.assumption_check import ContactSize
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.finite_thickness import ThicknessEffect
     from viscofric.rheology.material import Material

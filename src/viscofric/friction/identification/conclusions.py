@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.coupling import check_coupling
+from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band
 from viscofric.friction.identification.fitting import Weighed, most_evident, weighed
@@ -15,7 +16,6 @@ from viscofric.friction.identification.level_family import level_family
 from viscofric.friction.identification.origin import with_origin
 from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedBand, IdentifiedMaterial, LevelFit
 from viscofric.friction.identification.solving import Contacts, spectrum_of
-from viscofric.friction.plausible import implausible
 from viscofric.notes import Note, codes
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.errors import InputError
-from viscofric.friction.error_freedom import error_freedom
+from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Remedy

@@ -13,8 +13,7 @@ from viscofric.nominal import SAME_LOAD
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
-    from viscofric.friction.measurement.entry import Entry
-    from viscofric.friction.measurement.separation import Fit
+    from viscofric.friction.measurement.fit import Entry, Fit
     from viscofric.friction.measurement.zeros import Zeros
 
 

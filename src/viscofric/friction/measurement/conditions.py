@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -63,6 +63,22 @@ class Condition:
     def configurations(self) -> Integers:
         """Number of the sign configuration of each reading."""
         return np.asarray(3 * self.disc_sign + self.slip_sign, dtype=np.int64)
+
+    def regressors(self, *, offset: bool, coulomb: bool) -> Array:
+        """Return the signs (n, 3) of zero, viscoelastic and Coulomb friction; zeros for what is not fitted."""
+        count = self.rows.size
+        return np.stack([np.full(count, float(offset)), self.disc_sign, self.slip_sign * float(coulomb)], axis=1)
+
+    def determines(self, *, offset: bool, coulomb: bool) -> bool:
+        """Whether the signs alone, whatever the jitter of the loads, determine the unknowns."""
+        return _full_rank(self.signs, offset, coulomb)
+
+
+@lru_cache(maxsize=512)
+def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -> bool:
+    unknowns = 1 + offset + (coulomb and any(slip for _, slip in signs))
+    columns = [(float(offset), disc, slip * coulomb) for disc, slip in signs]
+    return int(np.linalg.matrix_rank(np.array(columns))) == unknowns
 
 
 def conditions(

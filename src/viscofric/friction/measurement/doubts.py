@@ -1,4 +1,4 @@
-"""Notes on what does not look like a sound traction test: signs, inconsistency, another zero, missing runs."""
+"""Notes on what does not look like a sound traction test: signs, consistency, zero, slip, outliers, missing runs."""
 
 from __future__ import annotations
 
@@ -13,15 +13,21 @@ from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.friction.measurement.entry import Entry
-    from viscofric.friction.measurement.separation import Fit
+    from viscofric.friction.measurement.conditions import Condition
+    from viscofric.friction.measurement.fit import Entry, Fit
     from viscofric.friction.measurement.zeros import Zeros
+    from viscofric.traction import TractionRuns
 
 
 #: How often a sound test, of however many conditions, is noted for one kind of deviation: once in 370 times.  The
 #: threshold in standard errors is Student's t, larger where few replicates or many conditions stand behind them.
 CHANCE = 0.0027
 ROUNDING = 1e-9  # relative; smaller deviations come from rounding
+# What unnoticed slip adds to viscoelastic friction, over Coulomb friction, for it to matter.
+_MATTERS = 0.1
+_OUTLIER = 5.0  # robust standard deviations
+_FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
+_NAMED = 3  # outliers that a note names one by one
 
 
 def threshold(freedom: float, chance: float) -> float:
@@ -193,3 +199,121 @@ def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]
         )
         for group in some
     ]
+
+
+def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[Note]]:
+    """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed.
+
+    Slip that is too small to be measured can still hold much of Coulomb friction, with one sign.
+
+    Returns
+    -------
+    list of int
+        Places of the conditions where it does.
+    list of str
+        Notes that say so.
+    """
+    sliding: dict[tuple[float, float], list[int]] = {}
+    for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):
+        if entry.slides and fit.coulomb is None:
+            sliding.setdefault((fit.group.temperature, fit.group.speed), []).append(place)
+    found, told = [], []
+    for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):
+        group = fit.group
+        alike = [
+            other
+            for other in sliding.get((group.temperature, group.speed), [])
+            if abs(fits[other].group.load - group.load) <= SAME_LOAD * group.load
+        ]
+        if entry.slides or not alike:
+            continue
+        other = entries[max(alike, key=lambda one: fits[one].group.slip)]
+        apart = abs(entry.value[1] - other.value[1])
+        error = float(np.hypot(entry.error[1], other.error[1]))
+        chance = threshold(min(entry.freedom[1], other.freedom[1]), CHANCE / len(fits))
+        # Compared in this way, an infinite error tells nothing.
+        if apart > chance * error and apart > max(_MATTERS * abs(other.value[2]), ROUNDING):
+            found.append(place)
+            told.append(
+                Note(
+                    "unnoticed-slip",
+                    f"At {group} viscoelastic friction without slip, {entry.value[1]:.2g} ± {entry.error[1]:.2g}, is "
+                    "not "
+                    f"that with slip, {other.value[1]:.2g} ± {other.error[1]:.2g}: ball and disc probably slip there "
+                    "by "
+                    "less than can be measured, and Coulomb friction is in it; it is left out.",
+                )
+            )
+    return found, told
+
+
+def outliers(runs: TractionRuns, groups: list[Condition], entries: list[Entry]) -> list[tuple[Condition, int]]:
+    """Find the readings far from the others of their configuration: their conditions and rows."""
+    if not groups:
+        return []
+    deviations = [_deviations(runs, group, entry.value[0]) for group, entry in zip(groups, entries, strict=True)]
+    every = np.concatenate(deviations)
+    configuration = np.concatenate([group.configurations for group in groups])
+    # Few readings tell a scale badly; the whole test, and all readings of equal signs, tell what it may be at least.
+    least = {
+        one: max(_robust_deviation(every), _robust_deviation(every[configuration == one]))
+        for one in np.unique(configuration).tolist()
+    }
+    found: list[tuple[Condition, int]] = []
+    for group, deviation in zip(groups, deviations, strict=True):
+        rounding = ROUNDING * float(np.abs(runs.traction_force[group.rows]).max())
+        floor = max(_robust_deviation(deviation), rounding)
+        for one in set(group.configurations.tolist()):
+            same = np.flatnonzero(group.configurations == one)
+            if same.size >= _FEWEST_FOR_OUTLIERS:
+                scale = max(floor, least[one], _robust_deviation(deviation[same]))
+                far = np.abs(deviation[same]) > _OUTLIER * scale * _of_few(same.size)
+                found += [(group, int(row)) for row in group.rows[same[far]]]
+    return found
+
+
+def told_of(runs: TractionRuns, found: list[tuple[Condition, int]], *, left_out: bool) -> list[str]:
+    """Name outliers, by their rows in the runs."""
+    if not found:
+        return []
+    one = len(found) == 1
+    named = [
+        f"row {row + 1} (replicate {runs.replicate[row]}, {group}, {runs.traction_force[row]:.4g} N)"
+        for group, row in found[:_NAMED]
+    ]
+    more = f" and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
+    told = Note(
+        "outliers",
+        f"{'One reading deviates' if one else f'{len(found)} readings deviate'} from the others of the same "
+        f"configuration by more than {_OUTLIER:g} robust standard deviations and {'was' if one else 'were'} "
+        f"{'left out' if left_out else 'kept'}: {', '.join(named)}{more}.",
+    )
+    return [told]
+
+
+def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
+    """Compare forces, brought to the mean load, with their configuration's median (not a number if few)."""
+    force = (runs.traction_force[group.rows] - zero) * group.load / runs.load[group.rows]
+    deviation = np.full(force.size, np.nan)
+    for configuration in np.unique(group.configurations):
+        same = group.configurations == configuration
+        if np.count_nonzero(same) >= _FEWEST_FOR_OUTLIERS:
+            deviation[same] = force[same] - np.median(force[same])
+    return deviation
+
+
+def _of_few(n: int) -> float:
+    """How much further a reading may be off where few stand behind the median.
+
+    An outlying one of n is off a median that has itself a variance of π/2n, and the median absolute deviation of n is
+    small by about (n − 0.8)/n (C. Croux, P. J. Rousseeuw, Computational Statistics 1, 411–428, 1992).
+    """
+    return float(np.sqrt(1.0 + 0.5 * np.pi / n)) * n / (n - 0.8)
+
+
+def _robust_deviation(deviation: Array) -> float:
+    """Return the standard deviation told by the median, or by the mean where more than half are equal."""
+    size = np.abs(deviation[np.isfinite(deviation)])
+    if not size.size:
+        return 0.0
+    return 1.4826 * float(np.median(size)) or 1.2533 * float(np.mean(size))

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.measurement.doubts import CHANCE, ROUNDING, threshold
-from viscofric.friction.measurement.separation import DRIFT, FORCE, ZERO_CHANGES, Fit
+from viscofric.friction.measurement.fit import DRIFT, FORCE, ZERO_CHANGES, Fit
 from viscofric.friction.measurement.zeros import Zeros, wanders
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
-    from viscofric.friction.measurement.entry import Entry
+    from viscofric.friction.measurement.fit import Entry
 
 
 _FEWEST = 3  # degrees of freedom behind a rate

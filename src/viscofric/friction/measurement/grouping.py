@@ -1,4 +1,4 @@
-"""Conditions of a traction test that can be separated, and what is said of those that cannot."""
+"""Conditions of a traction test that can be separated, and notes on those that cannot."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.measurement import two_groups
 from viscofric.friction.measurement.conditions import Condition, conditions, where
 from viscofric.friction.measurement.course import Course, of_both, of_the_disc
 from viscofric.friction.measurement.gapless import SPEED_TOLERANCE
@@ -17,10 +16,17 @@ from viscofric.notes import Note, Remedy, setting
 
 if TYPE_CHECKING:
     from viscofric.friction.measurement.assumed_coulomb import Assumed
+    from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
 
+#: Distance of the groups over their standard deviation: two halves of one normal distribution have 2.65.
+_APART = 6.0
+#: The same over the largest force of the condition: more than any variation from run to run.
+_OF_FORCE = 0.5
+#: Smallest share of the readings in a group: fewer are outliers.
+_SHARE = 0.2
 # Speeds within this part of each other may have been meant to be one.
 _NEAR = 0.5
 # (sgn u_disc, sgn(u_disc − u_ball)) in words
@@ -29,6 +35,68 @@ _WORDS = {
     for sign in (-1, 1)
     for slip in (-1, 1)
 }
+
+
+@dataclass(frozen=True)
+class TwoGroups:
+    """Mean forces of the two groups of readings of a configuration, N, and whether it has slip."""
+
+    low: float
+    high: float
+    slides: bool
+
+    @property
+    def opposite(self) -> bool:
+        """Whether the forces have opposite signs with slip; without, slip too small to be measured can do that."""
+        return self.slides and self.low < 0.0 < self.high
+
+
+def two_groups(runs: TractionRuns, group: Condition, zeros: Zeros) -> TwoGroups | None:
+    """Return the groups of the configuration in which they are furthest apart; None if there is one group each."""
+    zero = zeros.of(group) if zeros.covers(group) else 0.0
+    force = runs.traction_force[group.rows] - zero
+    least = _OF_FORCE * float(np.abs(force).max())
+    found = None
+    for configuration in np.unique(group.configurations):
+        ordered = np.sort(force[group.configurations == configuration])
+        if ordered.size < 2:
+            continue
+        place = int(np.argmax(np.diff(ordered))) + 1
+        low, high = ordered[:place], ordered[place:]
+        distance = float(high.mean() - low.mean())
+        scatter = float(np.sqrt((low.size * low.var() + high.size * high.var()) / ordered.size))
+        few = min(low.size, high.size) < _SHARE * ordered.size
+        if distance > max(least, _APART * scatter) and not few:
+            found = TwoGroups(float(low.mean()), float(high.mean()), bool(np.any(group.slip_sign)))
+            least = distance
+    return found
+
+
+def _two_groups_kept(groups: list[Condition], found: dict[int, TwoGroups]) -> list[str]:
+    """Say where forces fall into two groups of one sign, and that they are kept."""
+    places = [place for place, one in found.items() if not one.opposite]
+    if not places:
+        return []
+    return [Note("two-groups-of-force", f"{_sentence(groups, found, places)}; their mean is used.")]
+
+
+def _unsigned(groups: list[Condition], found: dict[int, TwoGroups], *, left_out: bool = False) -> Note:
+    """Say where forces fall into two groups of opposite signs, and what to do."""
+    places = [place for place, one in found.items() if one.opposite]
+    leaving = "; these readings are left out" if left_out else ""
+    return Note(
+        "unsigned-speeds",
+        f"{_sentence(groups, found, places)}, as if runs of both directions were given with unsigned speeds{leaving}; "
+        "give the speeds of disc and ball with their signs.",
+    )
+
+
+def _sentence(groups: list[Condition], found: dict[int, TwoGroups], places: list[int]) -> str:
+    first = found[places[0]]
+    return (
+        f"{where([groups[place] for place in places], len(groups))} the forces of one sign configuration fall into two "
+        f"groups, about {first.low:.3g} and {first.high:.3g} N"
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,15 +139,15 @@ class Grouping:
             raise problem
         if not groups:
             raise InputError("traction runs hold no reading with the disc in motion: nothing to separate.")
-        split = {place: two for place, group in enumerate(groups) if (two := two_groups.two_groups(runs, group, zeros))}
+        split = {place: two for place, group in enumerate(groups) if (two := two_groups(runs, group, zeros))}
         mixed = {id(groups[place]) for place, two in split.items() if two.opposite}
         if mixed and mixed.union(map(id, poor)) == set(map(id, groups)):
-            raise InputError(two_groups.refusal(groups, split))
+            raise InputError(_unsigned(groups, split))
         if len(poor) == len(groups):
             raise InputError(_refused(poor, len(groups), zeros, assumed))
-        told = [*notes, *two_groups.notes(groups, split)]
+        told = [*notes, *_two_groups_kept(groups, split)]
         if mixed:
-            told.append(two_groups.refusal(groups, split, left_out=True))
+            told.append(_unsigned(groups, split, left_out=True))
         if poor:
             told.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
         out = mixed.union(map(id, poor))

@@ -10,24 +10,21 @@ import numpy as np
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
-from viscofric.friction.measurement.between_runs import BetweenRuns
-from viscofric.friction.measurement.doubts import doubts
+from viscofric.friction.measurement.doubts import doubts, told_of, unnoticed_slip
+from viscofric.friction.measurement.doubts import outliers as far_readings
 from viscofric.friction.measurement.drift import Drift
-from viscofric.friction.measurement.given_zero import another_zero
+from viscofric.friction.measurement.errors import BetweenRuns
+from viscofric.friction.measurement.fit import Fit
 from viscofric.friction.measurement.grouping import Grouping
-from viscofric.friction.measurement.outliers import outliers as far_readings
-from viscofric.friction.measurement.outliers import told_of
-from viscofric.friction.measurement.separation import Fit
 from viscofric.friction.measurement.uneven import Uneven
-from viscofric.friction.measurement.unnoticed_slip import unnoticed_slip
-from viscofric.friction.measurement.zeros import Zeros
+from viscofric.friction.measurement.zeros import Zeros, another_zero
 from viscofric.notes import Note
 from viscofric.traction import TractionRuns
 from viscofric.units import Quantity, positive, share
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
-    from viscofric.friction.measurement.entry import Entry
+    from viscofric.friction.measurement.fit import Entry
 
 
 # The change of friction over speed changes little by what it corrects.

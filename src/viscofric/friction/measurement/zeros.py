@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.measurement.least_squares import told_apart
 from viscofric.notes import Note
 from viscofric.units import Quantity, to_si
 
@@ -23,6 +22,10 @@ if TYPE_CHECKING:
 _FEWEST_FOR_DRIFT = 8
 # Standard deviations that the ratio of von Neumann is below its mean where values drift.
 _DRIFTS = 3.0
+#: Conditions that tell a zero, fewer than which do not tell how well.
+_FEWEST = 3
+#: Standard errors that a given zero may lie away.
+_AWAY = 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,12 +123,12 @@ class Zeros:
 
     def fitted(self, group: Condition, *, coulomb: bool) -> bool:
         """Whether a condition's zero is fitted: where nobody gives it and the signs tell it."""
-        return not self.given and told_apart(group, offset=True, coulomb=coulomb)
+        return not self.given and group.determines(offset=True, coulomb=coulomb)
 
     def suffices(self, group: Condition, *, coulomb: bool) -> bool:
         """Whether viscoelastic (and Coulomb) friction can be told, with the zero as it is known."""
         return self.fitted(group, coulomb=coulomb) or (
-            self.covers(group) and told_apart(group, offset=False, coulomb=coulomb)
+            self.covers(group) and group.determines(offset=False, coulomb=coulomb)
         )
 
     def notes(self, groups: list[Condition], used: list[Condition]) -> list[str]:
@@ -174,3 +177,36 @@ def wanders(values: Array) -> bool:
         return False
     ratio = float(np.sum(np.diff(values) ** 2) / (count - 1) / np.mean(centred**2))
     return ratio < 2.0 - _DRIFTS * 2.0 * math.sqrt((count - 2.0) / (count**2 - 1.0))
+
+
+def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> list[str]:
+    """Note a given zero that the sign configurations contradict.
+
+    Parameters
+    ----------
+    runs : TractionRuns
+    groups : list of Condition
+    zeros : Zeros
+    """
+    if not zeros.given:
+        return []
+    told = np.array([_zero(runs, group) for group in groups if group.determines(offset=True, coulomb=True)])
+    if told.size < _FEWEST:
+        return []
+    mean, error = float(told.mean()), float(told.std(ddof=1)) / np.sqrt(told.size)
+    given = float(zeros.value[0])
+    if abs(mean - given) <= _AWAY * np.hypot(error, zeros.error) + 1e-9 * abs(given):
+        return []
+    sentence = Note(
+        "given-zero-contradicted",
+        f"The zero of the force cell that was given, {given:.3g} N, is used, though the configurations at {told.size} "
+        f"conditions tell another one, {mean:.3g} ± {error:.1g} N.",
+    )
+    return [sentence]
+
+
+def _zero(runs: TractionRuns, group: Condition) -> float:
+    """Return the zero that the readings of a condition tell, N."""
+    design = group.regressors(offset=True, coulomb=True)
+    design[:, 1:] *= runs.load[group.rows][:, None]
+    return float(np.linalg.lstsq(design, runs.traction_force[group.rows])[0][0])

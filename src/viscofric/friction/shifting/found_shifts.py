@@ -1,4 +1,9 @@
-"""Shift factors found from friction curves alone: all temperatures on one smooth curve, with their covariance."""
+"""Shift factors found from friction curves alone: all temperatures on one smooth curve, with their covariance.
+
+Selection of overlaps widens the errors: an overlap counts only if curves contradict each other by `CONTRADICTION` at
+either end of the possible steps.  So of curves that overlap marginally those are found which chance moved together,
+and their shift is off, always to the same side.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +16,8 @@ import numpy as np
 
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.shifting.isotherms import scatter_scale
-from viscofric.friction.shifting.pairs import FEWEST_POINTS
-from viscofric.friction.shifting.placement import arrange, groups, rivals, scan_pairs
+from viscofric.friction.shifting.placement import CONTRADICTION, FEWEST_POINTS, arrange, groups, rivals, scan_pairs
 from viscofric.friction.shifting.refusals import Doubts, shown, too_flat
-from viscofric.friction.shifting.selection import WORTH_TELLING, widened, widenings
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import NOMINAL
@@ -28,14 +31,68 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.shifting.isotherms import FrictionIsotherm
+    from viscofric.friction.shifting.placement import Pairs
 
 
+#: Steps that the fit moves further from where a pair coincides are not that pair's, decades.
+_NEAR = 0.2
+#: From here on marginal overlap is told, variances.
+WORTH_TELLING = 1.5
 #: Fitted curves overlap for sure if they would after being pulled apart by so many standard errors of their step.
 SURE = 2.0
 #: By which variances grow at most because the scatter is found from few points.
 LARGEST_FACTOR = 5.0
 #: Friction whose differences chance makes more often than this may be constant; many pairs were looked at.
 CONSTANT = 1e-4
+
+
+def widening(margin: float) -> float:
+    """Return what the variance of a shift grows by as its overlap is known only from having been found.
+
+    With D standard errors between the shift and the end where curves no longer overlap, found if D > 3, the true
+    distance δ has the likelihood φ(D − δ)/Φ(δ − 3); with any δ ≥ 0 as likely as another, this is the mean of (D − δ)².
+    """
+    from scipy.special import log_ndtr
+
+    threshold = math.sqrt(CONTRADICTION)
+    true = np.linspace(0.0, margin + 6.0, 400)
+    logarithm = -0.5 * (margin - true) ** 2 - log_ndtr(true - threshold)
+    weight = np.exp(logarithm - logarithm.max())
+    return max(1.0, float(np.sum(weight * (margin - true) ** 2) / np.sum(weight)))
+
+
+def widenings(members: Sequence[int], values: Array, pairs: Pairs) -> Array:
+    """Return the factor of the variance of each step between neighbouring members, (members − 1,).
+
+    The clearest overlap of two members on either side of a step decides.
+    """
+    clearest = np.full(len(members) - 1, math.sqrt(CONTRADICTION))
+    for one, colder in enumerate(members):
+        for other in range(one + 1, len(members)):
+            pair, step = pairs[colder, members[other]], float(values[one] - values[other])
+            near = [
+                margin
+                for candidate, margin in zip(pair.candidates, pair.margins, strict=True)
+                if abs(candidate - step) <= _NEAR
+            ]
+            if near:
+                clearest[one:other] = np.maximum(clearest[one:other], max(near))
+    return np.array([widening(margin) for margin in clearest.tolist()])
+
+
+def widened(covariance: Array, factors: Array, at_reference: Array) -> Array:
+    """Return the covariance (n, n) of shifts whose steps between neighbours have variances larger by factors (n − 1,).
+
+    `at_reference` (n,) are the weights with which the shifts are zero together.
+    """
+    wider = covariance.copy()
+    for step, factor in enumerate(factors.tolist()):
+        pair = np.array([step, step + 1])
+        variance = float(np.array([-1.0, 1.0]) @ covariance[np.ix_(pair, pair)] @ np.array([-1.0, 1.0]))
+        moved = (np.arange(len(covariance)) > step).astype(float)
+        moved -= at_reference @ moved
+        wider += (factor - 1.0) * variance * np.outer(moved, moved)
+    return wider
 
 
 @dataclass(frozen=True, eq=False)

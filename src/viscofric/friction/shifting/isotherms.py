@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.error_freedom import error_freedom
+from viscofric.friction.curve_checks import error_freedom
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.rheology.superposition.common_curve import Curves, Smoother
 from viscofric.rheology.superposition.overlap import LogSweep

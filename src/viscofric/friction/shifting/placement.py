@@ -1,26 +1,155 @@
-"""Friction curves of several temperatures put over each other roughly: which reach each other, and where."""
+"""Friction curves of several temperatures put over each other roughly: which of them overlap, and by what shift.
+
+Each temperature has a smooth curve of its own, with its covariance.  At every step of log10 α two curves are compared
+over the stretch where both were measured.  Two curves that have only been moved apart do not contradict each other
+there.  So a step at which they coincide counts as an overlap only if contradiction bounds it on both sides: curves that
+can be slid apart without contradiction do not overlap as far as anyone knows, and friction that does not depend on
+speed can always be slid.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
-
-from viscofric.friction.shifting.pairs import LARGEST_MISFIT, STEP, WRONG_WAY, Pair, scan
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
+    from viscofric.arrays import Array
     from viscofric.friction.shifting.isotherms import FrictionIsotherm
 
+
+#: Curves are slid along each other in steps of this many decades …
+STEP = 0.02
+#: … while so many points of each lie over the other one at least.
+FEWEST_POINTS = 2
+#: They are compared at both ends and in the middle of what they have in common.
+PLACES = np.array([0.0, 0.5, 1.0])
+#: A curve is read to about so much between its points, whatever their errors; decades of friction.
+READING = 0.004
+#: χ² of the comparison that noise exceeds in one of 60 000 pairs (three degrees of freedom).
+LARGEST_MISFIT = 25.0
+#: What contradicts a step beside one where curves coincide: χ² larger by so much, three standard deviations.
+CONTRADICTION = 9.0
+#: α falls as temperature rises; so much the other way is not told from that.
+WRONG_WAY = 0.05  # decades
+#: Above this part of all steps being possible, the curves are too flat rather than apart.
+FLAT = 0.4
 #: Arrangements that are followed at a time.
 BREADTH = 12
 #: Positions that lie closer are one, decades.
 SAME_POSITION = 0.1
 #: An arrangement whose squares exceed those of the best one by less is as good, in squares of standard deviations.
 AS_GOOD = 9.0
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """What a scan of steps between two temperatures finds.
+
+    Attributes
+    ----------
+    steps : (k,) array
+        log10 α of the colder less that of the warmer, all that were tried.
+    chi2 : (k,) array
+        Squared difference of the curves at each, in units of its covariance.
+    candidates : tuple of float
+        Steps where the curves coincide, each bounded by contradiction on both sides.
+    margins : tuple of float
+        How clearly each is bounded, in standard deviations: above the root of `CONTRADICTION`.
+    verdict : {"overlap", "rising", "flat", "apart"}
+        "rising" if the curves coincide only with an α that rises with temperature.
+    """
+
+    steps: Array
+    chi2: Array
+    candidates: tuple[float, ...]
+    margins: tuple[float, ...]
+    verdict: Literal["overlap", "rising", "flat", "apart"]
+
+    def cost(self, step: float) -> float:
+        """Return χ² at a step less its expectation; zero where the curves are not over each other."""
+        if not self.steps.size or not self.steps[0] <= step <= self.steps[-1]:
+            return 0.0
+        return float(np.interp(step, self.steps, self.chi2)) - len(PLACES)
+
+
+def scan(colder: FrictionIsotherm, warmer: FrictionIsotherm, scale: float) -> Pair:
+    """Slide one curve along the other.
+
+    Parameters
+    ----------
+    colder, warmer : FrictionIsotherm
+    scale : float
+        What the variances of both are to be multiplied by.
+    """
+    steps = _steps(colder, warmer)
+    if not steps.size:
+        return Pair(steps, steps, (), (), "apart")
+    chi2 = _chi2(colder, warmer, steps, scale)
+    bounded = _bounded(steps, chi2)
+    found = tuple(step for step, highest, _ in bounded if highest >= -WRONG_WAY)
+    margins = tuple(margin for _, highest, margin in bounded if highest >= -WRONG_WAY)
+    if bounded:
+        return Pair(steps, chi2, found, margins, "overlap" if found else "rising")
+    possible = np.mean(chi2 <= LARGEST_MISFIT)
+    return Pair(steps, chi2, (), (), "flat" if possible > FLAT else "apart")
+
+
+def _steps(colder: FrictionIsotherm, warmer: FrictionIsotherm) -> Array:
+    """Return steps at which enough points of each curve lie over the other one."""
+    if min(len(colder), len(warmer)) < FEWEST_POINTS:
+        return np.empty(0)
+    inner = FEWEST_POINTS - 1
+    lowest = max(warmer.speed[0] - colder.speed[-1 - inner], warmer.speed[inner] - colder.speed[-1])
+    highest = min(warmer.speed[-1] - colder.speed[inner], warmer.speed[-1 - inner] - colder.speed[0])
+    if not lowest <= highest:
+        return np.empty(0)
+    steps = np.linspace(lowest, highest, max(3, int((highest - lowest) / STEP) + 1))
+    inside = np.full(steps.shape, True)  # with points that are far apart, steps between the ends may fail
+    for points, curve, way in ((colder, warmer, steps), (warmer, colder, -steps)):
+        place = points.speed + way[:, None]
+        over = (place >= curve.speed[0] - 1e-9) & (place <= curve.speed[-1] + 1e-9)
+        inside &= np.count_nonzero(over, axis=1) >= FEWEST_POINTS
+    return np.asarray(steps[inside])
+
+
+def _chi2(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scale: float) -> Array:
+    low = np.maximum(colder.speed[0] + steps, warmer.speed[0])
+    high = np.minimum(colder.speed[-1] + steps, warmer.speed[-1])
+    places = low[:, None] + (high - low)[:, None] * PLACES
+    one, one_spread = colder.read(places - steps[:, None])
+    other, other_spread = warmer.read(places)
+    spread = scale * (one_spread + other_spread) + READING**2 * np.eye(len(PLACES))
+    difference = one - other
+    return np.asarray(np.einsum("si,si->s", difference, np.linalg.solve(spread, difference[..., None])[..., 0]))
+
+
+def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float, float]]:
+    """Return the steps of least χ² that contradiction bounds on both sides, best first.
+
+    Each with its upper bound, and by how many standard deviations it is bounded.
+    """
+    found = []
+    free = np.full(steps.shape, True)
+    for place in np.argsort(chi2, kind="stable"):
+        if chi2[place] > LARGEST_MISFIT:
+            break
+        if not free[place]:
+            continue
+        against = np.flatnonzero(chi2 > chi2[place] + CONTRADICTION)
+        after = int(np.searchsorted(against, place))
+        first = int(against[after - 1]) if after > 0 else -1
+        last = int(against[after]) if after < against.size else steps.size
+        whole = bool(np.all(free[max(first, 0) : last]))  # else it is the slope of a better one
+        free[max(first, 0) : last + 1] = False
+        if whole and first >= 0 and last < steps.size:
+            bound = min(chi2[: first + 1].max(), chi2[last:].max()) - chi2[place]
+            found.append((float(steps[place]), float(steps[last]), float(np.sqrt(bound))))
+    return found
 
 
 @dataclass(frozen=True, eq=False)

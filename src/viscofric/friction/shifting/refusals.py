@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from viscofric.friction.shifting.pairs import FEWEST_POINTS
+from viscofric.friction.shifting.placement import FEWEST_POINTS
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius

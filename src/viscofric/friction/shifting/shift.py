@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.curve_checks import error_freedom, implausible
 from viscofric.friction.curves import insist_on_curves
-from viscofric.friction.error_freedom import error_freedom
-from viscofric.friction.plausible import implausible
 from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
 from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_rows

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.measurement.entry import Entry
-from viscofric.friction.measurement.least_squares import operators, regressors, residuals
-
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Integers
     from viscofric.friction.measurement.conditions import Condition
-    from viscofric.friction.measurement.growth import Growth
+    from viscofric.friction.measurement.uneven import Growth
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
@@ -25,6 +22,79 @@ _MOST_PASSES = 1_000_000_000
 _FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
 #: The force as it is read, and what may be taken from it: drift (per N/s) and changes of the recorded zero.
 FORCE, DRIFT, ZERO_CHANGES = range(3)
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition, in this order.
+
+    `freedom` is the number of degrees of freedom behind each error, infinite where it is known; what cannot be
+    known has an infinite error.
+    """
+
+    value: Array
+    error: Array
+    scatter: Array
+    freedom: Array
+    replicates: int
+    together: bool
+    slides: bool
+    checks: bool
+
+    def widened(self, variance: Array, freedom: float) -> Entry:
+        """Add an independent variance (4,) to the squared errors; degrees of freedom after Welch and Satterthwaite."""
+        error = np.sqrt(self.error**2 + variance)
+        finite = np.isfinite(error) & (variance > 0.0)
+        squares = np.full(4, 0.0)
+        for part, behind in ((self.error**2, self.freedom), (variance, np.full(4, freedom))):
+            share = np.divide(part, error**2, out=np.zeros(4), where=finite)
+            squares += np.divide(share**2, behind, out=np.zeros(4), where=finite & (behind > 0.0))
+        freedoms = np.divide(1.0, squares, out=np.full(4, np.inf), where=squares > 0.0)
+        return replace(self, error=error, freedom=np.where(finite, freedoms, self.freedom))
+
+
+def operators(design: Array, crossed: Array | None, parts: list[Indices]) -> Array:
+    """Return what makes the coefficients of readings, in each of several parts by itself.
+
+    Parameters
+    ----------
+    design : (n, 3) array
+        Regressors; those that are zero throughout are not fitted.
+    crossed : (n,) array or None
+        A fourth one, whose coefficient is fitted beside the others without changing theirs.
+    parts : list of array of int
+        Rows that are fitted together; each determines all coefficients.
+
+    Returns
+    -------
+    (4, n) array
+        (XᵀX)⁻¹Xᵀ of each part, in its columns, by the QR factors of X: the fit without `crossed` has the leading
+        ones of the fit with it.  The sums of squares are the diagonal of (XᵀX)⁻¹.
+    """
+    used = np.flatnonzero(np.any(design != 0.0, axis=0))
+    columns = design[:, used] if crossed is None else np.column_stack([design[:, used], crossed])
+    operator = np.zeros((4, len(design)))
+    for size in {part.size for part in parts}:
+        rows = np.stack([part for part in parts if part.size == size])
+        orthogonal, triangle = np.linalg.qr(columns[rows])
+        inverse = np.linalg.inv(triangle)
+        leading = inverse[:, : used.size, : used.size] @ np.swapaxes(orthogonal[:, :, : used.size], 1, 2)
+        operator[used[:, None, None], rows] = np.swapaxes(leading, 0, 1)
+        if crossed is not None:
+            operator[3, rows] = np.einsum("kmp,kp->km", orthogonal, inverse[:, -1])
+    return operator
+
+
+def residuals(design: Array, crossed: Array | None, operator: Array, target: Array) -> tuple[Array, Array]:
+    """Return what fits of all readings leave over of `target` (n, k), without and with the fourth regressor."""
+
+    def left(values: Array) -> Array:
+        return np.asarray(values - design @ (operator[:3] @ values))
+
+    plain = left(target)
+    if crossed is None:
+        return plain, plain
+    return plain, plain - left(crossed[:, None]) * (operator[3] @ target)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +182,7 @@ class Fit:
         checks = coulomb is None and group.signs >= _FOUR
         offset = zeros.fitted(group, coulomb=coulomb is None)
         load = runs.load[group.rows] / group.load
-        design = regressors(group, offset=offset, coulomb=coulomb is None)
+        design = group.regressors(offset=offset, coulomb=coulomb is None)
         design[:, 1:] *= load[:, None]
         log_speed = np.log(np.abs(runs.disc_speed[group.rows]) / group.speed)
         if growth is not None:

@@ -1,4 +1,4 @@
-"""How well the standard errors of measured friction are known: degrees of freedom, given or seen in their scatter."""
+"""Checks of measured friction curves: how well their errors are known, and whether a rubber can have such friction."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.notes import Note
+from viscofric.units import celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -14,13 +15,21 @@ if TYPE_CHECKING:
 
 
 #: Fewer second differences than these tell no scatter.
-FEWEST = 6
+FEWEST_DIFFERENCES = 6
 #: Errors that are smaller than this are those of solved contacts, not of a measurement: nobody averaged them.
 SOLVED = 1e-3
 #: So many times the scatter of neighbours, that of all holds a course of the errors.
 COURSE = 2.0
 #: Errors that scatter no more than those of so many degrees of freedom are taken for known.
 MANY = 60.0
+#: The power μFv that is lost in a linear rubber does not fall as it is deformed faster, to first order in the loss:
+#: waves of frequency ω lose ω²τ/(1 + ω²τ²) in a mode, and a contact that becomes smaller presses harder.
+STEEPEST = -1.0
+#: A line must be steeper than that by so many of its standard errors.
+SURE = 4.0
+#: Friction whose differences chance makes at least as often may be constant.
+CHANCE = 0.01
+_FEWEST_POINTS = 3
 
 
 def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
@@ -44,7 +53,7 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
         rows = np.flatnonzero(asked & (curves.temperature == temperature))
         bent = np.diff(np.log(relative[rows[np.argsort(curves.speed[rows], kind="stable")]] ** 2), 2)
         squares, count = squares + float(bent @ bent), count + bent.size
-    if count < FEWEST or np.median(relative[asked]) < SOLVED:
+    if count < FEWEST_DIFFERENCES or np.median(relative[asked]) < SOLVED:
         return freedom, ()
     rough = squares / (6.0 * count)  # 1 + 4 + 1 variances in each
     # Where no course is seen beside the scatter, the scatter of all tells it better than that of neighbours.
@@ -72,3 +81,55 @@ def freedom_of_scatter(variance: float) -> float:
     if variance >= polygamma(1, least):
         return 2.0 * least
     return 2.0 * float(brentq(lambda half: float(polygamma(1, half)) - variance, least, most))
+
+
+def implausible(curves: FrictionCurves) -> tuple[Note, ...]:
+    """Say what of friction curves no rubber does: notes "too-steep" and "constant-friction".
+
+    Parameters
+    ----------
+    curves : FrictionCurves
+        At one load; points of unknown error, or not above zero, are passed over.
+    """
+    known = np.isfinite(curves.viscoelastic_error) & (curves.viscoelastic > 0.0)
+    return (*_too_steep(curves.select(known)), *_constant(curves.select(known)))
+
+
+def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
+    steepest, where = np.inf, ""
+    for kelvin in curves.temperatures:
+        mine = curves.select(curves.temperature == kelvin)
+        x = np.log(mine.speed / np.exp(np.log(mine.speed).mean()))
+        if len(mine) < _FEWEST_POINTS or not np.any(x):
+            continue
+        y = np.log(mine.viscoelastic)
+        slope = float(x @ y / (x @ x))
+        left = y - y.mean() - slope * x
+        own = mine.viscoelastic_error / mine.viscoelastic
+        error = np.sqrt(max(left @ left / (len(mine) - 2), float(np.mean(own**2))) / (x @ x))
+        if slope + SURE * error < min(STEEPEST, steepest):
+            steepest, where = slope, f"{celsius(float(kelvin)):z.1f} °C"
+    if not np.isfinite(steepest):
+        return ()
+    said = (
+        f"Friction at {where} goes as v to the power {steepest:.2g}: faster than 1/v that of a linear rubber never "
+        "falls, because the power lost in it would fall as it is deformed faster; check speeds, forces and lubrication."
+    )
+    return (Note("too-steep", said),)
+
+
+def _constant(curves: FrictionCurves) -> tuple[Note, ...]:
+    from scipy.special import chdtrc
+
+    error = curves.viscoelastic_error
+    if len(curves) <= _FEWEST_POINTS or not np.any(error > 0.0):
+        return ()
+    weight = 1.0 / np.maximum(error, 1e-3 * error.max()) ** 2
+    away = curves.viscoelastic - np.average(curves.viscoelastic, weights=weight)
+    if chdtrc(len(curves) - 1, float(weight @ away**2)) < CHANCE:
+        return ()
+    said = (
+        f"Friction of all {len(curves)} points is the same within its errors: so is Coulomb friction, and nothing "
+        "tells that it comes from the rubber's loss; measure over more speeds and temperatures, or separate the two."
+    )
+    return (Note("constant-friction", said),)
