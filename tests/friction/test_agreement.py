@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
-from viscofric.errors import InputError
+from friction.refused import refused
 from viscofric.friction.agreement import compare
 
 SPEED = np.tile([0.05, 0.1], 2)
@@ -68,13 +68,13 @@ def test_honest_errors_hold_95_percent_of_the_points() -> None:
 def test_a_point_without_its_prediction_is_an_error(speed: float, temperature: float, load: float) -> None:
     measured = friction_curves(np.array([0.05]), np.array([303.15]), np.array([0.03]))
     elsewhere = friction_curves(np.array([speed]), np.array([temperature]), np.array([0.03]), load=load)
-    with pytest.raises(InputError, match=r"measured at 30\.00 °C, 50 mm/s and 25 N has no prediction"):
+    with refused("no-prediction"):
         compare(measured, elsewhere)
 
 
 def test_relative_differences_need_friction_above_zero() -> None:
     measured = friction_curves(np.array([0.05]), np.array([303.15]), np.array([-0.001]))
-    with pytest.raises(InputError, match="must be above zero everywhere"):
+    with refused("friction-not-positive"):
         compare(measured, measured)
 
 
@@ -92,7 +92,7 @@ def test_the_materials_own_error_counts_as_one_error_of_all_points() -> None:
     assert (counted.share_within_error, counted.material_counted) == (1.0, True)
     assert counted.bias_error == pytest.approx(np.hypot(0.01 / 3.0, 0.02))
     np.testing.assert_allclose(counted.bias_error_at, counted.bias_error)
-    assert "the material's own counted" in str(counted)
+    assert counted.material_counted
 
 
 def test_the_bias_scatters_as_its_standard_error_says() -> None:
@@ -114,7 +114,6 @@ def test_an_unknown_error_is_said_to_be_unknown() -> None:
     agreement = compare(measured, friction_curves(SPEED, TEMPERATURE, np.full(4, 0.021)))
     # 1e-3 is ten of the three known errors; the infinite one does not count.
     assert (agreement.share_within_error, agreement.with_error) == (0.0, 3)
-    assert "standard error of unknown error" not in str(agreement)
     assert "of unknown standard error" in str(agreement)
 
 
@@ -157,7 +156,7 @@ def test_a_wrong_alpha_shows_between_the_curves_but_not_between_the_master_curve
     assert along.bias == pytest.approx(0.02, abs=1e-3)
     assert along.not_covered == len(measured) - along.points > 0  # the wrong α reaches less far
     assert str(along).startswith(f"On the master curve, over {along.points} points the predicted friction is 2.0 %")
-    assert f"{along.not_covered} more lie where the predicted master curve does not reach" in str(along)
+    assert f"{along.not_covered} more lie outside the predicted master curve" in str(along)
 
 
 def test_the_materials_error_is_read_along_the_master_curve() -> None:
@@ -173,18 +172,18 @@ def test_the_materials_error_is_read_along_the_master_curve() -> None:
 def test_master_curves_that_cannot_be_compared_are_refused() -> None:
     curves = friction_of(WLF)
     master = vf.shift_friction(curves, shift=WLF)
-    with pytest.raises(InputError, match="one is a master curve and the other is not"):
+    with refused("one-master-curve"):
         compare(master, curves)  # type: ignore[call-overload]
-    with pytest.raises(InputError, match=r"different references, 30\.00 and 40\.00 °C"):
+    with refused("different-references"):
         compare(master, vf.shift_friction(curves, shift=WLF, reference="40 degC"))
     heavier = replace(curves, load=np.full(len(curves), 30.0))
-    with pytest.raises(InputError, match="different loads, 25 and 30 N"):
+    with refused("different-loads"):
         compare(master, vf.shift_friction(heavier, shift=WLF))
     faster = replace(curves, speed=1e4 * curves.speed)
-    with pytest.raises(InputError, match="do not overlap"):
+    with refused("no-overlap"):
         compare(master, vf.shift_friction(faster, shift=WLF))
     sparse = curves.select(np.array([0, len(curves) - 1]))
-    with pytest.raises(InputError, match="points there lie more than half a decade apart"):
+    with refused("sparse-prediction"):
         compare(
             vf.shift_friction(curves.select(np.arange(1, len(curves) - 1)), shift=WLF),
             vf.shift_friction(sparse, shift=WLF),
@@ -200,7 +199,7 @@ def test_runs_that_are_not_separated_yet_are_no_friction_curves(what: str) -> No
         "shifted": lambda: vf.shift_friction(runs),  # type: ignore[arg-type]
         "checked": lambda: vf.check_assumptions(vf.synthetic_fluoroelastomer(), vf.Ball(radius=0.01), runs),  # type: ignore[arg-type]
     }
-    with pytest.raises(InputError, match=r"must be FrictionCurves, as separate\(\) gives them, not TractionRuns"):
+    with refused("not-friction-curves"):
         uses[what]()
 
 

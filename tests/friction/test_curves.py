@@ -10,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
+from friction.refused import refused
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.tribometry import separate
@@ -108,7 +109,7 @@ def test_curves_of_line_contacts_count_their_load_per_length(rubber: vf.Material
     assert curves.load_unit == "N/m"
     assert curves.to_dataset()["load"].attrs["units"] == "N/m"
     assert len(curves.at_load("202 N/m")) == 2
-    with pytest.raises(InputError, match="the loads run from 200 to 200 N/m"):
+    with refused("no-such-load"):
         curves.at_load("300 N/m")
     with pytest.raises(InputError, match="load = '2 N': has the wrong kind of unit"):
         predict_friction(rubber, vf.Cylinder("1 cm"), speeds=0.1, temperatures=320.0, load="2 N")
@@ -116,7 +117,7 @@ def test_curves_of_line_contacts_count_their_load_per_length(rubber: vf.Material
         vf.solve_steady(rubber, shape, speed=0.1, load=load, temperature=320.0, accuracy=0.1)
         for shape, load in ((vf.Cylinder("10 mm"), 200.0), (BALL, 2.0))
     )
-    with pytest.raises(InputError, match="point and of line contacts"):
+    with refused("mixed-geometries"):
         FrictionCurves.from_solutions([line, point])
     with pytest.raises(InputError, match="must be an indenter"):
         predict_friction(rubber, "ball", speeds=0.1, temperatures=320.0, load=2.0)  # type: ignore[arg-type]
@@ -166,9 +167,9 @@ def test_solutions_moving_either_way_give_the_same_curve(rubber: vf.Material) ->
     assert forth.warnings
     assert len(curves.notes) == 1
     assert "2 of 2 contacts" in curves.notes[0]
-    with pytest.raises(InputError, match="temperature of a contact solution is missing"):
+    with refused("no-temperature"):
         FrictionCurves.from_solutions([replace(forth, temperature=None)])
-    with pytest.raises(InputError, match="must be finite and not zero"):
+    with refused("no-speed"):
         FrictionCurves.from_solutions([replace(forth, speed=0.0)])
 
 
@@ -177,9 +178,10 @@ def test_one_temperature_is_picked_in_ascending_speed() -> None:
     warm = curves.at_temperature("30 degC")
     np.testing.assert_array_equal(warm.speed, [0.1, 0.2])
     np.testing.assert_array_equal(warm.viscoelastic, [1.0, 2.0])
-    with pytest.raises(InputError, match=r"temperature = 40\.0 °C: .*at 30\.1, 60\.1 °C"):
+    with refused("no-such-temperature") as caught:
         curves.at_temperature("40 degC")
-    with pytest.raises(InputError, match="no entry is within 5 %"):
+    assert "30.1, 60.1 °C" in str(caught.value)
+    with refused("no-such-load"):
         curves.at_load(10.0)
 
 
@@ -203,11 +205,11 @@ def test_columns_are_checked_and_frozen() -> None:
     curves = friction_curves(np.array([0.1]), np.array([303.15]), np.array([0.03]))
     with pytest.raises(ValueError, match="read-only"):
         curves.viscoelastic[0] = 1.0
-    for name, value, message in (
-        ("speed", [0.0], "speed of friction curves must be above zero"),
-        ("viscoelastic", [np.nan], "viscoelastic of friction curves must be finite"),
-        ("viscoelastic_error", [np.nan], "viscoelastic_error of friction curves must be zero or above"),
-        ("coulomb", [1.0, 2.0], "coulomb of friction curves must hold one value"),
+    for name, value, code in (
+        ("speed", [0.0], "not-positive"),
+        ("viscoelastic", [np.nan], "not-finite"),
+        ("viscoelastic_error", [np.nan], "negative"),
+        ("coulomb", [1.0, 2.0], "wrong-length"),
     ):
-        with pytest.raises(InputError, match=message):
+        with refused(code):
             replace(curves, **{name: np.array(value)})

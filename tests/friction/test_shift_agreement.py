@@ -9,8 +9,8 @@ from importlib.resources import as_file, files
 import numpy as np
 import pytest
 
+from friction.refused import refused
 from friction.synthetic_curves import planted_law, synthetic_curves
-from viscofric.errors import InputError
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import ShiftAgreement, compare_shift_factors
 from viscofric.readers import read_dma
@@ -115,12 +115,12 @@ def test_a_master_curve_shifted_by_a_law_holds_its_factors() -> None:
 
 def test_what_cannot_be_compared_is_refused() -> None:
     table = factors(0.02, np.random.default_rng(1))
-    with pytest.raises(InputError, match="found must be ShiftFactors or a FrictionMasterCurve"):
+    with refused("no-shift"):
         compare_shift_factors(LAW, table)  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="other must be ShiftFactors, a law, or what has them, not dict"):
+    with refused("no-shift"):
         compare_shift_factors(table, {})  # type: ignore[arg-type]
     apart = ShiftFactors([303.15, 304.0], [0.0, -0.05], 303.15)
-    with pytest.raises(InputError, match=r"no temperature in common beside the reference, 30\.0 °C"):
+    with refused("nothing-to-compare"):
         compare_shift_factors(table, apart)
 
 

@@ -1,4 +1,4 @@
-"""How well predicted friction agrees with measured friction: bias, root mean square, share within error."""
+"""Agreement of predicted with measured friction: bias, root mean square difference, share within error."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class Agreement:
     share_within_error : float or None
         Share of the points where predicted and measured differ by at most twice the combined standard error
         √(s² + e² + m²), with s the standard error of the measured mean, e the numerical error of the prediction and m
-        the standard error that the material's own leaves on it, where the prediction carries one.  Points whose s is
-        not known (infinite) do not count; None if there are no others.
+        its standard error due to the material, where the prediction has one.  Points whose s is
+        not known (infinite) are left out; None if there are no others.
     points : int
     temperature : (k,) array
         Different temperatures, K, ascending.
@@ -47,9 +47,9 @@ class Agreement:
     relative_difference : (n,) array
         d in the order of the measured points.
     bias_error : float
-        Standard error of `bias`; s and e are taken to be independent from point to point, m to be one error of all,
-        which makes most of it.  Infinite if any s is.  What all speeds of a run share, which `separate` notes with its
-        size, is to be added.
+        Standard error of `bias`; s and e are taken as independent from point to point, m as one error of all points,
+        the least favourable case.  Infinite if any s is.  It does not include errors that all speeds of a run share;
+        `separate` notes their size.
     bias_error_at : (k,) array
     share_within_scatter : float or None
         Share of the points where predicted and measured differ by at most the standard deviation over the measured
@@ -59,11 +59,11 @@ class Agreement:
     repeated : int
         Points that were measured more than once.
     material_counted : bool
-        Whether the prediction carries the material's errors, m.
+        Whether the prediction includes the material's errors, m.
     along_reduced_speed : bool
         Whether master curves were compared, at equal reduced speeds.
     not_covered : int
-        Measured points of a master curve that the predicted one does not reach; they are left out.
+        Measured points of a master curve outside the predicted one; they are left out.
     with_error : int
         Points whose s is known.
     """
@@ -131,8 +131,8 @@ class Agreement:
         where = "On the master curve, over" if self.along_reduced_speed else "Over"
         known = math.isfinite(self.bias_error)
         error = f"standard error ±{100 * self.bias_error:.1f} %" if known else "of unknown standard error"
-        counted = " (the material's own counted)" if self.material_counted else ""
-        said = (
+        counted = " (including the material's)" if self.material_counted else ""
+        words = (
             f"{where} {self.points} points the predicted friction is {abs(100 * self.bias):.1f} % "
             f"{'above' if self.bias >= 0 else 'below'} the measured one on average ({error}), "
             f"{100 * self.rms:.1f} % away from it in root mean square, "
@@ -140,16 +140,16 @@ class Agreement:
         if self.share_within_error is not None:
             of = "of them" if self.with_error == self.points else f"of the {self.with_error} whose error is known"
             share = f"{100 * self.share_within_error:.0f} %"
-            said += f"and within twice the standard error{counted} at {share} {of}"
+            words += f"and within twice the standard error{counted} at {share} {of}"
         else:
-            said += "and no standard error of the measured friction is known"
+            words += "and no standard error of the measured friction is known"
         if self.share_within_scatter is not None:
             share = f"{100 * self.share_within_scatter:.0f} %"
             of = "of them" if self.repeated == self.points else f"of the {self.repeated} that were repeated"
-            said += f"; at {share} {of} it is within the scatter of the replicates"
+            words += f"; at {share} {of} it is within the scatter of the replicates"
         if self.not_covered:
-            said += f"; {self.not_covered} more lie where the predicted master curve does not reach"
-        return said + "."
+            words += f"; {self.not_covered} more lie outside the predicted master curve"
+        return words + "."
 
 
 @overload
@@ -163,10 +163,10 @@ def compare(
 
     Or that of two master curves, at equal reduced speeds.
 
-    Curves are compared at each point with the prediction for its speed and temperature: what is wrong with α(T) and
-    what is wrong with the spectrum count alike.  Master curves are compared at equal reduced speeds, each shifted as it
-    was: measured friction that was shifted by factors found from itself tests the spectrum alone, and what deviates
-    between the curves but not between the master curves is due to α(T).
+    Curves are compared at each point with the prediction for its speed and temperature; errors of α(T) and of the
+    spectrum both show.  Master curves are compared at equal reduced speeds, each with its own shift factors: measured
+    friction shifted by factors found from itself tests the spectrum alone, and a deviation between the curves, but not
+    between the master curves, is due to α(T).
 
     Parameters
     ----------
@@ -174,8 +174,8 @@ def compare(
         With viscoelastic friction above zero.
     predicted : FrictionCurves or FrictionMasterCurve
         Curves solved at the measured points, as with ``speeds=measured.speeds, temperatures=measured.temperatures``
-        (they may hold more of them), or the master curve of predicted ones at the same reference; it is read between
-        its points by its own smoothing.
+        (and perhaps at others), or the master curve of predicted ones at the same reference, which is interpolated by
+        its own smoothing.
 
     Returns
     -------
@@ -218,7 +218,8 @@ def compare(
     if shifted != isinstance(predicted, FrictionMasterCurve):
         raise InputError(
             "measured and predicted: one is a master curve and the other is not; compare curves with curves, or shift "
-            "both with shift_friction."
+            "both with shift_friction.",
+            code="one-master-curve",
         )
     if isinstance(measured, FrictionMasterCurve) and isinstance(predicted, FrictionMasterCurve):
         points = measured.curves
@@ -233,11 +234,11 @@ def compare(
 
 def _insist_on_friction(measured: FrictionCurves) -> None:
     if not len(measured):
-        raise InputError("measured friction curves hold no points; there is nothing to compare.")
+        raise InputError("measured friction curves hold no points; there is nothing to compare.", code="no-points")
     if not np.all(measured.viscoelastic > 0.0):
         raise InputError(
-            "viscoelastic of measured friction curves must be above zero everywhere to tell a relative "
-            f"difference, but one is {measured.viscoelastic.min():.3g}; leave such points out",
+            "viscoelastic of measured friction curves must be above zero everywhere for a relative difference, but "
+            f"one is {measured.viscoelastic.min():.3g}; leave such points out",
             code="friction-not-positive",
             remedy=Remedy(" with select()", "", page="") + ".",
         )
@@ -250,8 +251,7 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     own = np.hypot(measured.viscoelastic_error, pairs.numerical_error)
     material = np.zeros(len(measured)) if pairs.material_error is None else pairs.material_error
     within = np.abs(difference) <= 2.0 * np.hypot(own, material)
-    # An infinite error is one that is not known: no difference is within it.
-    told = np.isfinite(measured.viscoelastic_error)
+    known = np.isfinite(measured.viscoelastic_error)
     repeated = (measured.replicates > 1) & np.isfinite(measured.viscoelastic_scatter)
     in_scatter = np.abs(difference) <= measured.viscoelastic_scatter
     own, material = own / measured.viscoelastic, material / measured.viscoelastic
@@ -260,12 +260,12 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     return Agreement(
         bias=float(relative.mean()),
         rms=_rms(relative),
-        share_within_error=float(within[told].mean()) if np.any(told) else None,
+        share_within_error=float(within[known].mean()) if np.any(known) else None,
         points=len(measured),
         temperature=there,
         bias_at=np.array([relative[group].mean() for group in groups]),
         rms_at=np.array([_rms(relative[group]) for group in groups]),
-        share_within_error_at=np.array([_share(within[group & told]) for group in groups]),
+        share_within_error_at=np.array([_share(within[group & known]) for group in groups]),
         points_at=np.array([np.count_nonzero(group) for group in groups]),
         relative_difference=relative,
         bias_error=_error_of_mean(own, material),
@@ -276,12 +276,12 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
         material_counted=pairs.material_error is not None,
         along_reduced_speed=shifted,
         not_covered=not_covered,
-        with_error=int(np.count_nonzero(told)),
+        with_error=int(np.count_nonzero(known)),
     )
 
 
 def _error_of_mean(independent: Array, common: Array) -> float:
-    """Return the standard error of a mean whose terms have errors of their own and one that all share."""
+    """Return the standard error of a mean whose terms have independent errors and a common one."""
     return float(np.hypot(np.sqrt(np.sum(independent**2)) / independent.size, common.mean()))
 
 

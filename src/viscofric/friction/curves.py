@@ -67,7 +67,7 @@ _LOADS = {"N": "normal load", "N/m": "normal load per length"}
 class FrictionCurves:
     """Viscoelastic (and Coulomb) friction coefficients, one entry per speed and temperature.
 
-    An infinite standard error says that the number beside it could not be found from the data.
+    An infinite standard error means that the number could not be found from the data.
 
     Attributes
     ----------
@@ -88,8 +88,8 @@ class FrictionCurves:
     coulomb, coulomb_error, coulomb_scatter : (n,) array or None
         The same for the Coulomb friction coefficient; None where predicted.
     consistency, consistency_error : (n,) array or None
-        What four sign configurations leave over of three unknowns, (F_I − F_II + F_III − F_IV)/4 over the
-        load, and its standard error: zero within it in a sound measurement.  None where predicted or not
+        Residual of the four sign configurations, which have three unknowns, (F_I − F_II + F_III − F_IV)/4 over the
+        load, and its standard error: zero within that error in a sound measurement.  None where predicted or not
         available.
     source : str
     notes : tuple of str
@@ -101,14 +101,14 @@ class FrictionCurves:
     load_unit : {"N", "N/m"}
         That of the load: of a line contact it is per length.
     material_error : (n,) array or None
-        Standard error that the material's own (of spectrum and shift factors) leaves on predicted friction.
+        Standard error of predicted friction due to the errors of the material, of spectrum and shift factors.
     viscoelastic_lower, viscoelastic_upper : (n,) array or None
-        Limits that hold predicted friction with 95 % probability, as far as the material's errors go.
+        95 % limits of predicted friction due to the errors of the material.
     viscoelastic_freedom, coulomb_freedom : (n,) array or None
         Degrees of freedom behind the standard errors of measured friction, infinite where these are known exactly;
         `interval` uses them.
     assumption : str
-        What was assumed to find the viscoelastic friction, in one sentence; empty where nothing was.
+        The assumption behind the viscoelastic friction, in one sentence; empty where there is none.
 
     Raises
     ------
@@ -165,7 +165,7 @@ class FrictionCurves:
                 object.__setattr__(self, name, _column(getattr(self, name), name, shape))
         replicates = whole_numbers(self.replicates, "replicates of friction curves")
         if replicates.shape != shape:
-            raise InputError("replicates of friction curves must hold one whole number per speed.")
+            raise InputError("replicates of friction curves must hold one whole number per speed.", code="wrong-length")
         object.__setattr__(self, "replicates", replicates)
         check_choice(self.load_unit, "load_unit", "N", "N/m")
         for name in ("source", "assumption"):
@@ -173,7 +173,7 @@ class FrictionCurves:
         object.__setattr__(self, "notes", sentences(self.notes, "notes of friction curves"))
         for name in ("speed", "temperature", "load"):
             if not np.all(getattr(self, name) > 0.0):
-                raise InputError(f"{name} of friction curves must be above zero everywhere.")
+                raise InputError(f"{name} of friction curves must be above zero everywhere.", code="not-positive")
 
     def __len__(self) -> int:
         return len(self.speed)
@@ -216,15 +216,23 @@ class FrictionCurves:
         for solution in solved:
             if not isinstance(solution, ContactSolution):
                 raise InputError(
-                    f"solutions must be ContactSolutions, as solve_steady() gives them, not {type(solution).__name__}."
+                    f"solutions must be ContactSolutions, as solve_steady() gives them, not {type(solution).__name__}.",
+                    code="not-solutions",
                 )
             if solution.temperature is None:
-                raise InputError("temperature of a contact solution is missing; friction curves need one.")
+                raise InputError(
+                    "temperature of a contact solution is missing; friction curves need one.", code="no-temperature"
+                )
             if solution.speed == 0.0 or not math.isfinite(solution.speed):
-                raise InputError(f"speed = {solution.speed:g} m/s of a solution must be finite and not zero.")
+                raise InputError(
+                    f"speed = {solution.speed:g} m/s of a solution must be finite and not zero.", code="no-speed"
+                )
         units = {"N/m" if solution.geometry == "line" else "N" for solution in solved}
         if len(units) > 1:
-            raise InputError("solutions of point and of line contacts, whose loads are per length, make no one curve.")
+            raise InputError(
+                "solutions of point contacts and of line contacts, whose loads are per length, do not form one curve.",
+                code="mixed-geometries",
+            )
         return cls(
             speed=np.array([abs(solution.speed) for solution in solved]),
             temperature=np.array([solution.temperature for solution in solved], dtype=float),
@@ -241,14 +249,14 @@ class FrictionCurves:
     def interval(
         self, level: float = 0.95, *, of: Literal["viscoelastic", "coulomb"] = "viscoelastic"
     ) -> tuple[Array, Array]:
-        """Return the limits that hold a measured friction coefficient with the probability `level`.
+        """Return the confidence limits of a measured friction coefficient.
 
         Student's t with the degrees of freedom behind the standard errors; normal where these are not known.
 
         Parameters
         ----------
         level : float
-            Between 0 and 1.
+            Probability between the limits, between 0 and 1.
         of : {"viscoelastic", "coulomb"}
 
         Returns
@@ -267,7 +275,9 @@ class FrictionCurves:
         check_choice(of, "of", "viscoelastic", "coulomb")
         value, error, freedom = (getattr(self, name) for name in (of, f"{of}_error", f"{of}_freedom"))
         if value is None or error is None:
-            raise InputError(f"of = {of!r}: these friction curves hold no such coefficient with a standard error.")
+            raise InputError(
+                f"of = {of!r}: these friction curves have no such coefficient with a standard error.", code="not-known"
+            )
         freedom = np.full(len(self), np.inf) if freedom is None else freedom
         known = np.isfinite(error)
         student = known & np.isfinite(freedom) & (freedom > 0.0)
@@ -306,7 +316,8 @@ class FrictionCurves:
             known = ", ".join(f"{celsius(float(one)):.1f}" for one in there) or "none"
             raise InputError(
                 f"temperature = {celsius(wanted):.1f} °C: there is no friction curve within "
-                f"{SAME_TEMPERATURE:g} K of it; those there are at {known} °C."
+                f"{SAME_TEMPERATURE:g} K of it; known temperatures: {known} °C.",
+                code="no-such-temperature",
             )
         nearest = there[np.argmin(np.abs(there - wanted))]
         rows = np.flatnonzero(self.temperature == nearest)
@@ -330,7 +341,9 @@ class FrictionCurves:
         keep = np.abs(self.load - wanted) <= SAME_LOAD * wanted
         if not np.any(keep):
             loads = f"run from {self.load.min():.3g} to {self.load.max():.3g} {unit}" if len(self) else "are none"
-            raise InputError(f"load = {wanted:g} {unit}: no entry is within 5 % of it; the loads {loads}.")
+            raise InputError(
+                f"load = {wanted:g} {unit}: no entry is within 5 % of it; the loads {loads}.", code="no-such-load"
+            )
         return self.select(keep)
 
     def to_dataset(self) -> xarray.Dataset:
@@ -355,24 +368,27 @@ class FrictionCurves:
 def insist_on_curves(given: object, name: str) -> FrictionCurves:
     """Return friction curves; raise `InputError` where something else is given, such as runs not yet separated."""
     if not isinstance(given, FrictionCurves):
-        raise InputError(f"{name} must be FrictionCurves, as separate() gives them, not {type(given).__name__}.")
+        raise InputError(
+            f"{name} must be FrictionCurves, as separate() gives them, not {type(given).__name__}.",
+            code="not-friction-curves",
+        )
     return given
 
 
 def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
     column = read_only(values, f"{name} of friction curves")
     if column.shape != shape:
-        raise InputError(f"{name} of friction curves must hold one value per speed.")
+        raise InputError(f"{name} of friction curves must hold one value per speed.", code="wrong-length")
     if name.endswith(("_error", "_scatter", "_freedom")):
         if not np.all(column >= 0.0):
-            raise InputError(f"{name} of friction curves must be zero or above everywhere.")
+            raise InputError(f"{name} of friction curves must be zero or above everywhere.", code="negative")
     elif not np.all(np.isfinite(column)):
-        raise InputError(f"{name} of friction curves must be finite everywhere.")
+        raise InputError(f"{name} of friction curves must be finite everywhere.", code="not-finite")
     return column
 
 
 def _warnings(solutions: tuple[ContactSolution, ...]) -> tuple[str, ...]:
-    """Say once what many solutions warn of."""
+    """Return the warnings of many solutions, each once."""
     warned = [solution for solution in solutions if solution.warnings]
     if not warned:
         return ()

@@ -1,4 +1,4 @@
-"""Measured points of friction beside what is predicted for each: at the same point, or at the same reduced speed."""
+"""Pairs of measured and predicted friction, at the same conditions or at the same reduced speed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _ROUNDING = 1e-9
 
 
 class Pairs(NamedTuple):
-    """Measured points and what is predicted for each of them."""
+    """Measured points, (n,) each, and the prediction for each of them."""
 
     measured: FrictionCurves
     predicted: Array
@@ -33,7 +33,7 @@ class Pairs(NamedTuple):
 
 
 def point_by_point(measured: FrictionCurves, predicted: FrictionCurves) -> Pairs:
-    """Find the prediction for the speed, temperature and load of each measured point, or raise `InputError`."""
+    """Return the prediction for the speed, temperature and load of each measured point, or raise `InputError`."""
     rows = np.array([_partner(measured, row, predicted) for row in range(len(measured))])
     material = predicted.material_error
     return Pairs(
@@ -45,24 +45,26 @@ def point_by_point(measured: FrictionCurves, predicted: FrictionCurves) -> Pairs
 
 
 def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMasterCurve) -> Pairs:
-    """Read the predicted master curve at the reduced speeds of the measured points, where it reaches them.
+    """Interpolate the predicted master curve at the reduced speeds of the measured points, where it is known.
 
     Raises
     ------
     InputError
-        If references or loads differ, or no point is reached.
+        If references or loads differ, or the curves do not overlap.
     """
     if abs(measured.reference - predicted.reference) > _SAME_TEMPERATURE:
         raise InputError(
             f"master curves have different references, {celsius(measured.reference):.2f} and "
-            f"{celsius(predicted.reference):.2f} °C; give shift_friction the same reference for both."
+            f"{celsius(predicted.reference):.2f} °C; give shift_friction the same reference for both.",
+            code="different-references",
         )
     loads = measured.load, predicted.load
     if abs(loads[0] - loads[1]) > SAME_LOAD * loads[0]:
         unit = measured.curves.load_unit
         raise InputError(
             f"master curves are of different loads, {loads[0]:.3g} and {loads[1]:.3g} {unit}; predict friction at the "
-            "measured load."
+            "measured load.",
+            code="different-loads",
         )
     points = measured.curves_at_load
     reduced = points.speed * np.asarray(measured.shift(points.temperature))
@@ -73,13 +75,15 @@ def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMaster
         low, high = predicted.reduced_range
         if low <= reduced.max() and reduced.min() <= high:
             raise InputError(
-                "the predicted master curve cannot be read at any of the measured reduced speeds: its points there lie "
-                "more than half a decade apart; predict friction at more of them."
+                "the predicted master curve cannot be interpolated at any of the measured reduced speeds: its points "
+                "there lie more than half a decade apart; predict friction at more speeds.",
+                code="sparse-prediction",
             )
         raise InputError(
             f"master curves do not overlap: friction was measured at reduced speeds from {reduced.min():.3g} to "
             f"{reduced.max():.3g} m/s and predicted from {low:.3g} to {high:.3g} m/s, both at "
-            f"{celsius(measured.reference):.1f} °C."
+            f"{celsius(measured.reference):.1f} °C.",
+            code="no-overlap",
         )
     reduced = reduced[covered]
     friction = np.asarray(predicted(reduced))
@@ -103,7 +107,7 @@ def _material_error(predicted: FrictionMasterCurve, reduced: Array, friction: Ar
 
 
 def _partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> int:
-    """Row of the prediction that belongs to a measured point."""
+    """Return the row of the prediction that belongs to a measured point."""
     speed, temperature, load = measured.speed[row], measured.temperature[row], measured.load[row]
     same = np.abs(predicted.speed - speed) <= _SAME_SPEED * speed
     same &= np.abs(predicted.temperature - temperature) <= _SAME_TEMPERATURE
@@ -112,7 +116,8 @@ def _partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> i
         raise InputError(
             f"the point measured at {celsius(float(temperature)):.2f} °C, {1e3 * speed:.5g} mm/s and "
             f"{load:.3g} N has no prediction; predict friction at measured.speeds, measured.temperatures "
-            "and the measured load."
+            "and the measured load.",
+            code="no-prediction",
         )
     candidates = np.flatnonzero(same)
     return int(candidates[np.argmin(np.abs(predicted.load[candidates] - load))])

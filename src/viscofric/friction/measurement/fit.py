@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Integers
     from viscofric.friction.measurement.conditions import Condition
-    from viscofric.friction.measurement.uneven import Growth
+    from viscofric.friction.measurement.growth import Growth
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 

@@ -27,9 +27,9 @@ class Collapse:
     rms : float or None
         Root mean square of the relative differences.
     error : float or None
-        What it would be from the standard errors alone.
+        The value expected from the standard errors alone.
     points : int
-        Points behind it.
+        Points compared.
     """
 
     rms: float | None

@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 
 #: Steps that the fit moves further from where a pair coincides are not that pair's, decades.
 _NEAR = 0.2
-#: From here on marginal overlap is told, variances.
-WORTH_TELLING = 1.5
-#: Fitted curves overlap for sure if they would after being pulled apart by so many standard errors of their step.
+#: Variances that grow by more than this factor are noted.
+NOTED = 1.5
+#: Fitted curves overlap significantly if they still do after a shift by so many standard errors of their step.
 SURE = 2.0
 #: By which variances grow at most because the scatter is found from few points.
 LARGEST_FACTOR = 5.0
@@ -47,7 +47,7 @@ CONSTANT = 1e-4
 
 
 def widening(margin: float) -> float:
-    """Return what the variance of a shift grows by as its overlap is known only from having been found.
+    """Return the factor by which the variance of a shift grows because its overlap was selected.
 
     With D standard errors between the shift and the end where curves no longer overlap, found if D > 3, the true
     distance δ has the likelihood φ(D − δ)/Φ(δ − 3); with any δ ≥ 0 as likely as another, this is the mean of (D − δ)².
@@ -97,16 +97,16 @@ def widened(covariance: Array, factors: Array, at_reference: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class FoundShifts:
-    """What friction curves tell of α(T).
+    """Shift factors found from friction curves.
 
     Attributes
     ----------
     factors : ShiftFactors
-        Of the temperatures that reach each other.
+        Of the temperatures whose curves overlap.
     members : tuple of int
         Their places among all temperatures.
     notes : tuple of str
-        What was left out, one sentence each.
+        Temperatures left out, one sentence each.
     """
 
     factors: ShiftFactors
@@ -119,10 +119,10 @@ def found_shifts(
 ) -> FoundShifts:
     """Find the shift factors that bring friction curves onto one smooth curve.
 
-    Pairs of temperatures are scanned for steps at which their curves coincide (`pairs`), the curves that reach each
-    other are put together roughly (`placement`), and all are brought onto one penalised spline at once, as moduli are
-    (`rheology.superposition.common_shifts`).  Overlaps that the fitted shifts and their errors do not confirm count
-    for nothing.
+    Pairs of temperatures are scanned for steps at which their curves coincide, overlapping curves are arranged roughly
+    (both in `placement`), and all are brought onto one penalised spline at once, as moduli are
+    (`rheology.superposition.common_shifts`).  Overlaps that the fitted shifts and their errors do not confirm are
+    dropped.
 
     Parameters
     ----------
@@ -136,7 +136,8 @@ def found_shifts(
     Raises
     ------
     SuperpositionError
-        If no curve overlaps with another one (that of the reference), friction is too flat, or it fits in two ways.
+        If no curve overlaps with another one, or none with that of the reference; if friction is too flat, or fits in
+        more than one way.  Codes: see `refusals`.
     InputError
         If the reference lies outside the temperatures, or between groups that do not overlap.
     """
@@ -175,18 +176,20 @@ def found_shifts(
 def _check(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> None:
     if len(isotherms) < 2:
         raise SuperpositionError(
-            f"friction curves at one temperature, {shown(isotherms[0])}, hold no shift factor; give two or more."
+            f"friction curves at one temperature, {shown(isotherms[0])}, have no shift factor; give two or more.",
+            code="one-temperature",
         )
     low, high = isotherms[0].temperature, isotherms[-1].temperature
     if reference is not None and not low - NOMINAL <= reference <= high + NOMINAL:
         raise InputError(
             f"reference = {celsius(reference):z.1f} °C lies outside the friction curves, {shown(isotherms[0])} to "
-            f"{shown(isotherms[-1])}{kelvin_hint(reference)}."
+            f"{shown(isotherms[-1])}{kelvin_hint(reference)}.",
+            code="reference-outside",
         )
 
 
 def _group(found: list[list[int]], doubts: Doubts, *, fitted: bool = False) -> list[int]:
-    """Return the group of temperatures that the reference belongs to, or the largest one.
+    """Return the largest group of temperatures that covers the reference.
 
     Raises
     ------
@@ -200,7 +203,7 @@ def _group(found: list[list[int]], doubts: Doubts, *, fitted: bool = False) -> l
 
 
 def _may_be_constant(chosen: Sequence[FrictionIsotherm], isotherms: Sequence[FrictionIsotherm], scale: float) -> bool:
-    """Whether friction of the chosen temperatures differs no more than its scatter, that of all, makes it (F test)."""
+    """Whether friction of the chosen temperatures differs by no more than its scatter (F test)."""
     from scipy.special import fdtrc
 
     friction = np.concatenate([isotherm.friction for isotherm in chosen])
@@ -231,22 +234,22 @@ def _at_reference(chosen: Sequence[FrictionIsotherm], reference: float) -> tuple
 
 
 def _marginal(chosen: Sequence[FrictionIsotherm], factors: Array) -> tuple[str, ...]:
-    """Say where curves overlap so little that finding it was a matter of chance."""
-    found = np.flatnonzero(factors > WORTH_TELLING)
+    """Return where curves overlap so little that their overlap was found by chance."""
+    found = np.flatnonzero(factors > NOTED)
     if not found.size:
         return ()
     places = ", ".join(f"{shown(chosen[one])} and {shown(chosen[one + 1])}" for one in found.tolist())
-    told = Note(
+    note = Note(
         "marginal-overlap",
-        f"Between {places} friction curves overlap so little for their errors that chance might have hidden it; what "
-        f"is found then is off to one side, so that standard errors of the shift there are made up to "
-        f"{math.sqrt(float(factors.max())):.2g} times as large.",
+        f"The friction curves at {places} overlap little for their errors. Such overlaps are found by chance, with "
+        " shifts that err to one side; their standard errors are therefore enlarged, up to "
+        f"{math.sqrt(float(factors.max())):.2g} times.",
     )
-    return (told,)
+    return (note,)
 
 
 def _of_levels(chosen: Sequence[FrictionIsotherm], values: Array, reference: float, level_error: float) -> Array:
-    """Return the covariance (n, n) that errors of the isotherms' levels make: each is moved by one, all fitted anew."""
+    """Return the covariance (n, n) due to errors of the isotherms' levels, by fitting again with each one changed."""
     moves = []
     for place, isotherm in enumerate(chosen):
         moved = [*chosen[:place], isotherm.raised(level_error), *chosen[place + 1 :]]
@@ -255,7 +258,7 @@ def _of_levels(chosen: Sequence[FrictionIsotherm], values: Array, reference: flo
 
 
 def _overlaps(chosen: Sequence[FrictionIsotherm], values: Array, covariance: Array) -> list[tuple[int, int]]:
-    """Return the pairs whose curves lie over each other for sure, by enough points of each."""
+    """Return the pairs whose curves overlap significantly, by enough points of each."""
     found = []
     for one, other in combinations(range(len(chosen)), 2):
         colder, warmer = chosen[one].speed + values[one], chosen[other].speed + values[other]

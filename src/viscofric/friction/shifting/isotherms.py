@@ -1,4 +1,4 @@
-"""Friction of one temperature as the search for shift factors takes it: logarithms, variances, a smooth curve."""
+"""Friction at one temperature for the search for shift factors: logarithms, variances, a smooth curve."""
 
 from __future__ import annotations
 
@@ -126,9 +126,9 @@ def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
 
 
 def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
-    """Return what the variances are to be multiplied by, from the scatter about the isotherms' own curves.
+    """Return the factor of the variances, from the scatter about the isotherms' own curves.
 
-    None without a degree of freedom to tell.
+    None without a degree of freedom.
     """
     several = [isotherm.curves for isotherm in isotherms if len(isotherm) > 3]
     freedom = sum(curves.freedom for curves in several)

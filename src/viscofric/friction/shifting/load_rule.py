@@ -1,4 +1,4 @@
-"""How friction at one load follows from that at another: indenters whose contacts at all loads are alike."""
+"""Friction at one load from that at another, for indenters whose contacts at all loads are similar."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _EXPONENTS: dict[type[Indenter], tuple[float, float]] = {
     Cylinder: (0.5, 0.5),
     Cone: (0.5, 0.0),
 }
-# What is in proportion to viscoelastic friction.
+# Columns in proportion to viscoelastic friction.
 _OF_FRICTION = (
     "viscoelastic",
     "viscoelastic_error",
@@ -74,8 +74,9 @@ class LoadRule:
         if exponents is None:
             noun = indenter.noun if isinstance(indenter, Indenter) else type(indenter).__name__
             raise InputError(
-                f"indenter of friction curves is a {noun}: contacts at different loads are alike for a Ball, "
-                "Ellipsoid, Cylinder or Cone only; leave it out and take curves of one load."
+                f"indenter of friction curves is a {noun}: contacts at different loads are similar for a Ball, "
+                "Ellipsoid, Cylinder or Cone only; leave it out and take curves of one load.",
+                code="no-load-rule",
             )
         return cls(*exponents)
 

@@ -1,4 +1,4 @@
-"""One friction curve of all temperatures: friction against the reduced speed α(T) v, and back to μ(v, T)."""
+"""Friction master curve: friction of all temperatures against the reduced speed α(T) v, and μ(v, T) from it."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ class FrictionMasterCurve:
     Called with a speed and a temperature it gives μ(v, T).  The value is that of a local quadratic regression
     in log10(αv): tricube kernel of half-width 0.25 decades, wider where points are sparse so that it reaches
     the five nearest; every point weighs 1/(s² + m²), s its own standard error, m the median of all.  From 10
-    points without noise per decade it is true to 0.5 % around a maximum where the slope of log μ over log v
+    points without noise per decade it is accurate to 0.5 % around a maximum where the slope of log μ over log v
     changes by 1 per decade, and to 1 % at the sharpest there is, that of one retardation time.  Stretches
-    wider than half a decade without points are not bridged, and nothing is extrapolated: beyond what was measured
-    a material predicts.
+    wider than half a decade without points are not bridged, and nothing is extrapolated; use `predict_friction`
+    beyond the measured range.
 
-    With a load rule, that of an indenter whose contacts are alike at all loads, the curve holds at one load and
-    without vertical shift, and gives friction at any: μ(v, T, F) = f^q μ(α(T) v/f^p, reference, load), with
+    With a load rule, that of an indenter whose contacts are similar at all loads, the curve holds at one load and
+    without vertical shift, and gives friction at any load: μ(v, T, F) = f^q μ(α(T) v/f^p, reference, load), with
     f = F/(b(T) load); p = q = 1/3 for a ball or ellipsoid, 1/2 for a cylinder, p = 1/2 and q = 0 for a cone.
 
     Attributes
@@ -60,13 +60,13 @@ class FrictionMasterCurve:
     load : float
         At which the curve holds, in the curves' `load_unit`.
     load_rule : LoadRule or None
-        How it gives friction at other loads; None if it does not.
+        Relation to friction at other loads; None without one.
     vertical_shift : VerticalShift or None
         b(T), 1 at the reference; None for b = 1.
     found : bool
         Whether the shift factors were found from the curves.
     notes : tuple of str
-        What was left out, one sentence each.
+        Temperatures left out and doubts, one sentence each.
     """
 
     reduced_speed: Array
@@ -89,9 +89,9 @@ class FrictionMasterCurve:
 
     @property
     def curves_at_load(self) -> FrictionCurves:
-        """What was shifted, all at the load of the master curve and without vertical shift, in the order of `curves`.
+        """The curves at the load of the master curve and without vertical shift, in the order of `curves`.
 
-        Without a load rule these are the curves themselves.
+        Without a load rule they are `curves`.
         """
         if self.load_rule is None:
             return self.curves
@@ -157,18 +157,18 @@ class FrictionMasterCurve:
     def overlap_rms(self) -> float | None:
         """Root mean square of the relative difference of curves at neighbouring temperatures where they overlap.
 
-        At each point of one, the other one is read by a cubic spline.  None without overlap.
+        The other curve is interpolated by a cubic spline at each point of one.  None without overlap.
         """
         return self.overlap.rms
 
     @property
     def overlap_error(self) -> float | None:
-        """What `overlap_rms` would be from the standard errors alone."""
+        """The value of `overlap_rms` expected from the standard errors alone."""
         return self.overlap.error
 
     @property
     def overlap_points(self) -> int:
-        """Points behind `overlap_rms`."""
+        """Number of points in `overlap_rms`."""
         return self.overlap.points
 
     @property
@@ -207,14 +207,14 @@ class FrictionMasterCurve:
     def standard_error(
         self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
     ) -> Any:
-        """Return the standard error that the points' errors leave on μ(v, T); arguments as in a call.
+        """Return the standard error of μ(v, T) due to the points' errors; arguments as in a call.
 
-        Errors of the shift factors are not in it.
+        It does not include errors of the shift factors.
         """
         return self._read(speed, temperature, load)[1]
 
     def covers(self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None) -> Any:
-        """Say whether μ(v, T) is known: the reduced speed lies where there are points, and α is known at T.
+        """Return whether μ(v, T) is known: the reduced speed lies where there are points, and α is known at T.
 
         Parameters
         ----------
@@ -257,7 +257,8 @@ class FrictionMasterCurve:
         except ValueError:
             raise InputError(
                 f"speed and temperature have {np.size(velocity)} and {np.size(kelvin)} values: must be as "
-                "many, or one of them single."
+                "many, or one of them single.",
+                code="different-lengths",
             ) from None
         if not np.all(velocity > 0.0):
             raise InputError(f"speed must be above zero everywhere, but one is {velocity.min():g} m/s.")
@@ -268,13 +269,14 @@ class FrictionMasterCurve:
         asked = self.load if load is None else positive(load, unit, "load")
         if self.load_rule is None and not abs(asked - self.load) <= SAME_LOAD * self.load:
             raise InputError(
-                f"load = {asked:.3g} {unit}: the master curve holds at {self.load:.3g} {unit}, and friction at other "
-                "loads follows only with the indenter: shift_friction(…, indenter=…)."
+                f"load = {asked:.3g} {unit}: the master curve holds at {self.load:.3g} {unit}; friction at other loads "
+                "needs the indenter: shift_friction(…, indenter=…).",
+                code="indenter-needed",
             )
         return asked / self.load
 
     def _reduced(self, velocity: Array, kelvin: Array, relative: float) -> tuple[Array, Array]:
-        """Return log10 of the reduced speed, and what friction on the curve is to be multiplied by."""
+        """Return log10 of the reduced speed, and the factor of friction on the curve."""
         decades = np.log10(velocity) + np.asarray(self.shift.log10(np.asarray(kelvin)))
         if self.load_rule is None:
             return decades, np.ones(decades.shape)
@@ -302,11 +304,12 @@ class FrictionMasterCurve:
             place = f"{decades:.2g} decades {'below' if reduced < low else 'above'}"
         raise InputError(
             f"reduced speed α(T)·v = {reduced:.3g} m/s at {celsius(self.reference):.1f} °C is not covered: "
-            f"friction is known for {there}, and this lies {place}; a material predicts there (predict_friction)."
+            f"friction is known for {there}, and this lies {place}; predict it there with predict_friction().",
+            code="not-covered",
         )
 
 
 def _values(values: Quantities, unit: str, name: str) -> tuple[Array, bool]:
-    """Convert to SI units in their own shape, and tell whether it is a single value."""
+    """Return values in SI units in their own shape, and whether it is a single one."""
     found = to_si_in_shape(values, unit, name)
     return np.atleast_1d(found), found.ndim == 0

@@ -34,7 +34,7 @@ READING = 0.004
 LARGEST_MISFIT = 25.0
 #: What contradicts a step beside one where curves coincide: χ² larger by so much, three standard deviations.
 CONTRADICTION = 9.0
-#: α falls as temperature rises; so much the other way is not told from that.
+#: α falls as temperature rises; a rise by so much is tolerated.
 WRONG_WAY = 0.05  # decades
 #: Above this part of all steps being possible, the curves are too flat rather than apart.
 FLAT = 0.4
@@ -48,18 +48,18 @@ AS_GOOD = 9.0
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """What a scan of steps between two temperatures finds.
+    """Steps of log10 α between two temperatures at which their curves coincide.
 
     Attributes
     ----------
     steps : (k,) array
-        log10 α of the colder less that of the warmer, all that were tried.
+        log10 α of the colder minus that of the warmer, all that were tried.
     chi2 : (k,) array
         Squared difference of the curves at each, in units of its covariance.
     candidates : tuple of float
         Steps where the curves coincide, each bounded by contradiction on both sides.
     margins : tuple of float
-        How clearly each is bounded, in standard deviations: above the root of `CONTRADICTION`.
+        How clearly each is bounded, in standard deviations; above the root of `CONTRADICTION`.
     verdict : {"overlap", "rising", "flat", "apart"}
         "rising" if the curves coincide only with an α that rises with temperature.
     """
@@ -71,21 +71,14 @@ class Pair:
     verdict: Literal["overlap", "rising", "flat", "apart"]
 
     def cost(self, step: float) -> float:
-        """Return χ² at a step less its expectation; zero where the curves are not over each other."""
+        """Return χ² at a step minus its expectation; zero where the curves do not overlap."""
         if not self.steps.size or not self.steps[0] <= step <= self.steps[-1]:
             return 0.0
         return float(np.interp(step, self.steps, self.chi2)) - len(PLACES)
 
 
 def scan(colder: FrictionIsotherm, warmer: FrictionIsotherm, scale: float) -> Pair:
-    """Slide one curve along the other.
-
-    Parameters
-    ----------
-    colder, warmer : FrictionIsotherm
-    scale : float
-        What the variances of both are to be multiplied by.
-    """
+    """Compare two curves at all steps between them; `scale` multiplies the variances of both."""
     steps = _steps(colder, warmer)
     if not steps.size:
         return Pair(steps, steps, (), (), "apart")
@@ -154,14 +147,14 @@ def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float, float]]:
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """One way to put some of the friction curves over each other.
+    """One arrangement of some of the friction curves over each other.
 
     Attributes
     ----------
     positions : dict of int to float
         log10 α by the place of the temperature, the coldest one's zero.
     cost : float
-        Sum of squared differences of all pairs less its expectation.
+        Sum of squared differences of all pairs minus its expectation.
     """
 
     positions: dict[int, float]
@@ -214,18 +207,13 @@ def groups(places: Iterable[int], joined: Iterable[tuple[int, int]]) -> list[lis
 
 
 def arrange(members: Sequence[int], pairs: Pairs) -> list[Arrangement]:
-    """Put the curves of a group of temperatures over each other, the best arrangement first.
+    """Return arrangements of the curves of a group of temperatures over each other, the best one first.
 
-    From the coldest on, each is tried wherever it coincides with one that is placed already; what contradicts the
-    others falls behind, so that a curve which coincides in two places with one neighbour finds the right one.  Where
-    α would rise with temperature none is put, and curves that have no place then are left out.
+    From the coldest on, each curve is tried wherever it coincides with one that has a place already.  The best few
+    arrangements are kept, so that a curve which coincides with one neighbour in two places gets the right one.  No α
+    may rise with temperature; curves without a place are left out.
 
-    Parameters
-    ----------
-    members : sequence of int
-        Places of the temperatures, which `pairs` join.
-    pairs : mapping
-        From `scan_pairs`.
+    `members` are the places of the temperatures, which `pairs`, from `scan_pairs`, join.
     """
     found = [Arrangement({members[0]: 0.0}, 0.0)]
     left = list(members[1:])
@@ -248,7 +236,7 @@ def arrange(members: Sequence[int], pairs: Pairs) -> list[Arrangement]:
 
 
 def rivals(found: Sequence[Arrangement]) -> list[int]:
-    """Return the places of temperatures that another arrangement, as good as the best one, puts elsewhere."""
+    """Return the places of temperatures whose position differs in another arrangement as good as the best one."""
     best = found[0]
     return sorted(
         {
@@ -278,7 +266,7 @@ def _positions(arrangement: Arrangement, place: int, pairs: Pairs) -> list[float
 
 
 def _falls(arrangement: Arrangement, place: int, position: float, pairs: Pairs) -> bool:
-    """Whether α falls with temperature if a curve is put at a position, to what pairs by themselves leave open."""
+    """Whether α falls with temperature for a curve at a position, within the tolerance of the pairs."""
     for other, known in arrangement.positions.items():
         step = known - position if other < place else position - known
         if step < min(-WRONG_WAY, *(one - SAME_POSITION for one in _pair(pairs, place, other).candidates), 0.0):

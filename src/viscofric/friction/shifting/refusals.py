@@ -1,4 +1,4 @@
-"""Why friction curves tell no shift factor, in a sentence each."""
+"""Reasons why no shift factor follows from friction curves, as notes."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 #: Code of the notes on temperatures that were left out.
 LEFT_OUT = "curve-left-out"
-#: More temperatures than these are told by their range.
+#: More temperatures than these are given by their range.
 MOST_LISTED = 9
 
 
 @dataclass(eq=False)
 class Doubts:
-    """What is known of why temperatures do not reach each other.
+    """What is known of temperatures whose curves do not overlap.
 
     Attributes
     ----------
@@ -43,44 +43,51 @@ class Doubts:
     elsewhere: list[int] = field(default_factory=list)
 
     def reached_by(self, group: Sequence[int]) -> bool:
-        """Say whether a group of temperatures, in ascending order, has the reference among or between them."""
+        """Whether a group of temperatures, in ascending order, has the reference among or between them."""
         low, high = self.isotherms[group[0]].temperature, self.isotherms[group[-1]].temperature
         return self.reference is None or low - NOMINAL <= self.reference <= high + NOMINAL
 
-    def refusal(self, *, fitted: bool) -> str:
-        """Say why there is nothing to return; `fitted` where overlaps were found that the fit did not confirm."""
-        what = f"friction curves at {_listed(self.isotherms)}"
+    def refusal(self, *, fitted: bool) -> Note:
+        """Return why there are no shift factors; `fitted` where the fit did not confirm overlaps."""
+        curves = f"friction curves at {_listed(self.isotherms)}"
         if self.elsewhere:
             where = _listed([self.isotherms[place] for place in self.elsewhere])
-            return (
-                f"the {what} tell no shift factor, because friction at {where} coincides with the other curves in "
-                "more than one place equally well; measure over more speeds or temperatures in between."
+            return Note(
+                "curves-fit-twice",
+                f"{curves} have no unique shift factors: friction at {where} fits the other curves in more than one "
+                "place equally well; measure at more speeds, or at temperatures in between.",
             )
         if self.reference is not None and not fitted and any(pair.candidates for pair in self.pairs.values()):
-            return (
-                f"no two of the {what} that overlap have the reference, {celsius(self.reference):z.1f} °C, between "
-                "them; choose another reference, or measure temperatures around it or over more speeds."
+            return Note(
+                "reference-not-covered",
+                f"no overlapping {curves} include the reference, {celsius(self.reference):z.1f} °C; choose another "
+                "reference, or measure at temperatures around it or at more speeds.",
             )
         if any(pair.verdict == "rising" for pair in self.pairs.values()):
-            return (
-                f"the {what} coincide only if their shift factors rise with temperature, which those of a rubber never "
-                "do; check temperatures and speeds."
+            return Note(
+                "shift-factors-rise",
+                f"{curves} overlap only if their shift factors rise with temperature, which those of rubber never do; "
+                "check temperatures and speeds.",
             )
         neighbours = [self.pairs[place, place + 1] for place in range(len(self.isotherms) - 1)]
         if all(pair.verdict == "flat" for pair in neighbours):
             return too_flat(self.isotherms)
         lone = [isotherm for isotherm in self.isotherms if len(isotherm) < FEWEST_POINTS]
         if len(lone) > len(self.isotherms) - 2:
-            return f"friction at {_listed(lone)} is known at one speed only; a shift factor needs two or more."
+            return Note(
+                "one-speed",
+                f"friction at {_listed(lone)} is known at one speed only; a shift factor needs two or more.",
+            )
         spans = ", ".join(f"{one.range[0]:.3g} to {one.range[1]:.3g}" for one in self.isotherms[:MOST_LISTED])
-        doubt = " for sure, in view of their errors" if fitted else ""
-        return (
-            f"the {what} do not overlap{doubt}: no shift brings {FEWEST_POINTS} or more points of one over another "
-            f"(friction coefficients from {spans}); measure temperatures in between or over more speeds."
+        doubt = " significantly" if fitted else ""
+        return Note(
+            "no-overlap",
+            f"{curves} do not overlap{doubt}: no shift brings {FEWEST_POINTS} or more points of one over another "
+            f"(friction coefficients: {spans}); measure at temperatures in between, or at more speeds.",
         )
 
     def left_out(self, members: Sequence[int]) -> tuple[Note, ...]:
-        """Say of each temperature that is not among the members why it was left out."""
+        """Return why each temperature that is not among the members was left out."""
         return tuple(
             Note(
                 LEFT_OUT,
@@ -95,24 +102,25 @@ class Doubts:
         if len(own) < FEWEST_POINTS:
             return "it has only one speed"
         if place in self.elsewhere:
-            return "it coincides with the others in more than one place equally well"
+            return "it fits the others in more than one place equally well"
         nearest = min(members, key=lambda member: abs(self.isotherms[member].temperature - own.temperature))
         other = shown(self.isotherms[nearest])
         if self.pairs[min(place, nearest), max(place, nearest)].verdict == "flat":
-            return f"it or the one at {other} is too flat to tell where they overlap"
-        return f"no shift makes it overlap with that at {other} or the others for sure"
+            return f"it or the curve at {other} is too flat to find their overlap"
+        return f"no shift makes it overlap significantly with the curve at {other} or the others"
 
 
 def shown(isotherm: FrictionIsotherm) -> str:
-    """Write the temperature of an isotherm as users read it."""
+    """Return the temperature of an isotherm in °C."""
     return f"{celsius(isotherm.temperature):z.1f} °C"
 
 
-def too_flat(isotherms: Sequence[FrictionIsotherm]) -> str:
-    """Say that friction may as well be constant."""
-    return (
-        f"the friction curves at {_listed(isotherms)} are too flat: friction changes too little with speed for its "
-        "errors, so that any shift factor would do."
+def too_flat(isotherms: Sequence[FrictionIsotherm]) -> Note:
+    """Return that friction may be constant."""
+    return Note(
+        "curves-too-flat",
+        f"friction curves at {_listed(isotherms)} are too flat: friction changes too little with speed for its errors, "
+        "so that any shift factor fits.",
     )
 
 

@@ -36,14 +36,14 @@ def shift_friction(
     load: Quantity | None = None,
     level_error: float = 0.0,
 ) -> FrictionMasterCurve:
-    """Shift friction curves of several temperatures onto one (Eq. 10), by given shift factors or by their own.
+    """Shift friction curves of several temperatures onto one master curve (Eq. 10).
 
-    Without `shift` the shift factors are found from the curves alone: log μ is taken for one smooth function of
-    log(αv), a penalised spline whose smoothness the points decide by restricted maximum likelihood, and all α(T) are
-    sought at once.  Points count by their standard errors relative to each other, and how much they scatter is found
-    too.  Curves overlap only if some shift makes them coincide over two or more points of each, and moving them
-    apart would contradict the points; a spline is never drawn across a gap.  From curves of 10 speeds at 9
-    temperatures with 1.8 % of scatter, the 95 % intervals of α hold 95 %.
+    Without `shift` the shift factors are found from the curves alone: log μ is one smooth function of log(αv), a
+    penalised spline whose smoothness follows from restricted maximum likelihood, and all α(T) are fitted at once.
+    Points are weighted by their standard errors relative to each other; their scatter is estimated too.  Curves overlap
+    only if some shift makes them coincide over two or more points of each, and moving them apart would contradict the
+    points; a spline is never drawn across a gap.  From curves of 10 speeds at 9 temperatures with 1.8 % of scatter, the
+    95 % intervals of α hold 95 %.
 
     Parameters
     ----------
@@ -63,14 +63,14 @@ def shift_friction(
         Of the master curve, with an indenter; the median of the curves' loads if left out.
     level_error : float
         Relative standard error of friction that all points of a temperature share, such as 0.01 for a force cell or
-        for samples that were changed between temperatures, or what runs differ by at all speeds, which `separate`
-        notes with its size; counted in the covariance of found shift factors.
+        for samples changed between temperatures, or the difference of runs at all speeds, which `separate` notes with
+        its size; included in the covariance of the shift factors found.
 
     Returns
     -------
     FrictionMasterCurve
-        With `shift_factors`, a `ShiftFactors` with covariance, to which laws are fitted as to those of a DMA.  What
-        was left out is told in its notes.
+        With `shift_factors`, a `ShiftFactors` with covariance, to which laws are fitted as to those of a DMA.  Its
+        notes name temperatures that were left out.
 
     Raises
     ------
@@ -82,17 +82,16 @@ def shift_friction(
 
     Notes
     -----
-    Of curves that overlap marginally only those are found which chance moved together, so that the shift is off to one
-    side.  Their standard errors are widened, by up to 1.9, as having been found tells of them, and a note says so.
-    95 % intervals then hold 80 to 96 % (before 74 to 79 %) of the shifts of two temperatures of which one pair in four
-    to six is found, 93 % of five temperatures with 10 % of scatter, and 96 to 98 % where friction changes by 0.03
-    decades per decade.
+    Curves that overlap marginally are found only if chance moved them together, so that their shift errs to one side.
+    Their standard errors are enlarged accordingly, by up to 1.9, with a note.  95 % intervals then hold 80 to 96 %
+    (otherwise 74 to 79 %) of the shifts of two temperatures of which one pair in four to six is found, 93 % of five
+    temperatures with 10 % of scatter, and 96 to 98 % where friction changes by 0.03 decades per decade.
 
     Errors of α are those of points that scatter about the common curve independently of each other.  Friction slopes
-    little (0.05 to 0.3 decades per decade), so that what all points of a temperature share moves its α by many times
-    as much: 1 % of friction by 0.014 to 0.09 decades, and the vertical shift of rubber elasticity (`DensityShift`),
-    left out from 30 to 90 °C, by 0.13.  The covariance holds such errors only as far as `level_error` tells of them;
-    a law fitted to the factors adds their scatter about it.
+    little (0.05 to 0.3 decades per decade), so that an error which all points of a temperature share moves its α by
+    many times as much: 1 % of friction by 0.014 to 0.09 decades, and the vertical shift of rubber elasticity
+    (`DensityShift`), left out from 30 to 90 °C, by 0.13.  The covariance holds such errors only as given by
+    `level_error`; a law fitted to the factors adds their scatter about it.
 
     Examples
     --------
@@ -113,12 +112,16 @@ def shift_friction(
     rule = None if indenter is None else LoadRule.of(indenter)
     if indenter is not None and indenter.geometry.load_unit != unit:
         raise InputError(
-            f"load of the friction curves is in {unit}, but a {indenter.noun} takes {indenter.geometry.load_unit}."
+            f"load of the friction curves is in {unit}, but a {indenter.noun} takes {indenter.geometry.load_unit}.",
+            code="load-unit",
         )
     at_load = float(np.median(curves.load)) if load is None else positive(load, unit, "load")
     shared = to_si(level_error, "dimensionless", "level_error")
     if not 0.0 <= shared < 1.0:
-        raise InputError(f"level_error = {level_error!r}: must be zero or above, and below 1 (all of the friction).")
+        raise InputError(
+            f"level_error = {level_error!r}: must be zero or above, and below 1 (all of the friction).",
+            code="level-error",
+        )
     kelvin = None if reference is None else positive(reference, "K", "reference")
     notes: tuple[str, ...] = ()
     found = shift is None
@@ -154,14 +157,14 @@ def shift_friction(
 
 
 def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
-    """Say at how many points friction pulls the indenter along, which that of a rubber cannot."""
+    """Return at how many points friction is negative, which that of rubber cannot be."""
     count = int(np.count_nonzero(curves.viscoelastic < -2.0 * curves.viscoelastic_error))
     if not count:
         return ()
     sentence = Note(
         "friction-below-zero",
         f"Viscoelastic friction is below zero at {count} of {len(curves)} points, by more than twice its standard "
-        "error, which that of a rubber never is; check the signs of the forces.",
+        "error; that of rubber never is; check the signs of the forces.",
     )
     return (sentence,)
 
@@ -173,7 +176,7 @@ def _at_one_load(
 
 
 def _nominal_log10(shift: ShiftLaw, curves: FrictionCurves) -> Array:
-    """Return log10 α at the mean temperature of each isotherm, where it was found."""
+    """Return log10 α (n,) at the mean temperature of each isotherm."""
     kelvin = np.empty(len(curves))
     for rows in nominal_rows(curves.temperature):
         kelvin[rows] = curves.temperature[rows].mean()
@@ -181,26 +184,29 @@ def _nominal_log10(shift: ShiftLaw, curves: FrictionCurves) -> Array:
 
 
 def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: Any, load: Any) -> None:
-    """Raise `InputError` for what cannot be shifted."""
+    """Raise `InputError` for curves or arguments that cannot be used."""
     insist_on_curves(curves, "curves")
     if not len(curves):
-        raise InputError("friction curves hold no points; there is nothing to shift.")
+        raise InputError("friction curves hold no points; there is nothing to shift.", code="no-points")
     if shift is not None and not hasattr(shift, "log10"):
         raise InputError(
             f"shift of friction curves must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}; leave it "
-            "out to have it found from the curves."
+            "out to find it from the curves.",
+            code="not-a-shift",
         )
     if vertical_shift is not None and not isinstance(vertical_shift, VerticalShift):
         raise InputError(
-            f"vertical_shift must be DensityShift or VerticalShiftFactors, not {type(vertical_shift).__name__}."
+            f"vertical_shift must be DensityShift or VerticalShiftFactors, not {type(vertical_shift).__name__}.",
+            code="not-a-vertical-shift",
         )
     if indenter is not None:
         return
     if vertical_shift is not None or load is not None:
         name = "load" if vertical_shift is None else "vertical_shift"
         raise InputError(
-            f"{name} of a friction master curve needs the indenter, which tells how friction depends on load: "
-            "shift_friction(…, indenter=Ball(radius=…))."
+            f"{name} of a friction master curve needs the indenter, from which the effect of load follows: "
+            "shift_friction(…, indenter=Ball(radius=…)).",
+            code="indenter-needed",
         )
     if curves.load.max() > (1.0 + SAME_LOAD) * curves.load.min():
         raise InputError(

@@ -1,4 +1,4 @@
-"""Whether shift factors found in two ways are the same: those of friction beside those of a DMA, in numbers."""
+"""Agreement of shift factors found in two ways, such as from friction and from a DMA."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class ShiftAgreement:
     temperature : (n,) array
         At which they are compared, K; without the reference.
     difference : (n,) array
-        log10 α found less log10 α of the other.
+        log10 α found minus log10 α of the other.
     error : (n,) array
         Its standard error, from both.
     chi2 : float
@@ -53,7 +53,7 @@ class ShiftAgreement:
     p_value : float
         Probability of a χ² as large, if both are the same and their errors are right.
     slope, slope_error : float
-        k and its standard error in log10 α_found = k log10 α_other, errors of both counted: 1 where they coincide.
+        k and its standard error in log10 α_found = k log10 α_other, including errors of both; 1 where they are equal.
     rms : float
         Root mean square difference, decades.
     found : ShiftFactors
@@ -106,7 +106,7 @@ class ShiftAgreement:
 
     @property
     def sentence(self) -> str:
-        """The same in words."""
+        """The agreement in one sentence."""
         where = f"{celsius(float(self.temperature.min())):z.1f} to {celsius(float(self.temperature.max())):z.1f} °C"
         if self.temperature.size == 1:
             where = f"{celsius(float(self.temperature[0])):z.1f} °C"
@@ -132,8 +132,8 @@ def compare_shift_factors(
     found : FrictionMasterCurve or ShiftFactors
         With its covariance; its reference and temperatures are used.
     other : ShiftFactors, a law (WLF, …), Superposition, Material or FrictionMasterCurve
-        Independent of `found`, as the superposition of a DMA or a law fitted to it.  It is brought to the reference of
-        `found` and read at its temperatures; a law without covariance counts as exact.
+        Independent of `found`, such as the superposition of a DMA or a law fitted to it.  It is brought to the
+        reference of `found` and evaluated at its temperatures; a law without covariance is taken as exact.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def compare_shift_factors(
     Raises
     ------
     InputError
-        If they have no temperature in common beside the reference, or `found` is not a table of shift factors.
+        If they have no temperature in common besides the reference, or `found` is not a table of shift factors.
 
     Notes
     -----
@@ -167,21 +167,24 @@ def compare_shift_factors(
     if law is None:
         law = getattr(other, "shift_factors", other)
     if not hasattr(law, "at_reference"):
-        raise InputError(f"other must be ShiftFactors, a law, or what has them, not {type(other).__name__}.")
+        raise InputError(
+            f"other must be ShiftFactors, a law, or have shift factors, not {type(other).__name__}.", code="no-shift"
+        )
     law = law.at_reference(reference)
     keep &= law.valid_at(table.temperatures)
     if not np.any(keep):
         raise InputError(
-            f"the shift factors to compare have no temperature in common beside the reference, "
-            f"{celsius(reference):z.1f} °C."
+            f"the shift factors to compare have no temperature in common besides the reference, "
+            f"{celsius(reference):z.1f} °C.",
+            code="nothing-to-compare",
         )
     kelvin = table.temperatures[keep]
     y, y_spread = table.log10_values[keep], table.covariance[np.ix_(keep, keep)]
     x, x_spread = np.asarray(law.log10(kelvin)), law.covariance_at(kelvin)
     difference, spread = y - x, x_spread + y_spread
-    told = _told(spread)
-    chi2, freedom = _chi2(told @ difference, told @ spread @ told.T), len(told)
-    slope, slope_error = _slope(told @ x, told @ y, told @ x_spread @ told.T, told @ y_spread @ told.T)
+    mix = _independent(spread)
+    chi2, freedom = _chi2(mix @ difference, mix @ spread @ mix.T), len(mix)
+    slope, slope_error = _slope(mix @ x, mix @ y, mix @ x_spread @ mix.T, mix @ y_spread @ mix.T)
     return ShiftAgreement(
         reference=reference,
         temperature=kelvin,
@@ -202,14 +205,14 @@ def _factors(found: Any, name: str) -> ShiftFactors:
     table = getattr(found, "shift_factors", found)
     if not isinstance(table, ShiftFactors):
         raise InputError(
-            f"{name} must be ShiftFactors or a FrictionMasterCurve, which hold a covariance, not "
-            f"{type(found).__name__}."
+            f"{name} must be ShiftFactors or a FrictionMasterCurve, not {type(found).__name__}.",
+            code="no-shift",
         )
     return table
 
 
-def _told(spread: Array) -> Array:
-    """Return the combinations (m, n) of values whose differences mean something.
+def _independent(spread: Array) -> Array:
+    """Return the independent combinations (m, n) of values.
 
     With a reference between temperatures the values around it are tied by interpolation, and there is one less.
     """
@@ -236,7 +239,7 @@ def _slope(x: Array, y: Array, x_spread: Array, y_spread: Array) -> tuple[float,
     """
     slope = float(x @ y / (x @ x)) if np.any(x) else math.nan
     if not math.isfinite(slope):
-        raise InputError("the other shift factors are all 1: there is no slope against them.")
+        raise InputError("the other shift factors are all 1: there is no slope against them.", code="no-slope")
     floor = ROUNDING**2 * np.eye(x.size)
     for _ in range(ITERATIONS):
         inverse = np.linalg.inv(y_spread + slope**2 * x_spread + floor)

@@ -1,4 +1,4 @@
-"""Local quadratic regression: read a scattered curve between its points without assuming a form for it."""
+"""Local quadratic regression: interpolate a scattered curve without assuming a form for it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _COINCIDENT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class SmoothedPoints:
-    """A curve read between scattered points, stretch by stretch.
+    """A curve interpolated between scattered points, stretch by stretch.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class SmoothedPoints:
         return tuple((float(part[0]), float(part[-1])) for part in np.split(self.decades, breaks))
 
     def covers(self, decades: Array) -> Mask:
-        """Say which places lie in a stretch."""
+        """Return which places lie in a stretch."""
         inside = [(decades >= low - _ROUNDING) & (decades <= high + _ROUNDING) for low, high in self.stretches]
         return np.asarray(np.any(inside, axis=0))
 
