@@ -1,4 +1,4 @@
-"""What may be assumed of Coulomb friction where only one direction of slip was measured."""
+"""Assumptions on Coulomb friction where only one direction of slip was measured."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Assumed:
-    """Coulomb friction that the user lets be assumed.
+    """Coulomb friction that is assumed.
 
     Attributes
     ----------
     value, error : float or None
-        Coefficient and its standard error; None where nothing, or only its constancy, is assumed.
+        Coefficient and its standard error; None where nothing, or only a constant one, is assumed.
     constant : bool
         The same at all speeds of a temperature and load.
     """
@@ -35,7 +35,7 @@ class Assumed:
 
     @classmethod
     def of(cls, coulomb: object) -> Assumed:
-        """Understand what the user says."""
+        """Return the assumption behind the argument `coulomb` of `separate`."""
         if coulomb is None:
             return cls()
         if isinstance(coulomb, str) and coulomb.strip().lower() == "constant":
@@ -49,34 +49,35 @@ class Assumed:
         if number < 0.0 or deviation < 0.0:
             raise InputError(
                 f"coulomb = {brief(coulomb)}: must be a friction coefficient such as 0.05, it and its standard error "
-                "as (0.05, 0.01), or 'constant'."
+                "as (0.05, 0.01), or 'constant'.",
+                code="not-a-coefficient",
             )
         return cls(number, deviation)
 
     @property
     def nothing(self) -> bool:
-        """Whether nothing may be assumed."""
+        """Whether nothing is assumed."""
         return self.value is None and not self.constant
 
     def suffices(self, group: Condition, zeros: Zeros) -> bool:
-        """Whether a condition can be separated, by what is assumed if need be."""
+        """Whether a condition can be separated, with the assumption if necessary."""
         return zeros.suffices(group, coulomb=True) or self._helps(group, zeros)
 
     def at(self, group: Condition, zeros: Zeros) -> tuple[float, float] | None:
-        """Coulomb coefficient and standard error to take at a condition; None where it is fitted."""
+        """Return the assumed Coulomb coefficient and its standard error at a condition; None where it is fitted."""
         if zeros.suffices(group, coulomb=True):
             return None
-        # Where it is to be constant it follows from all speeds together, see `completed`.
+        # A constant one follows from all speeds together, see `completed`.
         return (0.0, 0.0) if self.value is None else (self.value, self.error)
 
     def _helps(self, group: Condition, zeros: Zeros) -> bool:
         if self.nothing or not zeros.suffices(group, coulomb=False):
             return False
-        # With both directions of slip a Coulomb force is in the zero that is fitted: no limit follows from it.
+        # With both directions of slip the fitted zero includes a Coulomb force: no limit follows from it.
         return not self.constant or np.unique(group.disc_sign * group.slip_sign).size == 1
 
     def completed(self, fits: list[Fit], entries: list[Entry]) -> tuple[list[Entry], list[int]]:
-        """Part the friction of one direction of slip where Coulomb friction is constant.
+        """Separate the friction of one direction of slip where Coulomb friction is constant.
 
         Its forces along the disc's motion are μ_v ± μ_c, + where the disc is faster than the ball.  Neither is
         negative, so that μ_c is at most the lowest of them with +, and at least the highest of −(μ_v − μ_c) with −.
@@ -98,8 +99,9 @@ class Assumed:
             remaining = [place for place in remaining if place not in alike]
             if np.unique([fits[place].group.speed for place in alike]).size < 2:
                 raise InputError(
-                    f"coulomb = 'constant': at {first} one speed was measured with one direction of slip, so that "
-                    "nothing tells viscoelastic friction; measure more speeds or both directions of slip."
+                    f"coulomb = 'constant': at {first} one speed was measured with one direction of slip, from which "
+                    "viscoelastic friction cannot be found; measure more speeds or both directions of slip.",
+                    code="one-speed",
                 )
             sense = _sense(first)
             friction = np.array([sense * entries[place].value[1] for place in alike])
@@ -110,19 +112,19 @@ class Assumed:
         return entries, places
 
     def sentence(self, some: list[Condition], total: int) -> str:
-        """Name what is assumed and what follows from it; nothing where nothing was."""
+        """Return the assumption at some conditions in a sentence; empty without any."""
         if not some:
             return ""
         if self.constant:
             return (
                 f"{where(some, total)} one direction of slip was measured and Coulomb friction is assumed to be the "
-                "same at all speeds of a temperature, as large as the friction measured allows: the viscoelastic "
-                "friction given is what varies with speed, a lower limit."
+                "same at all speeds of a temperature, as large as the measured friction allows: viscoelastic friction "
+                "is the part that varies with speed, a lower limit."
             )
         size = f"{self.value:g} ± {self.error:g}" if self.error else f"{self.value:g}"
         return (
             f"{where(some, total)} one direction of slip was measured and a Coulomb friction coefficient of {size} is "
-            "assumed: what is wrong with it is wrong with viscoelastic friction in full."
+            "assumed; its error is in viscoelastic friction in full."
         )
 
 
@@ -139,7 +141,7 @@ def _alike(one: Condition, other: Condition) -> bool:
 
 
 def _parted(entry: Entry, sense: float, coulomb: float, limit: Entry) -> Entry:
-    """Take constant Coulomb friction, as that of the condition which limits it, from friction as a whole."""
+    """Subtract constant Coulomb friction, that of the condition which limits it, from total friction."""
     value, error, scatter, freedom = (
         np.array(part) for part in (entry.value, entry.error, entry.scatter, entry.freedom)
     )

@@ -1,4 +1,4 @@
-"""Which readings of a traction test belong together: equal temperature, load, speed and slip."""
+"""Conditions of a traction test: readings of equal temperature, load, speed and slip."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Condition:
 
     @cached_property
     def signs(self) -> frozenset[tuple[int, int]]:
-        """The different sgn(u_disc) and sgn(u_disc − u_ball)."""
+        """The different pairs of sgn(u_disc) and sgn(u_disc − u_ball)."""
         return frozenset((round(one / 3), one - 3 * round(one / 3)) for one in set(self.configurations.tolist()))
 
     @cached_property
@@ -86,11 +86,11 @@ def conditions(
 ) -> tuple[list[Condition], tuple[str, ...]]:
     """Group the readings of a traction test by their measured temperature, load, speed and slip.
 
-    Values are sorted, and a gap wider than the tolerance starts the next nominal value.  The tolerance of the
-    slip ratio follows the measured jitter of the speeds, since slip is a small difference of two of them: it
-    is three standard deviations of that difference, though not below a tenth of the speeds' tolerance.  Slip
-    of either sense within it, or whose mean is within three of its own standard deviations, is pure rolling.
-    Slip that was swept without gaps is cut into intervals four tolerances wide.
+    Values are sorted, and a gap wider than the tolerance starts the next nominal value.  The tolerance of the slip
+    ratio follows from the measured jitter of the speeds, since slip is a small difference of two of them: it is three
+    standard deviations of that difference, at least a tenth of the speeds' tolerance.  Slip of either sense within it,
+    or with a mean within three of its own standard deviations, is pure rolling.  Slip that was swept without gaps is
+    cut into intervals four tolerances wide.
 
     Parameters
     ----------
@@ -108,12 +108,12 @@ def conditions(
     list of Condition
         By temperature, load, speed and slip.
     tuple of str
-        Notes on what was left out, taken for pure rolling, or cut into intervals.
+        Notes on readings left out, taken as pure rolling, or cut into intervals.
 
     Raises
     ------
     InputError
-        If neighbouring values are too close to tell nominal values from each other.
+        If values have no gaps between nominal values.
     """
     moving = np.flatnonzero((runs.disc_speed != 0.0) & (course.speed > 0.0))
     notes = list(course.notes)
@@ -161,12 +161,12 @@ def conditions(
     mean_speed = np.bincount(pace, speed) / np.bincount(pace)
     mean_temperature = np.bincount(isotherm, temperature) / np.bincount(isotherm)
     jitter = _jitter(speed / mean_speed[pace], np.stack([pace, course.slip[moving] > 0.0], axis=1))
-    told = 3.0 * course.slip_scatter * jitter
+    jittering = 3.0 * course.slip_scatter * jitter
     slip = np.abs(runs.disc_speed[moving] - runs.ball_speed[moving])
     disc_sign = np.sign(runs.disc_speed[moving])
     found, swept = [], 0
     for here in _equal_rows(np.stack([isotherm, loading, pace], axis=1)):
-        direction, sliding, cut = _slips(course.slip[moving][here], speed_tolerance, told)
+        direction, sliding, cut = _slips(course.slip[moving][here], speed_tolerance, jittering)
         swept += cut
         for part in _equal_rows(sliding[:, None]):
             rows = here[part]
@@ -186,8 +186,8 @@ def conditions(
         notes.append(
             Note(
                 "slip-is-rolling",
-                f"{where(rolling, len(found))} the slip ({1e3 * rolling[0].slip:.2g} mm/s) cannot be told from "
-                "none and is taken for pure rolling; Coulomb friction of such slip is in viscoelastic friction.",
+                f"{where(rolling, len(found))} the slip ({1e3 * rolling[0].slip:.2g} mm/s) is not significant "
+                "and is taken as pure rolling; viscoelastic friction includes Coulomb friction of such slip.",
             )
         )
     if swept:
@@ -195,18 +195,17 @@ def conditions(
             Note(
                 "slip-swept",
                 f"At {swept} set{'s' if swept > 1 else ''} of temperature, load and speed the slip was swept without "
-                "gaps "
-                "and is cut into intervals; Coulomb friction is its mean over each of them.",
+                "gaps and is cut into intervals; Coulomb friction is its mean over each of them.",
             )
         )
     return found, tuple(notes)
 
 
 def _jitter(speed: Array, senses: Integers) -> float:
-    """Return the standard deviation of relative speeds, whatever the disc's differ by between the senses of slip.
+    """Return the standard deviation of relative speeds, apart from their difference between the senses of slip.
 
-    Where a ball rolls, what is called the sense of its slip is jitter too, and the speeds of one sense scatter less
-    than all do, by a factor of √(1 − 2/π) = 0.603 where the disc alone jitters and all is normal.
+    Where a ball rolls, the sense of its slip is jitter too, and the speeds of one sense scatter less than all do,
+    by a factor of √(1 − 2/π) = 0.603 where the disc alone jitters and all is normal.
     """
     apart = speed.copy()
     for rows in _equal_rows(senses):
@@ -223,18 +222,18 @@ def _equal_rows(keys: Integers) -> list[Integers]:
 
 
 def where(some: list[Condition], total: int) -> str:
-    """Say at which conditions, as the beginning of a sentence: all that matters of a long list."""
+    """Return the conditions as the beginning of a sentence; of several, their number and the first."""
     if len(some) == 1:
         return f"At {some[0]}"
     return f"At {len(some)} of {total} conditions, the first being {some[0]},"
 
 
-def _slips(ratio: Array, tolerance: float, told: float) -> tuple[Array, Integers, bool]:
-    """Find the sense of sliding (along the disc's motion, ±1 or 0), number the magnitudes; say if they were swept.
+def _slips(ratio: Array, tolerance: float, jittering: float) -> tuple[Array, Integers, bool]:
+    """Return the sense of sliding (along the disc's motion, ±1 or 0), numbers of the magnitudes, and if swept.
 
-    `told` is the slip of one reading that jitter cannot make.
+    `jittering` is the largest slip of one reading that jitter can make.
     """
-    resolution = max(0.1 * tolerance, told)
+    resolution = max(0.1 * tolerance, jittering)
 
     def numbered(values: Array) -> Integers:
         return clusters(
@@ -251,7 +250,7 @@ def _slips(ratio: Array, tolerance: float, told: float) -> tuple[Array, Integers
         low, high = np.full(count.size, np.inf), np.full(count.size, -np.inf)
         np.minimum.at(low, signed, ratio)
         np.maximum.at(high, signed, ratio)
-        rolls = ((low <= 0.0) & (high >= 0.0)) | (np.abs(mean) < np.maximum(_PURE_ROLLING, told / np.sqrt(count)))
+        rolls = ((low <= 0.0) & (high >= 0.0)) | (np.abs(mean) < np.maximum(_PURE_ROLLING, jittering / np.sqrt(count)))
         direction = np.where(rolls, 0.0, np.sign(mean))[signed]
         magnitude = np.where(rolls, 0.0, np.abs(mean))[signed]
         # Rolling stays apart from sliding, however slow.

@@ -1,4 +1,4 @@
-"""How fast each reading of a traction test was taken, as far as that tells which readings belong together."""
+"""Speed and slip by which the readings of a traction test are grouped."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """Speed and slip by which readings are put together.
+    """Speed and slip by which readings are grouped.
 
     Attributes
     ----------
     speed : (n,) array
-        Magnitude, m/s: one for all readings that belong together.
+        Magnitude, m/s; the same for all readings of one point.
     slip : (n,) array
         Slip over that speed, above zero where the disc is faster than the ball.
     notes : tuple of str
     slip_scatter : float
-        What the slip scatters by over what `speed` does, where disc and ball jitter alike and independently.
+        Scatter of the slip over that of `speed`, where disc and ball jitter equally and independently.
     """
 
     speed: Array
@@ -37,11 +37,11 @@ class Course:
 
 
 def of_the_disc(runs: TractionRuns) -> Course:
-    """Take each reading at the disc's speed; those of one point of a test at their mean.
+    """Return the disc's speed of each reading; for those of one point of a test, the mean.
 
     A machine that reverses slip at a constant mean speed of disc and ball moves its disc faster with one
     direction of slip than with the other; readings of one step and time are nevertheless one point.  Where such a
-    machine fails to reverse the slip, this is smaller than its own error and counts as none.
+    machine fails to reverse the slip, the slip is below its error and is taken as zero.
     """
     speed = np.abs(runs.disc_speed)
     sense = np.sign(runs.disc_speed)
@@ -55,13 +55,13 @@ def of_the_disc(runs: TractionRuns) -> Course:
         unclear = timed[_unreversed(runs.step[timed], point, opposed, slip[timed] / speed[timed])]
         if unclear.size:
             largest = 1e3 * float(np.abs(slip[unclear]).max())
-            told = Note(
+            note = Note(
                 "slip-not-reversed",
                 f"In {unclear.size} of {len(runs)} readings the slip, at most {largest:.2g} mm/s, is not reversed "
-                "within the point of the test as in the other points of the step: it is below its error there and "
-                "counts as none.",
+                "within the point of the test, unlike at the other points of the step; it is below its error there and "
+                "is taken as zero.",
             )
-            notes = (told,)
+            notes = (note,)
             slip[unclear] = 0.0
         for values in (speed, slip):
             size = np.abs(values[timed])
@@ -71,7 +71,7 @@ def of_the_disc(runs: TractionRuns) -> Course:
 
 
 def _unreversed(step: Integers, point: Integers, opposed: Mask, slip: Array) -> Mask:
-    """Find the readings of points where small slip is not reversed though most points of the step reverse theirs."""
+    """Return the readings of points where small slip is not reversed though most points of the step reverse theirs."""
     several = np.bincount(point) > 1
     _, number = np.unique(step, return_inverse=True)
     step_of = np.zeros(opposed.size, dtype=np.intp)
@@ -85,8 +85,8 @@ def _unreversed(step: Integers, point: Integers, opposed: Mask, slip: Array) -> 
 
 
 def of_both(runs: TractionRuns) -> Course:
-    """Take each reading at the mean speed of disc and ball, which some tests keep where slip is reversed."""
+    """Return the mean speed of disc and ball of each reading, which some tests keep where slip is reversed."""
     speed = 0.5 * np.abs(runs.disc_speed + runs.ball_speed)
     slip = np.sign(runs.disc_speed) * (runs.disc_speed - runs.ball_speed)
-    # A difference of two speeds beside their mean.
+    # The slip is a difference of two speeds, `speed` their mean.
     return Course(speed, slip / np.where(speed > 0.0, speed, 1.0), slip_scatter=2.0)

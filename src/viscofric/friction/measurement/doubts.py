@@ -1,4 +1,4 @@
-"""Notes on what does not look like a sound traction test: signs, consistency, zero, slip, outliers, missing runs."""
+"""Doubts about a traction test: negative friction, inconsistency, another zero, slip, outliers, missing runs."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _NAMED = 3  # outliers that a note names one by one
 
 
 def threshold(freedom: float, chance: float) -> float:
-    """How many standard errors a deviation of either sign reaches by chance, that often."""
+    """Return the number of standard errors that a deviation of either sign exceeds with a probability `chance`."""
     from scipy.special import ndtri, stdtrit
 
     if freedom <= 0.0:
@@ -40,7 +40,7 @@ def threshold(freedom: float, chance: float) -> float:
 
 
 def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
-    """Note what does not look like a sound measurement."""
+    """Return notes on doubts about a measurement."""
     groups = [fit.group for fit in fits]
     return [
         *_negative(fits, entries),
@@ -51,7 +51,7 @@ def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
 
 
 def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
-    """Note negative coefficients, by what can be the reason for each."""
+    """Return notes on negative coefficients, one for each possible reason."""
     groups = [fit.group for fit in fits]
     notes = []
     for number, name, reason in ((1, "viscoelastic", _why_viscoelastic), (2, "Coulomb", _why_coulomb)):
@@ -63,8 +63,7 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
             Note(
                 "negative-friction",
                 f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is "
-                "negative "
-                f"({_shown(entries[places[0]], number)}): {why}.",
+                f"negative ({_shown(entries[places[0]], number)}): {why}.",
             )
             for why, places in reasons.items()
         ]
@@ -72,7 +71,7 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
 
 
 def _why_viscoelastic(fit: Fit, entry: Entry) -> str:
-    """Say what can make viscoelastic friction negative: not the sign of a force with positive Coulomb friction."""
+    """Return what can make viscoelastic friction negative; with positive Coulomb friction, not the force's sign."""
     measured = entry.slides and fit.coulomb is None
     reasons = []
     if not measured or entry.value[2] <= 0.0:
@@ -80,19 +79,19 @@ def _why_viscoelastic(fit: Fit, entry: Entry) -> str:
     elif fit.fits_offset:
         reasons.append("the zero of the force cell differs between the directions of the disc")
     if not fit.fits_offset:
-        reasons.append("the zero of the force cell is another one at these readings than the one that is used")
+        reasons.append("the zero of the force cell at these readings differs from the one that is used")
     if fit.coulomb is not None and entry.slides:
         reasons.append("Coulomb friction is not the one assumed")
     if measured and entry.value[2] > 0.0:
         reasons.append("the disc turns against the sign of its speed")
-    sound = "Coulomb friction is positive as it should be, so that probably " if len(reasons) > 1 and measured else ""
+    sound = "Coulomb friction is positive as it should be, so probably " if len(reasons) > 1 and measured else ""
     return f"{sound or 'probably '}{', or '.join(reasons)}"
 
 
 def _why_coulomb(fit: Fit, entry: Entry) -> str:
-    """Say what can make Coulomb friction negative."""
+    """Return what can make Coulomb friction negative."""
     if entry.value[1] > 0.0 and fit.fits_offset:
-        return "probably the speeds of disc and ball are exchanged"
+        return "probably the speeds of disc and ball are interchanged"
     return "probably the sign of the force, or of the velocities, is reversed"
 
 
@@ -100,16 +99,16 @@ def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[Note]:
     found = _significant(groups, entries, 3, np.array([abs(entry.value[3]) for entry in entries]))
     if not found:
         return []
-    told = Note(
+    note = Note(
         "inconsistent",
-        f"{where([groups[one] for one in found], len(groups))} the four sign configurations do not fit together: the "
-        f"consistency is {_shown(entries[found[0]], 3)} of the load where scatter alone would give zero.",
+        f"{where([groups[one] for one in found], len(groups))} the four sign configurations are inconsistent: their "
+        f"residual is {_shown(entries[found[0]], 3)} of the load, where scatter alone would give zero.",
     )
-    return [told]
+    return [note]
 
 
 def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
-    """Compare the zero that is fitted with the one that was recorded."""
+    """Compare the fitted zero with the recorded one."""
     groups = [fit.group for fit in fits]
     recorded = np.array([zeros.mean(fit.group) if fit.fits_offset else np.nan for fit in fits])
     deviation = np.abs([entry.value[0] for entry in entries] - recorded)
@@ -117,16 +116,16 @@ def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[N
     if not found:
         return []
     first = found[0]
-    told = Note(
+    note = Note(
         "another-zero",
-        f"{where([groups[one] for one in found], len(groups))} the zero of the force cell told by the configurations, "
-        f"{_shown(entries[first], 0)} N, is not the recorded one, {recorded[first]:.2g} N; the former is used.",
+        f"{where([groups[one] for one in found], len(groups))} the zero of the force cell from the configurations, "
+        f"{_shown(entries[first], 0)} N, differs from the recorded one, {recorded[first]:.2g} N; the former is used.",
     )
-    return [told]
+    return [note]
 
 
 def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[Note]:
-    """Name the conditions where replicates lack configurations, or are too few."""
+    """Return notes on conditions where replicates lack configurations, or are too few."""
     total = len(groups)
     notes = []
     together = [group for group, entry in zip(groups, entries, strict=True) if entry.together]
@@ -156,8 +155,8 @@ def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[Note]:
         notes.append(
             Note(
                 "few-readings",
-                f"{where(alone, total)} there are too few readings to tell the scatter, so standard errors are "
-                "given as infinite; repeat the test.",
+                f"{where(alone, total)} there are too few readings to estimate the scatter; standard errors are "
+                "infinite; repeat the test.",
             )
         )
     return notes
@@ -166,7 +165,7 @@ def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[Note]:
 def _significant(
     groups: list[Condition], entries: list[Entry], number: int, deviation: Array, more_error: float = 0.0
 ) -> list[int]:
-    """Find the conditions where one of the four values deviates by more than chance and rounding make it."""
+    """Return the conditions where one of the four values deviates by more than chance and rounding."""
     chance = CHANCE / len(groups)
     found = []
     for place, (group, entry) in enumerate(zip(groups, entries, strict=True)):
@@ -204,7 +203,7 @@ def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]
 def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[Note]]:
     """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed.
 
-    Slip that is too small to be measured can still hold much of Coulomb friction, with one sign.
+    Slip too small to be measured can still transmit much of Coulomb friction, with one sign.
 
     Returns
     -------
@@ -217,7 +216,7 @@ def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], li
     for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):
         if entry.slides and fit.coulomb is None:
             sliding.setdefault((fit.group.temperature, fit.group.speed), []).append(place)
-    found, told = [], []
+    found, notes = [], []
     for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):
         group = fit.group
         alike = [
@@ -231,30 +230,27 @@ def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], li
         apart = abs(entry.value[1] - other.value[1])
         error = float(np.hypot(entry.error[1], other.error[1]))
         chance = threshold(min(entry.freedom[1], other.freedom[1]), CHANCE / len(fits))
-        # Compared in this way, an infinite error tells nothing.
         if apart > chance * error and apart > max(_MATTERS * abs(other.value[2]), ROUNDING):
             found.append(place)
-            told.append(
+            notes.append(
                 Note(
                     "unnoticed-slip",
-                    f"At {group} viscoelastic friction without slip, {entry.value[1]:.2g} ± {entry.error[1]:.2g}, is "
-                    "not "
-                    f"that with slip, {other.value[1]:.2g} ± {other.error[1]:.2g}: ball and disc probably slip there "
-                    "by "
-                    "less than can be measured, and Coulomb friction is in it; it is left out.",
+                    f"At {group} viscoelastic friction without slip, {entry.value[1]:.2g} ± {entry.error[1]:.2g}, "
+                    f"differs from that with slip, {other.value[1]:.2g} ± {other.error[1]:.2g}: ball and disc probably "
+                    "slip by less than can be measured, so that it includes Coulomb friction; it is left out.",
                 )
             )
-    return found, told
+    return found, notes
 
 
 def outliers(runs: TractionRuns, groups: list[Condition], entries: list[Entry]) -> list[tuple[Condition, int]]:
-    """Find the readings far from the others of their configuration: their conditions and rows."""
+    """Return the readings far from the others of their configuration, their conditions and rows."""
     if not groups:
         return []
     deviations = [_deviations(runs, group, entry.value[0]) for group, entry in zip(groups, entries, strict=True)]
     every = np.concatenate(deviations)
     configuration = np.concatenate([group.configurations for group in groups])
-    # Few readings tell a scale badly; the whole test, and all readings of equal signs, tell what it may be at least.
+    # Few readings give a poor scale; the whole test, and all readings of equal signs, give a lower limit of it.
     least = {
         one: max(_robust_deviation(every), _robust_deviation(every[configuration == one]))
         for one in np.unique(configuration).tolist()
@@ -272,8 +268,8 @@ def outliers(runs: TractionRuns, groups: list[Condition], entries: list[Entry]) 
     return found
 
 
-def told_of(runs: TractionRuns, found: list[tuple[Condition, int]], *, left_out: bool) -> list[str]:
-    """Name outliers, by their rows in the runs."""
+def outlier_notes(runs: TractionRuns, found: list[tuple[Condition, int]], *, left_out: bool) -> list[str]:
+    """Return a note that names outliers by their rows in the runs."""
     if not found:
         return []
     one = len(found) == 1
@@ -282,13 +278,13 @@ def told_of(runs: TractionRuns, found: list[tuple[Condition, int]], *, left_out:
         for group, row in found[:_NAMED]
     ]
     more = f" and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
-    told = Note(
+    note = Note(
         "outliers",
         f"{'One reading deviates' if one else f'{len(found)} readings deviate'} from the others of the same "
         f"configuration by more than {_OUTLIER:g} robust standard deviations and {'was' if one else 'were'} "
         f"{'left out' if left_out else 'kept'}: {', '.join(named)}{more}.",
     )
-    return [told]
+    return [note]
 
 
 def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
@@ -303,7 +299,7 @@ def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
 
 
 def _of_few(n: int) -> float:
-    """How much further a reading may be off where few stand behind the median.
+    """Return how much farther a reading may lie from a median of few.
 
     An outlying one of n is off a median that has itself a variance of π/2n, and the median absolute deviation of n is
     small by about (n − 0.8)/n (C. Croux, P. J. Rousseeuw, Computational Statistics 1, 411–428, 1992).
@@ -312,7 +308,7 @@ def _of_few(n: int) -> float:
 
 
 def _robust_deviation(deviation: Array) -> float:
-    """Return the standard deviation told by the median, or by the mean where more than half are equal."""
+    """Return the standard deviation from the median, or from the mean where more than half are equal."""
     size = np.abs(deviation[np.isfinite(deviation)])
     if not size.size:
         return 0.0

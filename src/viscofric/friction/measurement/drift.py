@@ -1,4 +1,4 @@
-"""Drift of the force cell's zero: found in the zeros that are fitted, taken out of the separation, told."""
+"""Drift of the force cell's zero: estimated from the fitted zeros, and removed from the separation."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ _PER_HOUR = 3600.0
 
 @dataclass(frozen=True)
 class Drift:
-    """What is taken from the forces besides the zero of each condition.
+    """Drift that is subtracted from the forces besides the zero of each condition.
 
     Attributes
     ----------
     rate, error : float
-        Of a zero that moves evenly with time, and its standard error, N/s.
+        Of a zero that is linear in time, and its standard error, N/s.
     freedom : float
     follows : bool
         Whether the zero follows its changes from one recording to the next.
     wandering : float
-        Standard deviation of a zero that moves unevenly, or at times that were not recorded, N; zero where it does not.
+        Standard deviation of a zero that drifts otherwise, or without recorded times, N; zero where it does not.
     timed : bool
         Whether the times were recorded.
     """
@@ -56,7 +56,7 @@ class Drift:
 
     @classmethod
     def of(cls, fits: list[Fit]) -> Drift:
-        """Find the drift in the zeros that are fitted.
+        """Estimate the drift from the fitted zeros.
 
         Each replicate's zero is fitted at the mean time of its readings.  The rate is that of one straight line for
         each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
@@ -92,27 +92,26 @@ class Drift:
         return cls(rate, error, freedom, follows)
 
     def entry(self, fit: Fit, zeros: Zeros, error: Array, freedom: Array) -> Entry:
-        """Return what a condition's fit says, the error of the drift in its standard errors (4,)."""
+        """Return the result of a condition, with the error of the drift in its standard errors (4,)."""
         entry = fit.entry(self.weights, zeros, error, freedom)
         return entry.widened((self.error * fit.each[:, :, DRIFT].mean(axis=0)) ** 2, self.freedom)
 
     def notes(self, fits: list[Fit]) -> list[Note]:
-        """Say what drifts, by how much, and what was done."""
-        told = []
+        """Return notes on the drift and its treatment."""
+        notes = []
         load = float(np.mean([fit.group.load for fit in fits]))
         if self.follows:
-            told.append(
+            notes.append(
                 Note(
                     "zero-unsteady",
                     "The zero of the force cell changes from one recording to the next and the forces change with "
-                    "it, so "
-                    "that each reading is taken above its own recorded zero.",
+                    "it, so that each reading is taken relative to its own recorded zero.",
                 )
             )
         if self.rate:
             moved = np.array([fit.each[:, 1:3, DRIFT].mean(axis=0) for fit in fits if fit.fits_offset])
             size = np.abs(self.rate * moved).max(axis=0)
-            told.append(
+            notes.append(
                 Note(
                     "zero-drifts",
                     f"The zero of the force cell drifts by {_PER_HOUR * self.rate:.2g} ± "
@@ -125,7 +124,7 @@ class Drift:
             how, advice = "unevenly ", "measure the configurations of a condition in quick succession"
             if not self.timed:
                 how, advice = "", "record the times of the readings (time)"
-            told.append(
+            notes.append(
                 Note(
                     "zero-wanders",
                     f"The zero of the force cell moves {how}in the course of the test, with a standard deviation of "
@@ -133,7 +132,7 @@ class Drift:
                     f"{advice}.",
                 )
             )
-        return told
+        return notes
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
@@ -151,7 +150,7 @@ def _centred(values: Array, line: Integers) -> Array:
 
 
 def _follows(fits: list[Fit]) -> bool:
-    """Whether the forces follow the changes of the recorded zero: what is left over says it."""
+    """Whether the forces follow the changes of the recorded zero, by their residuals."""
     left, force = np.zeros(2), 0.0
     for follows in (0, 1):
         weights = np.array([1.0, 0.0, float(follows)])

@@ -25,7 +25,7 @@ _AUTOCORRELATIONS = np.linspace(0.0, 0.99, 200)
 
 @dataclass(frozen=True, eq=False)
 class Scatter:
-    """What the repetitions of one condition differ by.
+    """Deviations between the repetitions of one condition.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Scatter:
 
     @property
     def variance(self) -> float:
-        """Of the coefficient; infinite where nothing is left over."""
+        """Of the coefficient; infinite without degrees of freedom."""
         if self.freedom <= 0.0:
             return np.inf
         return self.factor * float(np.sum(self.deviations**2)) / self.freedom
@@ -59,7 +59,7 @@ class BetweenRuns:
     Attributes
     ----------
     error, freedom : (k, 4) array
-        Of zero (N), viscoelastic and Coulomb coefficient and consistency; infinite and zero where nothing tells them.
+        Of zero (N), viscoelastic and Coulomb coefficient and consistency; infinite and zero where not known.
     notes : list of str
     """
 
@@ -107,7 +107,7 @@ class BetweenRuns:
 
 @dataclass(frozen=True)
 class Pool:
-    """What repetitions differ by at many conditions, as a part of their friction.
+    """Variance of repetitions over many conditions, relative to the square of their friction.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class Pool:
 
     @classmethod
     def of(cls, some: list[Scatter], sizes: Array, isotherms: Array) -> Pool:
-        """Analyse the variance, which at different speeds of one run may be one and the same.
+        """Analyse the variance, in which the speeds of one run may share a part.
 
         Sums of squares of the means of runs over speeds, and of the rest, each have their own degrees of freedom;
         those of their sum follow after F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110.  They are few where the
@@ -154,7 +154,7 @@ class Pool:
 
 
 def _common(between: Array, within: Array, speeds: float) -> float:
-    """Return the variance that the speeds of a run share, by the means over them and the rest (squares, freedom)."""
+    """Return the variance that the speeds of a run share, from the squares and freedom of means and of the rest."""
     from scipy.special import fdtrc
 
     if min(between[1], within[1]) <= 0.0 or within[0] <= 0.0:
@@ -166,14 +166,14 @@ def _common(between: Array, within: Array, speeds: float) -> float:
 
 
 def _size(fit: Fit, weights: Array) -> float:
-    """Return the size of friction that deviations are compared with: a coefficient, or a force where they are one."""
+    """Return the friction that deviations are compared with: a coefficient, or a force where they are forces."""
     value = fit.mean(weights)
     size = float(np.hypot(value[_VISCOELASTIC], value[_COULOMB]))
     return size if fit.paired or fit.by_steps else size * fit.group.load
 
 
 def _scatters(fit: Fit, weights: Array) -> list[Scatter]:
-    """Return what repetitions of a condition differ by in each of the four numbers."""
+    """Return the deviations between repetitions of a condition, for each of the four numbers."""
     if fit.paired:
         each = fit.each @ weights
         run = np.arange(len(each))
@@ -216,7 +216,7 @@ def _of_left_over(fits: list[Fit], places: list[int], freedom: Array) -> list[st
         return []
     text = (
         f"{where([fits[place].group for place in places], len(fits))} each configuration was measured once: the "
-        "standard errors follow from what the configurations leave over, with "
+        "standard errors follow from the residual of the configurations, with "
         f"{freedom[places, _VISCOELASTIC].min():.2g} degrees of freedom; repeat the runs."
     )
     return [Note("errors-from-left-over", text)]
@@ -227,8 +227,8 @@ def _of_common(fits: list[Fit], common: dict[int, float]) -> list[str]:
         return []
     level = float(np.median(list(common.values())))
     text = (
-        f"{where([fits[place].group for place in common], len(fits))} runs differ alike at all speeds, so that the "
-        "errors of the speeds of one temperature are not independent: they share "
+        f"{where([fits[place].group for place in common], len(fits))} runs differ by the same amount at all "
+        "speeds, so that the errors of the speeds of one temperature are not independent: they have a common error of "
         f"{100.0 * level:.2g} % of viscoelastic friction (level_error = {level:.2g} in shift_friction)."
     )
     return [Note("errors-shared-by-speeds", text)]
@@ -237,7 +237,7 @@ def _of_common(fits: list[Fit], common: dict[int, float]) -> list[str]:
 def of_readings(
     fits: list[Fit], weights: Array, lacking: Mask
 ) -> tuple[dict[tuple[int, int], tuple[float, float]], float]:
-    """Estimate the variance of coefficients whose passes leave nothing over, from the scatter within the passes.
+    """Estimate the variance of coefficients whose passes leave no residual, from the scatter within the passes.
 
     Readings of a pass are an autoregressive series of first order.  Its autocorrelation is that of all passes together,
     with which the mean products of deviations from means agree in expectation.
@@ -285,7 +285,7 @@ def of_readings(
 
 
 def _deviations(fit: Fit, weights: Array) -> Array:
-    """Return the readings less the means of their passes, N."""
+    """Return the readings minus the means of their passes, N."""
     left = fit.residual @ weights
     return np.asarray(left - (np.bincount(fit.passes, left) / np.bincount(fit.passes))[fit.passes])
 

@@ -20,7 +20,7 @@ _OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
 _FEWEST_STEPS = 3
 _MOST_PASSES = 1_000_000_000
 _FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
-#: The force as it is read, and what may be taken from it: drift (per N/s) and changes of the recorded zero.
+#: The force as read, and its corrections: drift (per N/s) and changes of the recorded zero.
 FORCE, DRIFT, ZERO_CHANGES = range(3)
 
 
@@ -54,14 +54,14 @@ class Entry:
 
 
 def operators(design: Array, crossed: Array | None, parts: list[Indices]) -> Array:
-    """Return what makes the coefficients of readings, in each of several parts by itself.
+    """Return the operators that give the coefficients from readings, in each of several parts by itself.
 
     Parameters
     ----------
     design : (n, 3) array
         Regressors; those that are zero throughout are not fitted.
     crossed : (n,) array or None
-        A fourth one, whose coefficient is fitted beside the others without changing theirs.
+        A fourth one, whose coefficient is fitted without changing those of the others.
     parts : list of array of int
         Rows that are fitted together; each determines all coefficients.
 
@@ -86,7 +86,7 @@ def operators(design: Array, crossed: Array | None, parts: list[Indices]) -> Arr
 
 
 def residuals(design: Array, crossed: Array | None, operator: Array, target: Array) -> tuple[Array, Array]:
-    """Return what fits of all readings leave over of `target` (n, k), without and with the fourth regressor."""
+    """Return the residuals of `target` (n, k) of fits of all readings, without and with the fourth regressor."""
 
     def left(values: Array) -> Array:
         return np.asarray(values - design @ (operator[:3] @ values))
@@ -99,7 +99,7 @@ def residuals(design: Array, crossed: Array | None, operator: Array, target: Arr
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Least squares on the readings of a condition, of the force and of what may be taken from it.
+    """Least squares on the readings of a condition, of the force and of its corrections.
 
     The fit is linear in the force, so that a drift is taken out of its coefficients as well as out of the readings.
 
@@ -111,7 +111,7 @@ class Fit:
     time : float
         Mean time of the readings, s; NaN where it was not recorded.
     residual, checked : (n, 3) array
-        What the fits without and with the consistency leave over.
+        Residuals of the fits without and with the consistency, N.
     operator : (4, n) array
         Makes the coefficients of the readings.
     first_rows : (r,) array of int
@@ -128,9 +128,9 @@ class Fit:
     log_speed : (n,) array
         ln of the disc's speed over the condition's.
     viscoelastic_force : (n,) array
-        What each reading's force holds of viscoelastic friction of coefficient 1 at the condition's speed, N.
+        Force of each reading for a viscoelastic coefficient of 1 at the condition's speed, N.
     zero_variance, coulomb_variance : (4,) array
-        Left by the errors of a zero and of a Coulomb coefficient that are not fitted, where scatter does not show them.
+        Due to the errors of a zero and of a Coulomb coefficient that are not fitted, as far as scatter excludes them.
     """
 
     group: Condition
@@ -172,7 +172,7 @@ class Fit:
         runs : TractionRuns
         group : Condition
         zeros : Zeros
-            Used where the signs do not tell the zero.
+            Used where the signs do not determine the zero.
         coulomb : (float, float), optional
             Coulomb coefficient and its standard error where they are assumed.
         growth : Growth, optional
@@ -247,7 +247,7 @@ class Fit:
         return np.asarray((self.each @ weights).mean(axis=0))
 
     def entry(self, weights: Array, zeros: Zeros, error: Array, freedom: Array) -> Entry:
-        """Put the replicates together.
+        """Return the result over all replicates.
 
         Parameters
         ----------
@@ -255,7 +255,7 @@ class Fit:
             Of force, drift and changes of the zero.
         zeros : Zeros
         error, freedom : (4,) array
-            Standard errors of what is fitted, and the degrees of freedom behind them.
+            Standard errors of the fit, and their degrees of freedom.
         """
         value, freedom = self.mean(weights), freedom.copy()
         count = self.replicates
@@ -295,7 +295,7 @@ def _times(runs: TractionRuns, group: Condition) -> Array:
 
 
 def _replicates(runs: TractionRuns, group: Condition) -> tuple[Indices, Indices]:
-    """Give numbers to the replicates, and to the steps, of a condition's readings.
+    """Return numbers of the replicates, and the steps, of a condition's readings.
 
     Readings of one step are no repetitions of the test.  Where their replicate numbers differ, the steps are the
     replicates if each has all configurations; else the first step of each configuration is in the first replicate.
@@ -313,18 +313,18 @@ def _replicates(runs: TractionRuns, group: Condition) -> tuple[Indices, Indices]
 
 
 def _steps(step: Integers, group: Condition, replicate: Indices) -> Indices:
-    """Give numbers to the steps of a condition, those that a test numbers anew from run to run by their runs."""
+    """Return numbers of the steps of a condition; those that a test numbers anew in each run, by their runs."""
     block = np.concatenate([[0], np.cumsum(np.diff(step) != 0)])[group.rows]
     _, block = np.unique(block, return_inverse=True)
     _, number = np.unique(step[group.rows], return_inverse=True)
-    # A step whose rows stand apart, in whatever order they are, is still one where nothing else parts them.
+    # A step whose rows are not adjacent is still one step if nothing else distinguishes them.
     parts = np.unique(np.column_stack([number, replicate, group.configurations, block]), axis=0)
     apart = len(np.unique(parts[:, :3], axis=0)) < len(parts)
     return np.asarray(number if apart else block, dtype=np.intp)
 
 
 def _passes(group: Condition, step: Indices) -> tuple[Indices, Integers]:
-    """Give numbers to the passes, a step in one configuration each, and return the number of the run of each."""
+    """Return numbers of the passes, a step in one configuration each, and of the run of each pass."""
     configuration = group.configurations - group.configurations.min()
     pairs, passes = np.unique(np.column_stack([configuration, step]), axis=0, return_inverse=True)
     first = np.searchsorted(pairs[:, 0], pairs[:, 0])

@@ -1,4 +1,4 @@
-"""What to do about readings without gaps between their nominal values: tolerances to give, readings to leave out."""
+"""Advice on readings without gaps between nominal values: tolerances to give, readings to leave out."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ _NAMED = 8  # steps that a sentence names at most
 
 @dataclass(frozen=True, eq=False)
 class Gapless:
-    """The sentence that refuses readings without gaps.
+    """Note on readings without gaps.
 
     Attributes
     ----------
     runs : TractionRuns
     values : (n,) array
-        What is grouped, of each of the runs' readings.
+        Values that are grouped, of each reading.
     expression : str
-        How a user writes them.
+        Their name in Python.
     shown : callable
-        Puts a range of them into words.
+        Returns a range of them in words.
     gap : float
-        That parts nominal values, absolute or relative.
+        Between nominal values, absolute or relative.
     relative : bool
     option : tuple of str
         Field and label of the tolerance, see `viscofric.notes.setting`; empty where it is fixed.
@@ -55,21 +55,21 @@ class Gapless:
     unit: str = ""
 
     def __call__(self, low: float, high: float) -> Note:
-        """Say what has no gap from `low` to `high`, and what to do."""
-        told = f"{self.shown(low, high)} has no gap that would tell nominal values from scatter"
+        """Return a note on values without a gap from `low` to `high`, with a remedy."""
+        words = f"{self.shown(low, high)} has no gaps and cannot be grouped into nominal values"
         if not self.option:
-            told += f" (a gap is {100 * self.gap:g} %); "
-            return Note("no-gap", told, remedy=self._selection(low, high) + ".")
+            words += f" (a gap is {100 * self.gap:g} %); "
+            return Note("no-gap", words, remedy=self._selection(low, high) + ".")
         wide = (math.log(high / low) if self.relative else high - low) / LONGEST_CHAIN
         # Rounded up to two digits.
         wide = float(f"{1.05 * wide:.1e}")
         one = setting(*self.option, f"{wide:g}{self.unit}")
-        several = f"; if of several, one below {self.gap:g}{self.unit}; or "
-        remedy = ": if they are of one nominal value, give " + one + several + self._selection(low, high) + "."
-        return Note("no-gap", told, remedy=remedy)
+        several = f"; if there are several, one below {self.gap:g}{self.unit}; or "
+        remedy = ": if there is one nominal value, give " + one + several + self._selection(low, high) + "."
+        return Note("no-gap", words, remedy=remedy)
 
     def _selection(self, low: float, high: float) -> Remedy:
-        """Say what to select: all but the steps that are not steady, or what is near the median."""
+        """Return what to select: all but the steps that are not steady, or values near the median."""
         inside = (self.values >= low) & (self.values <= high)
         allowed = self.gap * (high if self.relative else 1.0)
         if self.runs.step is not None:
@@ -79,7 +79,7 @@ class Gapless:
             if moving and len(moving) <= _NAMED and len(moving) < np.unique(self.runs.step).size:
                 words = f"step {moving[0]} is" if len(moving) == 1 else f"steps {', '.join(map(str, moving))} are"
                 listed = ",".join(map(str, moving))
-                return f"{words} not steady; leave out what is not, by " + Remedy(
+                return f"{words} not steady; leave such steps out, by " + Remedy(
                     f"runs.select(except_steps={moving})",
                     f"--except-steps {listed}",
                     f"except_steps = {moving} under [measurement]",
@@ -87,7 +87,7 @@ class Gapless:
                     "measurement.except_steps",
                 )
         middle = float(np.median(self.values[inside]))
-        return "leave out what was not steady" + Remedy(
+        return "leave out unsteady readings" + Remedy(
             f", such as by runs.select(abs({self.expression} - {middle:.4g}) < {allowed:.2g})",
             " (--except-steps)",
             " (except_steps under [measurement])",

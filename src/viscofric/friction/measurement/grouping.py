@@ -73,7 +73,7 @@ def two_groups(runs: TractionRuns, group: Condition, zeros: Zeros) -> TwoGroups 
 
 
 def _two_groups_kept(groups: list[Condition], found: dict[int, TwoGroups]) -> list[str]:
-    """Say where forces fall into two groups of one sign, and that they are kept."""
+    """Return a note on forces in two groups of one sign, which are kept."""
     places = [place for place, one in found.items() if not one.opposite]
     if not places:
         return []
@@ -81,12 +81,12 @@ def _two_groups_kept(groups: list[Condition], found: dict[int, TwoGroups]) -> li
 
 
 def _unsigned(groups: list[Condition], found: dict[int, TwoGroups], *, left_out: bool = False) -> Note:
-    """Say where forces fall into two groups of opposite signs, and what to do."""
+    """Return a note on forces in two groups of opposite signs, with a remedy."""
     places = [place for place, one in found.items() if one.opposite]
     leaving = "; these readings are left out" if left_out else ""
     return Note(
         "unsigned-speeds",
-        f"{_sentence(groups, found, places)}, as if runs of both directions were given with unsigned speeds{leaving}; "
+        f"{_sentence(groups, found, places)}, as for runs of both directions without signed speeds{leaving}; "
         "give the speeds of disc and ball with their signs.",
     )
 
@@ -101,7 +101,7 @@ def _sentence(groups: list[Condition], found: dict[int, TwoGroups], places: list
 
 @dataclass(frozen=True, eq=False)
 class Grouping:
-    """The conditions that are separated, and notes on how they were made."""
+    """The conditions that are separated, and notes on their grouping."""
 
     groups: list[Condition]
     notes: list[str]
@@ -138,20 +138,22 @@ class Grouping:
         if problem:
             raise problem
         if not groups:
-            raise InputError("traction runs hold no reading with the disc in motion: nothing to separate.")
+            raise InputError(
+                "traction runs hold no reading with the disc in motion: nothing to separate.", code="no-readings"
+            )
         split = {place: two for place, group in enumerate(groups) if (two := two_groups(runs, group, zeros))}
         mixed = {id(groups[place]) for place, two in split.items() if two.opposite}
         if mixed and mixed.union(map(id, poor)) == set(map(id, groups)):
             raise InputError(_unsigned(groups, split))
         if len(poor) == len(groups):
             raise InputError(_refused(poor, len(groups), zeros, assumed))
-        told = [*notes, *_two_groups_kept(groups, split)]
+        said = [*notes, *_two_groups_kept(groups, split)]
         if mixed:
-            told.append(_unsigned(groups, split, left_out=True))
+            said.append(_unsigned(groups, split, left_out=True))
         if poor:
-            told.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
+            said.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
         out = mixed.union(map(id, poor))
-        return cls([group for group in groups if id(group) not in out], told)
+        return cls([group for group in groups if id(group) not in out], said)
 
 
 def _readings(groups: list[Condition]) -> int:
@@ -159,7 +161,7 @@ def _readings(groups: list[Condition]) -> int:
 
 
 def _at_other_speeds(one: Condition, others: list[Condition]) -> Remedy:
-    """Say at which speed near that of a condition the signs were measured that it lacks; nothing without any."""
+    """Return at which speed near that of a condition its missing signs were measured; empty without any."""
     near = [
         other.speed
         for other in others
@@ -176,7 +178,7 @@ def _at_other_speeds(one: Condition, others: list[Condition]) -> Remedy:
 
 
 def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> Note:
-    """Say what the signs do not tell, and what to measure or give."""
+    """Return a note on conditions whose signs do not suffice, with a remedy."""
     first = poor[0]
     missing = [words for signs, words in _WORDS.items() if signs not in first.signs]
     rolls = not np.any(first.slip_sign)
@@ -187,7 +189,7 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
     else:
         advice += _at_other_speeds(first, poor)
     unknowns = ["the force cell's zero"] * (not known) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
-    told = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
+    separated = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if not known:
         zero = setting("measurement.zero", "Zero of the force cell")
         advice += ", or give its zero, read with ball and disc apart (" + zero + ")"
@@ -196,5 +198,5 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
         advice += ", or give the Coulomb friction to assume (" + coulomb + ")"
     because = "slip is zero (pure rolling) and " if rolls else ""
     leaving = "; these readings are left out" if left_out else ""
-    unclear = f"the signs of the velocities do not tell {told} friction apart"
+    unclear = f"the signs of the velocities do not separate {separated} friction"
     return Note("signs-missing", f"{where(poor, total)} {because}{unclear}{leaving}", remedy=advice + ".")

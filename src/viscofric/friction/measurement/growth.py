@@ -1,4 +1,4 @@
-"""How viscoelastic friction follows speed near one of the speeds of a test, and how well that is known."""
+"""Change of viscoelastic friction with speed near one of the speeds of a test, and its uncertainty."""
 
 from __future__ import annotations
 
@@ -49,12 +49,12 @@ class Growth:
 
     @classmethod
     def unknown(cls) -> Growth:
-        """Nothing is known from other speeds."""
+        """Return a constant, without other speeds."""
         return cls(np.zeros(1), np.zeros(1), np.zeros(1))
 
     @classmethod
     def best(cls, places: Array, values: Array, errors: Array, log_speed: Array) -> Growth:
-        """Take as many of the nearest speeds (k,) as tell best what friction is at `log_speed` (n,)."""
+        """Use as many of the nearest speeds (k,) as give the smallest error at `log_speed` (n,)."""
         order = np.argsort(np.abs(places), kind="stable")[: len(STEEPEST)]
         several = [
             cls(places[order[:count]], values[order[:count]], errors[order[:count]])
@@ -69,22 +69,22 @@ class Growth:
 
     @property
     def known(self) -> bool:
-        """Whether other speeds tell anything."""
+        """Whether other speeds are used."""
         return self.places.size > 1
 
     def log_change(self, log_speed: Array) -> Array:
-        """Return ln μ_v at log speeds (n,) less that at the condition's speed."""
+        """Return ln μ_v at log speeds (n,) minus that at the condition's speed."""
         return self._weights(log_speed) @ self.values
 
     def deviations(self, log_speed: Array) -> tuple[Array, Array]:
-        """Return what one standard error changes of `log_change`: of each speed's friction (k, n), and of the rest."""
+        """Return the standard deviations of `log_change` due to each speed's friction (k, n), and to the rest (n,)."""
         scatter = self.errors[:, None] * self._weights(log_speed).T
         count = self.places.size
         product = np.prod(log_speed[:, None] - self.places, axis=1)
         return scatter, _STANDARD * STEEPEST[count - 1] / math.factorial(count) * product
 
     def _weights(self, log_speed: Array) -> Array:
-        """Return Lagrange's polynomials (n, k) less what they are at the condition's speed."""
+        """Return Lagrange's polynomials (n, k) minus their values at the condition's speed."""
         weights = np.ones((log_speed.size, self.places.size))
         for one, other in np.ndindex(weights.shape[1], weights.shape[1]):
             if one != other:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
-from viscofric.friction.measurement.doubts import doubts, told_of, unnoticed_slip
+from viscofric.friction.measurement.doubts import doubts, outlier_notes, unnoticed_slip
 from viscofric.friction.measurement.doubts import outliers as far_readings
 from viscofric.friction.measurement.drift import Drift
 from viscofric.friction.measurement.errors import BetweenRuns
@@ -24,10 +24,11 @@ from viscofric.units import Quantity, positive, share
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
+    from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.fit import Entry
 
 
-# The change of friction over speed changes little by what it corrects.
+# Iterations of friction and of its change with speed, which corrects it a little.
 _ROUNDS = 4
 
 
@@ -47,35 +48,34 @@ def separate(
     runs : TractionRuns
         Readings with signed surface velocities.
     zero : float, str or pint.Quantity, or two of them, optional
-        Zero reading O of the force cell where it is known, N, and its standard error.  If left out, O is fitted
-        where the signs of the velocities tell it, and `runs.zero_force` used where they do not.
+        Known zero reading O of the force cell, N, and its standard error.  If left out, O is fitted where the signs of
+        the velocities determine it, and `runs.zero_force` used elsewhere.
     coulomb : float, (float, float) or "constant", optional
-        What to assume where one direction of slip only was measured, which is refused otherwise: a Coulomb friction
-        coefficient known from elsewhere, with its standard error; or one that is the same at all speeds of a
-        temperature and load, and as large as the friction measured there allows, so that viscoelastic friction
-        is what varies with speed and a lower limit.
+        Assumption where only one direction of slip was measured, which is refused otherwise: a known Coulomb friction
+        coefficient, with its standard error; or one that is the same at all speeds of a temperature and load, and as
+        large as the friction measured there allows, so that viscoelastic friction is the part that varies with speed,
+        a lower limit.
     outliers : {"keep", "leave out"}
-        What to do with readings that differ from the median of their configuration by more than five standard
-        deviations, the largest of those of their configuration, their condition and the whole test, each told by the
-        median absolute deviation.  They are noted in either case.
+        Treatment of readings that differ from the median of their configuration by more than five standard deviations,
+        the largest of those of their configuration, their condition and the whole test, each estimated by the median
+        absolute deviation.  They are noted in either case.
     speed_tolerance : float
-        Relative gap that parts nominal speeds and slips from each other; measured ones scatter by less.  For loads it
-        is 5 %.
+        Relative gap between nominal speeds and slips; measured ones scatter by less.  For loads it is 5 %.
     temperature_tolerance : float, str or pint.Quantity
-        Gap that parts nominal temperatures, K.
+        Gap between nominal temperatures, K.
 
     Returns
     -------
     FrictionCurves
         One entry per temperature, load, magnitude of disc speed and magnitude of slip, in that order.
-        Temperatures and speeds are the means over all readings of the same nominal value.  `assumption` says
-        what was assumed, if anything.
+        Temperatures and speeds are the means over all readings of the same nominal value.  `assumption` is the
+        assumption made, if any.
 
     Raises
     ------
     InputError
-        If there are no readings, conditions cannot be told apart, or the sign configurations measured suffice at
-        none of them.
+        If there are no readings, nominal conditions cannot be distinguished, or the sign configurations measured
+        suffice at none of them.
 
     Notes
     -----
@@ -87,13 +87,13 @@ def separate(
     with each reading's own measured load F_N.  Where every replicate of a condition has all configurations
     that the condition has, each replicate is fitted by itself: coefficients are means over the replicates,
     scatter their standard deviation s, standard errors s/√n with n − 1 degrees of freedom.  Otherwise all
-    readings are fitted together and the scatter given is the standard error times √n.
+    readings are fitted together and the scatter is the standard error times √n.
 
-    Readings of one step and configuration are one pass over a condition, no repetitions of the test, whatever their
-    replicate numbers: they share what differs from run to run, and follow each other closely.  Where readings are
-    fitted together, standard errors follow from what the fit leaves over of the means of the passes, such as the
-    fourth combination of four configurations measured once; or from the sums of residuals over steps where there are
-    enough steps with several configurations (K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13).
+    Readings of one step and configuration are one pass over a condition, not repetitions of the test, whatever their
+    replicate numbers: they share the deviations of their run, and are correlated.  Where readings are fitted together,
+    standard errors follow from the residuals of the means of the passes, such as the fourth combination of four
+    configurations measured once; or from the sums of residuals over steps where there are enough steps with several
+    configurations (K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13).
 
     Where this leaves a condition fewer than four degrees of freedom, the variance is the larger one of its own and
     that of all conditions together, as a part of the friction squared; the scatter is that of one replicate.  Runs
@@ -102,12 +102,12 @@ def separate(
     Errors that the speeds share are noted with their size: they are not independent from point to point, for which
     `shift_friction` has ``level_error``.
 
-    Where no pass was repeated and nothing is left over, errors follow from the readings within the passes, as
-    autoregressive series of first order; what varies from run to run is then not in them, and a note says so.  They
-    are infinite where there is one reading in each pass.
+    Where no pass was repeated and there are no residuals, errors follow from the readings within the passes, as
+    autoregressive series of first order; they do not include the variation from run to run, which is noted.  They are
+    infinite where there is one reading in each pass.
 
-    Readings of a configuration that fall into two groups of opposite sign are those of runs whose speeds lost their
-    signs; their conditions are left out with a note, or refused where there are no others.
+    Readings of a configuration that fall into two groups of opposite sign come from runs whose speeds have no signs;
+    their conditions are left out with a note, or refused where there are no others.
 
     With four configurations a fourth coefficient, of −sgn(u_disc) sgn(u_disc − u_ball) F_N, is fitted as
     well: the consistency, (F_I − F_II + F_III − F_IV)/4F_N, zero in the model.
@@ -115,22 +115,21 @@ def separate(
     One direction of the disc with slip reversed gives O + F_v, half the sum of the two forces, and F_c, half their
     difference, so that viscoelastic friction is no better known than O.  Each reading is then taken above the zero
     recorded with it.  The standard error of one recording, √(½ mean (z_{k+1} − z_k)²) over the recordings of the
-    test, enters those of friction as far as the scatter of the replicates does not show it: not where each has
-    recordings of its own, in full where they share one.  Degrees of freedom are put together after Welch and
-    Satterthwaite.
+    test, adds to those of friction unless the scatter of the replicates includes it: not at all where each has its own
+    recordings, in full where they share one.  Degrees of freedom are combined after Welch and Satterthwaite.
 
-    Slip that cannot be told from none is taken for pure rolling, though it may hold much of Coulomb friction.  Where
-    readings with slip at the same temperature, load and speed contradict it, it is left out.
+    Slip not significantly different from zero is taken as pure rolling, though it may transmit much of Coulomb
+    friction.  Where readings with slip at the same temperature, load and speed contradict this, they are left out.
 
-    A zero that moves evenly with time is found in the zeros of repeated conditions by a line of one slope through
-    each, and taken out before configurations measured one after the other are compared; zeros that were recorded
-    more than once are followed if the forces do.
+    A linear drift of the zero is estimated from the zeros of repeated conditions, by lines of one common slope, and
+    removed before configurations measured one after the other are compared; zeros recorded more than once are used
+    reading by reading if the forces follow them.
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
     put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
-    one at that speed, and what it changes between the disc's speeds, told by a polynomial through the nearest speeds of
-    the test, is taken out.  What these leave open, up to a curve as steep and sharp as that of a single retardation
-    time, is in the standard errors, which large slips and few speeds make wide.
+    one at that speed, and its change between the disc's speeds, from a polynomial through the nearest speeds of the
+    test, is removed.  The remaining uncertainty, for a curve as steep and sharp as that of a single retardation time,
+    is in the standard errors, which are wide for large slips and few speeds.
 
     Examples
     --------
@@ -156,16 +155,16 @@ def separate(
     found = _Separation.of(runs, zero, assumed, gap, kelvin)
     groups = [fit.group for fit in found.fits]
     far = far_readings(runs, groups, found.entries)
-    told = told_of(runs, far, left_out=outliers == "leave out")
+    notes = outlier_notes(runs, far, left_out=outliers == "leave out")
     if far and outliers == "leave out":
         rest = _without(runs, np.array([row for _, row in far]))
         found = _Separation.of(rest, zero, assumed, gap, kelvin)
-    return found.curves(runs, assumed, told)
+    return found.curves(runs, assumed, notes)
 
 
 @dataclass(frozen=True, eq=False)
 class _Separation:
-    """Fits and what they say, condition by condition."""
+    """Fits and results, condition by condition, the places where Coulomb friction was assumed, and notes."""
 
     fits: list[Fit]
     entries: list[Entry]
@@ -184,54 +183,40 @@ class _Separation:
         """Separate a test without looking for outliers."""
         zeros = Zeros.known(runs, zero)
         grouping = Grouping.of(runs, zeros, assumed, speed_tolerance, temperature_tolerance)
-        groups = grouping.groups
-        uneven = Uneven.of(runs, groups, speed_tolerance)
-
-        def separated() -> tuple[list[Fit], Drift, BetweenRuns, list[Entry], list[Entry]]:
-            fits = [
-                Fit.of(runs, group, zeros, assumed.at(group, zeros), growth)
-                for group, growth in zip(groups, uneven.growths, strict=True)
-            ]
-            drift = Drift.of(fits)
-            errors = BetweenRuns.of(fits, drift.weights)
-            bare = [drift.entry(fit, zeros, *one) for fit, *one in zip(fits, errors.error, errors.freedom, strict=True)]
-            wider = [uneven.widened(place, *one) for place, one in enumerate(zip(fits, bare, strict=True))]
-            return fits, drift, errors, bare, wider
-
-        fits, drift, errors, bare, entries = separated()
+        uneven = Uneven.of(runs, grouping.groups, speed_tolerance)
+        found = _fitted(runs, grouping.groups, zeros, assumed, uneven)
         for _ in range(_ROUNDS if uneven else 0):
-            uneven = uneven.with_growths(fits, bare, entries)
-            fits, drift, errors, bare, entries = separated()
-        told_uneven = uneven.notes(groups, entries)
-        slipping, told = unnoticed_slip(fits, entries)
-        fits = [fit for place, fit in enumerate(fits) if place not in slipping]
-        entries = [entry for place, entry in enumerate(entries) if place not in slipping]
+            uneven = uneven.with_growths(found.fits, found.bare, found.entries)
+            found = _fitted(runs, grouping.groups, zeros, assumed, uneven)
+        slipping, slip_notes = unnoticed_slip(found.fits, found.entries)
+        fits = [fit for place, fit in enumerate(found.fits) if place not in slipping]
+        entries = [entry for place, entry in enumerate(found.entries) if place not in slipping]
         groups = [fit.group for fit in fits]
         entries, places = assumed.completed(fits, entries)
         resting = [fit.group for fit in fits if not fit.fits_offset]
         load = float(np.mean([fit.group.load for fit in fits]))
         notes = [
             *grouping.notes,
-            *told_uneven,
-            *told,
+            *uneven.notes(grouping.groups, found.entries),
+            *slip_notes,
             *zeros.notes(groups, resting),
             *zeros.drift(load),
-            *drift.notes(fits),
-            *errors.notes,
+            *found.drift.notes(fits),
+            *found.errors.notes,
             *doubts(fits, entries, zeros),
             *another_zero(runs, groups, zeros),
         ]
         return cls(fits, entries, places, notes)
 
-    def curves(self, runs: TractionRuns, assumed: Assumed, told: list[str]) -> FrictionCurves:
+    def curves(self, runs: TractionRuns, assumed: Assumed, notes: list[str]) -> FrictionCurves:
         """Return one entry for each condition."""
         groups = [fit.group for fit in self.fits]
         sliding = any(entry.slides for entry in self.entries)
         checked = any(entry.checks for entry in self.entries)
         assumption = assumed.sentence([groups[place] for place in self.assumed], len(groups))
         if not assumption and not assumed.nothing:
-            unused = "The Coulomb friction that was given is not used: the signs of the speeds tell it."
-            told = [*told, Note("coulomb-not-used", unused)]
+            unused = "The given Coulomb friction is not used: the signs of the speeds determine it."
+            notes = [*notes, Note("coulomb-not-used", unused)]
 
         def column(number: int, kind: str) -> Array:
             return np.array([getattr(entry, kind)[number] for entry in self.entries])
@@ -252,15 +237,38 @@ class _Separation:
             consistency=column(3, "value") if checked else None,
             consistency_error=column(3, "error") if checked else None,
             source=runs.source,
-            notes=(*runs.notes, *([Note("coulomb-assumed", assumption)] if assumption else []), *self.notes, *told),
+            notes=(*runs.notes, *([Note("coulomb-assumed", assumption)] if assumption else []), *self.notes, *notes),
             slip=np.array([group.slip for group in groups]),
             offset=column(0, "value"),
             assumption=assumption,
         )
 
 
+class _Fitted(NamedTuple):
+    """Fits of all conditions, and their results without and with the error of friction's change over speed."""
+
+    fits: list[Fit]
+    drift: Drift
+    errors: BetweenRuns
+    bare: list[Entry]
+    entries: list[Entry]
+
+
+def _fitted(runs: TractionRuns, groups: list[Condition], zeros: Zeros, assumed: Assumed, uneven: Uneven) -> _Fitted:
+    """Fit all conditions with the change of friction over speed as known so far."""
+    fits = [
+        Fit.of(runs, group, zeros, assumed.at(group, zeros), growth)
+        for group, growth in zip(groups, uneven.growths, strict=True)
+    ]
+    drift = Drift.of(fits)
+    errors = BetweenRuns.of(fits, drift.weights)
+    bare = [drift.entry(fit, zeros, *one) for fit, *one in zip(fits, errors.error, errors.freedom, strict=True)]
+    entries = [uneven.widened(place, *one) for place, one in enumerate(zip(fits, bare, strict=True))]
+    return _Fitted(fits, drift, errors, bare, entries)
+
+
 def _without(runs: TractionRuns, rows: Integers) -> TractionRuns:
-    """Leave out rows."""
+    """Return the runs without some rows."""
     keep = np.full(len(runs), True)
     keep[rows] = False
     columns = {one.name: getattr(runs, one.name) for one in fields(runs)}

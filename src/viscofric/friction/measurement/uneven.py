@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Uneven:
-    """How much the disc's speed differs between the directions of slip, and what follows for each condition.
+    """Difference of the disc's speed between the directions of slip, and its effect on each condition.
 
-    Coulomb friction, half the difference of the forces, then holds half the change of viscoelastic friction between
-    the two speeds, and their mean is not the friction at the mean speed.  As far as the other speeds of the test tell
-    how friction changes, it is taken out; what they leave open is in the standard errors.
+    Coulomb friction, half the difference of the forces, then includes half the change of viscoelastic friction between
+    the two speeds, and their mean is not the friction at the mean speed.  The change is removed as far as it follows
+    from the other speeds of the test; its uncertainty is in the standard errors.
 
     Attributes
     ----------
@@ -49,13 +49,13 @@ class Uneven:
         return bool(np.any(self.apart))
 
     def with_growths(self, fits: list[Fit], bare: list[Entry], entries: list[Entry]) -> Uneven:
-        """Find how friction changes from that at the speeds of each temperature and load.
+        """Return the change of friction from that at the speeds of each temperature and load.
 
         Parameters
         ----------
         fits : list of Fit
         bare, entries : list of Entry
-            Without and with what the change of friction leaves open in the standard errors.
+            Without and with the uncertainty of the change of friction in the standard errors.
         """
         growths = list(self.growths)
         isotherms = defaultdict(list)
@@ -72,7 +72,7 @@ class Uneven:
         return Uneven(self.apart, growths)
 
     def widened(self, place: int, fit: Fit, entry: Entry) -> Entry:
-        """Add what the change of friction leaves open to the standard errors of a condition."""
+        """Add the uncertainty of the change of friction to the standard errors of a condition."""
         growth = self.growths[place]
         if growth is None:
             return entry
@@ -84,29 +84,28 @@ class Uneven:
         return entry.widened(by_scatter, entry.freedom[1]).widened(by_rest, np.inf)
 
     def notes(self, groups: list[Condition], entries: list[Entry]) -> list[Note]:
-        """Say where the speeds differ and what was made of it."""
-        told = []
+        """Return notes on conditions where the speeds differ."""
+        notes = []
         largest = 100 * float(np.abs(self.apart).max(initial=0.0))
         for taken in (True, False):
             found = [place for place, one in enumerate(self.growths) if one is not None and one.known == taken]
             if not found:
                 continue
             what = (
-                "is taken out as far as friction at the other speeds tells it; the rest is in the standard errors"
+                "is removed as far as it follows from friction at the other speeds; the rest is in the standard errors"
                 if taken
-                else "is in Coulomb friction, half of it, for want of other speeds that would tell it; the standard "
+                else "cannot be removed without other speeds, and half of it is in Coulomb friction; the standard "
                 f"errors allow for a change as steep as speed itself{_size(found, entries)}"
             )
             place = where([groups[one] for one in found], len(groups))
-            told.append(
+            notes.append(
                 Note(
                     "speed-differs",
                     f"{place} the disc's speed differs by up to {largest:.2g} % between directions of slip; the "
-                    "change of "
-                    f"viscoelastic friction between them {what}.",
+                    f"change of viscoelastic friction between them {what}.",
                 )
             )
-        return told
+        return notes
 
 
 def _size(found: list[int], entries: list[Entry]) -> str:
@@ -123,7 +122,7 @@ def _apart(runs: TractionRuns, group: Condition) -> float:
 
 
 def _growth(place: int, alike: list[int], fits: list[Fit], bare: list[Entry], entries: list[Entry]) -> Growth:
-    """Return how friction changes about a condition's speed, from those at its temperature and load."""
+    """Return the change of friction about a condition's speed, from those at its temperature and load."""
     here = fits[place].group
     known = np.isfinite(bare[place].error[1])
 

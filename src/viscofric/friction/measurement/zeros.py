@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from viscofric.traction import TractionRuns
 
 
-# Fewer recordings do not tell a drift from scatter.
+# Fewer recordings do not distinguish a drift from scatter.
 _FEWEST_FOR_DRIFT = 8
 # Standard deviations that the ratio of von Neumann is below its mean where values drift.
 _DRIFTS = 3.0
-#: Conditions that tell a zero, fewer than which do not tell how well.
+#: Conditions that determine a zero; fewer do not give its error.
 _FEWEST = 3
 #: Standard errors that a given zero may lie away.
 _AWAY = 3.0
@@ -39,7 +39,7 @@ class Zeros:
     recording : (n,) array of int
         Number of the recording that each reading's zero comes from.
     error : float
-        Standard error of one recording, N; zero where nothing tells it.
+        Standard error of one recording, N; zero where it is not known.
     freedom : float
         Degrees of freedom behind the error.
     given : bool
@@ -57,12 +57,12 @@ class Zeros:
 
     @classmethod
     def known(cls, runs: TractionRuns, zero: Quantity | tuple[Quantity, Quantity] | None) -> Zeros:
-        """Take the zero that the user gives, else those recorded, else none."""
+        """Return the given zero, or the recorded ones, or none."""
         if zero is not None:
             value, error = zero if isinstance(zero, tuple) and len(zero) == 2 else (zero, 0.0)
             newton, deviation = to_si(value, "N", "zero"), to_si(error, "N", "standard error of zero")
             if deviation < 0.0:
-                raise InputError(f"standard error of zero = {deviation:g} N: must be zero or above.")
+                raise InputError(f"standard error of zero = {deviation:g} N: must be zero or above.", code="negative")
             each, once = np.full(len(runs), newton), np.zeros(len(runs), dtype=np.int64)
             return cls(each, once, deviation, np.inf, True, np.array([newton]))
         if runs.zero_force is None:
@@ -72,10 +72,10 @@ class Zeros:
 
     @classmethod
     def _recorded(cls, runs: TractionRuns, zero: Array) -> Zeros:
-        """Put a number to the recordings in the order of the test; equal ones in succession are one.
+        """Collect the recordings in the order of the test; equal ones in succession are one.
 
-        A single recording's error is √(½ mean (z_{k+1} − z_k)²), which holds its scatter and what the zero drifts
-        until it is recorded again, but no slow drift.  For k recordings that only scatter it has 2(k−1)²/(3k−4)
+        A single recording's error is √(½ mean (z_{k+1} − z_k)²), which includes its scatter and the drift until the
+        next recording, but no slow drift.  For k recordings that only scatter it has 2(k−1)²/(3k−4)
         degrees of freedom (J. von Neumann et al., Annals of Mathematical Statistics 12, 153–162, 1941).
         """
         key = runs.step if runs.step is not None else runs.time
@@ -105,10 +105,10 @@ class Zeros:
         return bool(np.all(np.isfinite(self.of(group))))
 
     def variance(self, group: Condition, operator: Array, part: Indices | None) -> Array:
-        """Return what the errors of the recordings leave in coefficients (4,) that `operator` makes of readings.
+        """Return the variance of coefficients (4,) = `operator` @ readings due to the errors of the recordings.
 
-        Parts of the readings whose scatter tells errors (`part` numbers them) show it as far as their recordings
-        differ: all of it where each has its own, nothing where they share one.  What they show is taken off.
+        Parts of the readings whose scatter gives the errors (`part` numbers them) include it as far as their recordings
+        differ: all of it where each has its own, nothing where they share one.  That share is subtracted.
         """
         _, which = np.unique(self.recording[group.rows], return_inverse=True)
         recordings = int(which.max()) + 1
@@ -122,17 +122,17 @@ class Zeros:
         return self.error**2 * left
 
     def fitted(self, group: Condition, *, coulomb: bool) -> bool:
-        """Whether a condition's zero is fitted: where nobody gives it and the signs tell it."""
+        """Whether a condition's zero is fitted: it is not given, and the signs determine it."""
         return not self.given and group.determines(offset=True, coulomb=coulomb)
 
     def suffices(self, group: Condition, *, coulomb: bool) -> bool:
-        """Whether viscoelastic (and Coulomb) friction can be told, with the zero as it is known."""
+        """Whether viscoelastic (and Coulomb) friction can be separated, with the zero as it is known."""
         return self.fitted(group, coulomb=coulomb) or (
             self.covers(group) and group.determines(offset=False, coulomb=coulomb)
         )
 
     def notes(self, groups: list[Condition], used: list[Condition]) -> list[str]:
-        """Say on what zero viscoelastic friction rests where it is a recorded one."""
+        """Return a note on viscoelastic friction that rests on a recorded zero."""
         if self.given or not used:
             return []
         load = float(np.mean([group.load for group in used]))
@@ -144,25 +144,25 @@ class Zeros:
                     f"{where}, of one recording, whose error is not in the standard errors of viscoelastic friction.",
                 )
             ]
-        told = Note(
+        note = Note(
             "recorded-zero",
             f"{where}, whose {self.recordings.size} recordings scatter by {self.error:.2g} N "
             f"({self.error / load:.2g} of the load); this is in the standard errors of viscoelastic friction.",
         )
-        return [told]
+        return [note]
 
     def drift(self, load: float) -> list[str]:
-        """Say that the recordings drift, if they do."""
+        """Return a note on recordings that drift."""
         if not wanders(self.recordings):
             return []
         first, last = self.recordings[0], self.recordings[-1]
         span = float(np.ptp(self.recordings))
-        told = Note(
+        note = Note(
             "recorded-zero-drifts",
             f"The recorded zero of the force cell drifts, from {first:.3g} N at first to {last:.3g} N at last, within "
             f"{span:.2g} N ({span / load:.2g} of the load).",
         )
-        return [told]
+        return [note]
 
 
 def wanders(values: Array) -> bool:
@@ -180,7 +180,7 @@ def wanders(values: Array) -> bool:
 
 
 def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> list[str]:
-    """Note a given zero that the sign configurations contradict.
+    """Return a note on a given zero that the sign configurations contradict.
 
     Parameters
     ----------
@@ -190,23 +190,23 @@ def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> l
     """
     if not zeros.given:
         return []
-    told = np.array([_zero(runs, group) for group in groups if group.determines(offset=True, coulomb=True)])
-    if told.size < _FEWEST:
+    fitted = np.array([_zero(runs, group) for group in groups if group.determines(offset=True, coulomb=True)])
+    if fitted.size < _FEWEST:
         return []
-    mean, error = float(told.mean()), float(told.std(ddof=1)) / np.sqrt(told.size)
+    mean, error = float(fitted.mean()), float(fitted.std(ddof=1)) / np.sqrt(fitted.size)
     given = float(zeros.value[0])
     if abs(mean - given) <= _AWAY * np.hypot(error, zeros.error) + 1e-9 * abs(given):
         return []
     sentence = Note(
         "given-zero-contradicted",
-        f"The zero of the force cell that was given, {given:.3g} N, is used, though the configurations at {told.size} "
-        f"conditions tell another one, {mean:.3g} ± {error:.1g} N.",
+        f"The given zero of the force cell, {given:.3g} N, is used, though the configurations at {fitted.size} "
+        f"conditions give another one, {mean:.3g} ± {error:.1g} N.",
     )
     return [sentence]
 
 
 def _zero(runs: TractionRuns, group: Condition) -> float:
-    """Return the zero that the readings of a condition tell, N."""
+    """Return the zero from the readings of a condition, N."""
     design = group.regressors(offset=True, coulomb=True)
     design[:, 1:] *= runs.load[group.rows][:, None]
     return float(np.linalg.lstsq(design, runs.traction_force[group.rows])[0][0])
