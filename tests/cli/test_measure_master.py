@@ -100,7 +100,7 @@ def test_what_cannot_be_known_is_null_and_a_question_mark(tmp_path: Path) -> Non
 
 def test_several_files_make_one_test(tmp_path: Path) -> None:
     back, forth = runs(tmp_path / "back.csv", signs=(-1,)), runs(tmp_path / "forth.csv", signs=(1,))
-    assert "the signs of the velocities do not tell" in call("measure", back).output
+    assert "the signs of the velocities do not separate" in call("measure", back).output
     # One test was measured in two files: forwards in one, backwards in the other.
     found = record("measure", back, forth)
     np.testing.assert_allclose([point["offset"] for point in found["points"]], ZERO_FORCE, rtol=1e-9)  # no noise

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.stats import binom
 
 from friction.made_runs import FOUR, exported_runs, rows_of, runs_from, traction_runs
-from viscofric.errors import InputError
+from friction.refused import refused
 from viscofric.friction.measurement.conditions import Condition
 from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.tribometry import separate
@@ -71,7 +71,7 @@ def test_a_given_zero_overrides_what_was_recorded_with_its_own_error() -> None:
     runs = replace(exported_runs(), zero_force=np.full(96, 7.0))
     exact = separate(runs, zero="300 mN")
     np.testing.assert_allclose(exact.viscoelastic, 0.03, rtol=ROUNDING)
-    assert not any("recorded" in note for note in exact.notes)
+    assert not codes(exact.notes) & {"recorded-zero", "another-zero", "recorded-zero-drifts"}
     loose = separate(runs, zero=("300 mN", "50 mN"))
     # The half-sum less the zero: 0.05 N over 25 N.
     np.testing.assert_allclose(loose.viscoelastic_error, 0.05 / 25.0, rtol=0.01)
@@ -84,7 +84,7 @@ def test_a_given_zero_overrides_what_was_recorded_with_its_own_error() -> None:
     by_curvature = 0.5 * 0.03 * 0.7 * 1.2 / 2.0 * np.abs(np.diff(steps * (steps - other)))[:, 0]
     np.testing.assert_allclose(loose.coulomb_error, np.hypot(by_slope, by_curvature), rtol=1e-3)  # type: ignore[arg-type]
     np.testing.assert_allclose(np.subtract(*loose.interval()[::-1]), 2 * 1.95996 * 0.05 / 25.0, rtol=0.01)
-    with pytest.raises(InputError, match="standard error of zero"):
+    with refused("negative"):
         separate(runs, zero=(0.3, -0.1))
 
 
@@ -217,7 +217,7 @@ def test_degrees_of_freedom_go_together_after_welch_and_satterthwaite() -> None:
 
 def test_one_recording_is_used_and_said() -> None:
     curves = separate(exported_runs(noise=0.01, slip_ratio=0.04))
-    (note,) = [note for note in curves.notes if "recorded" in note]
+    (note,) = [note for note in curves.notes if note.code == "recorded-zero"]
     assert "of one recording, whose error is not in the standard errors" in note
     np.testing.assert_allclose(curves.viscoelastic_freedom, 7.0)  # type: ignore[arg-type]
 
@@ -251,7 +251,7 @@ def test_viscoelastic_friction_that_changes_with_speed_does_not_reach_coulomb_fr
     np.testing.assert_allclose(curves.viscoelastic, 0.03 * (curves.speed / 0.05) ** power, rtol=1e-9)
     np.testing.assert_allclose(curves.coulomb, 0.05, rtol=1e-9)  # type: ignore[arg-type]
     alone = exported_runs(viscoelastic=planted, steps=2, rolling_speeds=[0.05], slip_ratio=slip_ratio)
-    (note,) = [note for note in separate(alone).notes if "disc's speed differs" in note]
+    (note,) = [note for note in separate(alone).notes if note.code == "speed-differs"]
     assert "is in Coulomb friction" in note
     # Nothing tells the slope of one speed: what it may be is in the error.
     alone_curves = separate(alone)
@@ -320,9 +320,9 @@ def test_a_wrong_zero_is_named_where_it_alone_can_make_viscoelastic_friction_neg
     """Coulomb friction, the half-difference, is positive, so that the sign of the force is right."""
     curves = separate(replace(exported_runs(noise=0.01), zero_force=np.full(96, 2.0)))
     assert np.all(curves.viscoelastic < 0.0)
-    (note,) = [note for note in curves.notes if "is negative" in note]
+    (note,) = [note for note in curves.notes if note.code == "negative-friction"]
     assert "Coulomb friction is positive as it should be" in note
-    assert "the zero of the force cell is another one at these readings" in note
+    assert "the zero of the force cell at these readings differs" in note
     assert "sign of the force" not in note
 
 
@@ -334,7 +334,8 @@ def test_a_wrong_recorded_zero_does_no_harm_to_four_configurations_and_is_found(
     assert right.notes == ()
     (note,) = wrong.notes
     assert "At 6 of 6 conditions" in note
-    assert "is not the recorded one, 0.1 N" in note
+    assert note.code == "another-zero"
+    assert "0.1 N" in note
 
 
 def test_recorded_zeros_that_drift_are_noted() -> None:
@@ -342,8 +343,7 @@ def test_recorded_zeros_that_drift_are_noted() -> None:
     moving = separate(exported_runs(zero_noise=0.02, noise=0.02, seed=2, offset=lambda t: 0.3 + 0.002 * t))
     assert not codes(steady.notes) & {"zero-drifts", "recorded-zero-drifts"}
     # From 0.3 N to 0.3 N + 15 steps of 18 s at 0.002 N/s, 0.54 N: 0.022 of 25 N.
-    (note,) = [note for note in moving.notes if "drifts" in note]
-    assert "recorded zero" in note
+    (note,) = [note for note in moving.notes if note.code == "recorded-zero-drifts"]
     assert "0.022 of the load" in note or "0.023 of the load" in note or "0.021 of the load" in note
 
 
@@ -355,7 +355,7 @@ def test_four_configurations_follow_recorded_zeros_that_the_forces_follow() -> N
     recorded = separate(replace(moved, zero_force=0.3 + jumps))
     # 16 readings of 1 mN: 1e-5 of 25 N; five of them.  Unrecorded, 0.2 N / 4 / 25 N = 2e-3.
     np.testing.assert_allclose(recorded.viscoelastic, 0.03, atol=5e-5)
-    assert any("its own recorded zero" in note for note in recorded.notes)
+    assert "zero-unsteady" in codes(recorded.notes)
     assert np.sqrt(np.mean((separate(moved).viscoelastic - 0.03) ** 2)) > 5e-4
     # Recordings that scatter by themselves are not followed.
     noisy = separate(replace(runs, zero_force=0.3 + jumps))
@@ -405,7 +405,8 @@ def test_a_drift_is_not_taken_out_twice_where_the_recorded_zeros_hold_it() -> No
     zero = np.where(np.arange(len(rows)) < len(four), np.nan, drift)
     rows[:, 2] += drift
     curves = separate(replace(runs_from(rows), time=time, zero_force=zero))
-    assert any("drifts by 7." in note for note in curves.notes), curves.notes
+    (note,) = [note for note in curves.notes if note.code == "zero-drifts"]
+    assert "7." in note
     # Noise of 0.01 N over 25 N and the root of 8 readings, 1.4e-4; five of them.  Twice taken out, the drift of 120 s
     # between the directions of slip is half of 0.24 N over 25 N, 5e-3.
     np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=7e-4)
@@ -491,9 +492,9 @@ def test_a_zero_that_jumps_between_series_is_told_but_no_drift_is_made_of_it() -
 
 def test_a_given_zero_that_the_configurations_contradict_is_told() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, noise=0.02, offset=0.3)
-    (told,) = [note for note in separate(runs, zero="0.5 N").notes if "tell another one" in note]
+    (told,) = [note for note in separate(runs, zero="0.5 N").notes if note.code == "given-zero-contradicted"]
     assert re.search(
-        r"given, 0\.5 N, is used, though the configurations at 6 conditions tell another one, 0\.(29|30)", told
+        r"given, 0\.5 N, is used, though the configurations at 6 conditions give another one, 0\.(29|30)", told
     )
     assert "given-zero-contradicted" not in codes(separate(runs, zero=("0.3 N", "0.02 N")).notes)
     # One direction of the disc tells no zero.

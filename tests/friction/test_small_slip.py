@@ -35,7 +35,7 @@ def swept_runs(slip_error: float) -> TractionRuns:
 def test_slip_that_is_not_reversed_in_a_point_of_a_sweep_counts_as_none() -> None:
     """Recorded 1.2 % too small, slips below that are recorded with one sign in both readings of a point."""
     curves = separate(swept_runs(0.012))
-    (told,) = [note for note in curves.notes if "is not reversed within the point of the test" in note]
+    (told,) = [note for note in curves.notes if note.code == "slip-not-reversed"]
     # 3 steps with 2 or 3 of 40 ratios between 0.2 and 1.2 %, two readings each; noise of 0.2 % moves one or two.
     assert 6 <= int(told.split()[1]) <= 24
     assert curves.coulomb is not None
@@ -72,7 +72,7 @@ def test_rolling_with_unnoticed_slip_is_left_out_where_sliding_contradicts_it(un
         seed=3,
     )
     curves = separate(runs_from(np.concatenate([rows_of(sliding), rows_of(rolling)])))
-    told = [note for note in curves.notes if "ball and disc probably slip" in note]
+    told = [note for note in curves.notes if note.code == "unnoticed-slip"]
     assert curves.slip is not None
     assert (len(curves), np.count_nonzero(curves.slip == 0.0)) == ((6, 0) if unnoticed else (12, 6))
     # Noise of 0.01 N over 25 N and the root of 8 readings or more; five standard errors.

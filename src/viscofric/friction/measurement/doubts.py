@@ -91,7 +91,7 @@ def _why_viscoelastic(fit: Fit, entry: Entry) -> str:
 def _why_coulomb(fit: Fit, entry: Entry) -> str:
     """Return what can make Coulomb friction negative."""
     if entry.value[1] > 0.0 and fit.fits_offset:
-        return "probably the speeds of disc and ball are interchanged"
+        return "probably the speeds of disc and ball are exchanged"
     return "probably the sign of the force, or of the velocities, is reversed"
 
 

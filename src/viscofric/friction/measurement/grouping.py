@@ -147,13 +147,13 @@ class Grouping:
             raise InputError(_unsigned(groups, split))
         if len(poor) == len(groups):
             raise InputError(_refused(poor, len(groups), zeros, assumed))
-        said = [*notes, *_two_groups_kept(groups, split)]
+        noted = [*notes, *_two_groups_kept(groups, split)]
         if mixed:
-            said.append(_unsigned(groups, split, left_out=True))
+            noted.append(_unsigned(groups, split, left_out=True))
         if poor:
-            said.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
+            noted.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
         out = mixed.union(map(id, poor))
-        return cls([group for group in groups if id(group) not in out], said)
+        return cls([group for group in groups if id(group) not in out], noted)
 
 
 def _readings(groups: list[Condition]) -> int:
@@ -173,8 +173,8 @@ def _at_other_speeds(one: Condition, others: list[Condition]) -> Remedy:
     if not near:
         return Remedy("")
     speed = min(near, key=lambda speed: abs(speed - one.speed))
-    said = f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger "
-    return said + setting(*SPEED_TOLERANCE) + " joins them)"
+    noted = f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger "
+    return noted + setting(*SPEED_TOLERANCE) + " joins them)"
 
 
 def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> Note:
