@@ -130,7 +130,7 @@ def test_one_direction_of_slip_needs_an_assumption_which_is_told(tmp_path: Path)
 def test_coulomb_friction_that_is_not_needed_is_told(tmp_path: Path) -> None:
     done = call("measure", runs(tmp_path / "runs.csv"), "--coulomb", "45")
     assert done.exit_code == 0, done.output
-    assert "that was given is not used" in done.stderr
+    assert "The given Coulomb friction is not used" in done.stderr
 
 
 def test_steps_that_are_not_steady_are_left_out(tmp_path: Path) -> None:
@@ -290,7 +290,7 @@ def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
 
 def test_curves_of_one_temperature_are_shifted_by_given_factors(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", [363.15])
-    assert "hold no shift factor" in call("master", path).output
+    assert "have no shift factor" in call("master", path).output
     assert call("master", path, "--shift", "synthetic fluoroelastomer").exit_code == 0
 
 
