@@ -493,9 +493,7 @@ def test_a_zero_that_jumps_between_series_is_told_but_no_drift_is_made_of_it() -
 def test_a_given_zero_that_the_configurations_contradict_is_told() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, noise=0.02, offset=0.3)
     (told,) = [note for note in separate(runs, zero="0.5 N").notes if note.code == "given-zero-contradicted"]
-    assert re.search(
-        r"0\.5 N, is used, though the configurations at 6 conditions give another one, 0\.(29|30)", told
-    )
+    assert re.search(r"0\.5 N, is used, though the configurations at 6 conditions give another one, 0\.(29|30)", told)
     assert "given-zero-contradicted" not in codes(separate(runs, zero=("0.3 N", "0.02 N")).notes)
     # One direction of the disc tells no zero.
     forwards = runs.select(runs.disc_speed > 0.0)
