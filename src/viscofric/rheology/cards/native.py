@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import inspect
-from dataclasses import fields, is_dataclass
+from dataclasses import is_dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.columns import as_record, kept_arguments
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
@@ -42,14 +42,8 @@ def plain(value: Any) -> Any:
     if isinstance(value, (tuple, list)):
         return [plain(one) for one in value]
     if is_dataclass(value) and type(value).__name__ in _kinds():
-        return {"kind": type(value).__name__, **{name: plain(getattr(value, name)) for name in _arguments(type(value))}}
+        return {name: plain(content) for name, content in as_record(value).items()}
     raise InputError(f"a material file cannot hold a {type(value).__name__}.")
-
-
-def _arguments(one: type) -> list[str]:
-    """Names that the constructor takes and the object keeps."""
-    kept = {field.name for field in fields(one)}
-    return [name for name in inspect.signature(one).parameters if name in kept]
 
 
 def restored(value: Any, allowed: tuple[type, ...]) -> Any:
@@ -68,7 +62,7 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
         raise InputError(f"kind = {kind!r}: must be one of {', '.join(names)}.")
     one = _kinds()[kind]
     arguments = {name: content for name, content in value.items() if name != "kind"}
-    unknown = sorted(set(arguments) - set(_arguments(one)))
+    unknown = sorted(set(arguments) - set(kept_arguments(one)))
     if unknown:
         raise InputError(f"{kind} has no {', '.join(unknown)}; the file may be of a newer version of viscofric.")
     arguments = {name: tuple(content) if _is_row(content) else content for name, content in arguments.items()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
@@ -57,5 +58,11 @@ def checked_covariance(values: Any, size: int, what: str) -> Array:
 
 
 def as_record(value: Any) -> dict[str, Any]:
-    """Return a frozen dataclass as its class's name (``kind``) and its fields."""
-    return {"kind": type(value).__name__} | {field.name: getattr(value, field.name) for field in fields(value)}
+    """Return a frozen dataclass as its class's name (``kind``) and what its constructor takes and it keeps."""
+    return {"kind": type(value).__name__} | {name: getattr(value, name) for name in kept_arguments(type(value))}
+
+
+def kept_arguments(one: type) -> tuple[str, ...]:
+    """Names that the constructor of a dataclass takes and the object keeps."""
+    kept = {field.name for field in fields(one)}
+    return tuple(name for name in inspect.signature(one).parameters if name in kept)

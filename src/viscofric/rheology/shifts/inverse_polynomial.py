@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.arguments import flag, numbers
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.parametric_law import ParametricLaw, Reach, shown_constant
+from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw, Reach, shown_constant
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.units import celsius, positive
 
@@ -58,13 +58,11 @@ class InversePolynomial(ParametricLaw):
 
     coefficients: tuple[float, ...]
     reference: float
-    fitted_range: tuple[float, float]
-    covariance: Array | None = field(default=None, compare=False, repr=False)
-    bounded: bool = field(default=True, compare=False, repr=False)
+    fitted_range: tuple[float, float] = field(kw_only=True)
 
     kind: ClassVar[str] = "polynomial"
     title: ClassVar[str] = "polynomial"
-    _constants: ClassVar[tuple[str, ...]] = ("coefficients",)
+    _constants: ClassVar[dict[str, Constant]] = {"coefficients": Constant("c")}
 
     def __init__(
         self,
@@ -128,7 +126,7 @@ class InversePolynomial(ParametricLaw):
         errors = self.standard_errors or (0.0,) * self.degree
         units = ("K", *(f"K^{power}" for power in range(2, self.degree + 1)))
         rows = enumerate(zip(self.coefficients, errors, units, strict=True), start=1)
-        return [shown_constant(f"c{power}", f" {unit}", 1.0, 0.0, c, error) for power, (c, error, unit) in rows]
+        return [shown_constant(Constant(f"c{power}", shown=unit), c, error) for power, (c, error, unit) in rows]
 
     def _log10(self, kelvin: Array) -> Array:
         return self._gradient(kelvin) @ self.parameters

@@ -1,10 +1,24 @@
-"""Shift laws: how the time scale of a rubber depends on temperature, all under one roof."""
+"""Shift laws: how the time scale of a material depends on temperature.
 
-from viscofric.rheology.shifts.free_volume_laws import VFT, WLF
+WLF and VFT are one curve in two sets of constants, with a pole some tens of kelvin below the glass transition.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from viscofric.errors import InputError
 from viscofric.rheology.shifts.inverse_polynomial import InversePolynomial
-from viscofric.rheology.shifts.parametric_law import ParametricLaw
+from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10, ShiftLaw
-from viscofric.rheology.shifts.thermal_laws import Arrhenius, WLFArrhenius
+from viscofric.units import CELSIUS_ZERO, celsius, positive
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.units import Quantity
 
 __all__ = [
     "GAS_CONSTANT",
@@ -17,3 +31,320 @@ __all__ = [
     "ShiftLaw",
     "WLFArrhenius",
 ]
+
+
+@dataclass(frozen=True)
+class WLF(ParametricLaw):
+    """Williams–Landel–Ferry law, log10 α = −C1 (T − Tr) / (C2 + T − Tr).
+
+    Parameters
+    ----------
+    C1 : float
+        Above zero.
+    C2 : float or quantity
+        Temperature difference above zero, K (or text such as ``"51.6 delta_degC"``).
+    reference : float or quantity
+        Tr, where α = 1; K, or text such as ``"30 degC"``.
+    covariance : (2, 2) array, optional
+        Of C1 and C2, where the law was fitted.
+    fitted_range, bounded
+        See `ParametricLaw`.
+
+    References
+    ----------
+    M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, doi:10.1021/ja01619a008.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.WLF(C1=17.44, C2=51.6, reference="-18 degC")
+    >>> there = law.at_reference("30 degC")
+    >>> round(there.C1, 3), round(there.C2, 3)
+    (9.035, 99.6)
+    """
+
+    C1: float
+    C2: float
+    reference: float
+
+    kind: ClassVar[str] = "wlf"
+    title: ClassVar[str] = "WLF"
+    _constants: ClassVar[dict[str, Constant]] = {"C1": Constant("C1"), "C2": Constant("C2", "delta_degC", "K")}
+
+    def __init__(
+        self,
+        C1: float,
+        C2: Quantity,
+        reference: Quantity,
+        covariance: Any = None,
+        fitted_range: tuple[Quantity, Quantity] | None = None,
+        bounded: bool = True,
+    ) -> None:
+        self._set((C1, C2), reference, covariance, fitted_range, bounded)
+
+    @property
+    def pole(self) -> float:
+        """Temperature Tr − C2 at which the law diverges, K."""
+        return self.reference - self.C2
+
+    @property
+    def _divergence(self) -> float:
+        return self.pole
+
+    def _attributes(self) -> dict[str, Any]:
+        errors = {}
+        if self.standard_errors is not None:
+            errors = {"wlf_C1_error": self.standard_errors[0], "wlf_C2_error": self.standard_errors[1]}
+        return super()._attributes() | {"wlf_C1": self.C1, "wlf_C2": self.C2} | errors
+
+    def _log10(self, kelvin: Array) -> Array:
+        warmer = kelvin - self.reference
+        return -self.C1 * warmer / (self.C2 + warmer)
+
+    def _gradient(self, kelvin: Array) -> Array:
+        warmer = kelvin - self.reference
+        fraction = warmer / (self.C2 + warmer)
+        return np.stack([-fraction, self.C1 * fraction / (self.C2 + warmer)], axis=-1)
+
+    def at_reference(self, reference: Quantity) -> WLF:
+        """Return the same law about another reference: C1 C2 and Tr − C2 stay what they are (J. D. Ferry)."""
+        kelvin = positive(reference, "K", "reference")
+        self._refuse(np.array([kelvin]))
+        warmer = kelvin - self.reference
+        C2 = self.C2 + warmer
+        covariance = self._transformed([[self.C2 / C2, self.C1 * warmer / C2**2], [0.0, 1.0]])
+        return WLF(self.C1 * self.C2 / C2, C2, kelvin, covariance, self.fitted_range, self.bounded)
+
+    def to_vft(self) -> VFT:
+        """Return the same curve as a VFT law: B = C1 C2 and T0 = Tr − C2, exactly; covariance included.
+
+        Raises
+        ------
+        InputError
+            If the pole Tr − C2 lies at or below absolute zero, where a VFT law cannot have it.
+        """
+        if self.pole <= 0.0:
+            raise InputError(
+                "the shift factors are too straight for a VFT law, whose pole would lie below absolute zero; use a WLF "
+                "or an Arrhenius law instead."
+            )
+        covariance = self._transformed([[self.C2, self.C1], [0.0, -1.0]])
+        return VFT(self.C1 * self.C2, self.pole, self.reference, covariance, self.fitted_range, self.bounded)
+
+
+@dataclass(frozen=True)
+class VFT(ParametricLaw):
+    """Vogel–Fulcher–Tammann law, log10 α = B/(T − T0) − B/(Tr − T0).
+
+    It is the WLF law in other constants, B = C1 C2 and T0 = Tr − C2, which do not change with the reference;
+    `to_wlf` and `WLF.to_vft` turn one into the other exactly.  Authors who write it with the natural logarithm
+    have a B that is ln 10 times this one.
+
+    Parameters
+    ----------
+    B : float or quantity
+        Temperature difference above zero, K.
+    T0 : float or quantity
+        The pole, above zero and below the reference; K, or text such as ``"-70 degC"``.
+    reference : float or quantity
+        Tr, where α = 1; K, or text such as ``"30 degC"``.
+    covariance : (2, 2) array, optional
+        Of B and T0, where the law was fitted.
+    fitted_range, bounded
+        See `ParametricLaw`.
+
+    References
+    ----------
+    H. Vogel, Physikalische Zeitschrift 22 (1921) 645; G. S. Fulcher, J. Am. Ceram. Soc. 8 (1925) 339,
+    doi:10.1111/j.1151-2916.1925.tb16731.x; G. Tammann, W. Hesse, Z. anorg. allg. Chem. 156 (1926) 245,
+    doi:10.1002/zaac.19261560121.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> wlf = vf.WLF(C1=8.0, C2=100.0, reference=303.15)
+    >>> vft = vf.VFT(B=800.0, T0=203.15, reference=303.15)  # the same curve: B = C1 C2, T0 = reference − C2
+    >>> round(float(wlf.log10(333.15) - vft.log10(333.15)), 12)
+    0.0
+    """
+
+    B: float
+    T0: float
+    reference: float
+
+    kind: ClassVar[str] = "vft"
+    title: ClassVar[str] = "VFT"
+    _constants: ClassVar[dict[str, Constant]] = {
+        "B": Constant("B", "delta_degC", "K"),
+        "T0": Constant("T0", "K", "°C", offset=-CELSIUS_ZERO),
+    }
+
+    def __init__(
+        self,
+        B: Quantity,
+        T0: Quantity,
+        reference: Quantity,
+        covariance: Any = None,
+        fitted_range: tuple[Quantity, Quantity] | None = None,
+        bounded: bool = True,
+    ) -> None:
+        self._set((B, T0), reference, covariance, fitted_range, bounded)
+        if self.reference <= self.T0:
+            raise InputError(
+                f"T0 = {celsius(self.T0):z.1f} °C must lie below the reference, {celsius(self.reference):z.1f} °C."
+            )
+
+    @property
+    def _divergence(self) -> float:
+        return self.T0
+
+    def _log10(self, kelvin: Array) -> Array:
+        return self.B * (1.0 / (kelvin - self.T0) - 1.0 / (self.reference - self.T0))
+
+    def _gradient(self, kelvin: Array) -> Array:
+        here, there = 1.0 / (kelvin - self.T0), 1.0 / (self.reference - self.T0)
+        return np.stack([here - there, self.B * (here**2 - there**2)], axis=-1)
+
+    def to_wlf(self) -> WLF:
+        """Return the same curve as a WLF law: C1 = B/(Tr − T0) and C2 = Tr − T0, exactly; covariance included."""
+        C2 = self.reference - self.T0
+        covariance = self._transformed([[1.0 / C2, self.B / C2**2], [0.0, -1.0]])
+        return WLF(self.B / C2, C2, self.reference, covariance, self.fitted_range, self.bounded)
+
+
+@dataclass(frozen=True)
+class Arrhenius(ParametricLaw):
+    """Arrhenius law, log10 α = Ea / (R ln 10) (1/T − 1/Tr).
+
+    Parameters
+    ----------
+    activation_energy : float or quantity
+        Ea above zero, J/mol (or text such as ``"120 kJ/mol"``).
+    reference : float or quantity
+        Tr, where α = 1; K, or text such as ``"30 degC"``.
+    covariance : (1, 1) array, optional
+        Of the activation energy, where the law was fitted.
+    fitted_range, bounded
+        See `ParametricLaw`.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> round(float(vf.Arrhenius("100 kJ/mol", reference="30 degC").log10("60 degC")), 3)
+    -1.552
+    """
+
+    activation_energy: float
+    reference: float
+
+    kind: ClassVar[str] = "arrhenius"
+    title: ClassVar[str] = "Arrhenius"
+    _constants: ClassVar[dict[str, Constant]] = {"activation_energy": Constant("Ea", "J/mol", "kJ/mol", factor=1e-3)}
+
+    def __init__(
+        self,
+        activation_energy: Quantity,
+        reference: Quantity,
+        covariance: Any = None,
+        fitted_range: tuple[Quantity, Quantity] | None = None,
+        bounded: bool = True,
+    ) -> None:
+        self._set((activation_energy,), reference, covariance, fitted_range, bounded)
+
+    def _log10(self, kelvin: Array) -> Array:
+        return self.activation_energy / (GAS_CONSTANT * LN10) * (1.0 / kelvin - 1.0 / self.reference)
+
+    def _gradient(self, kelvin: Array) -> Array:
+        return np.stack([(1.0 / kelvin - 1.0 / self.reference) / (GAS_CONSTANT * LN10)], axis=-1)
+
+
+@dataclass(frozen=True)
+class WLFArrhenius(ParametricLaw):
+    """WLF law above the glass transition, Arrhenius law below it, with the same slope at it.
+
+    About Tg, log10 α = −C1 (T − Tg) / (C2 + T − Tg) above, and Ea / (R ln 10) (1/T − 1/Tg) below with
+    Ea = R ln 10 Tg² C1 / C2, all less the value at the reference.
+
+    Parameters
+    ----------
+    C1, C2 : float
+        WLF constants **about the glass transition** (not about the reference); C2 in K.
+    glass_transition : float or quantity
+        Tg; K, or text such as ``"-18 degC"``.
+    reference : float or quantity
+        Temperature where α = 1, on either side of Tg.
+    covariance : (3, 3) array, optional
+        Of C1, C2 and Tg, where the law was fitted.
+    fitted_range, bounded
+        See `ParametricLaw`.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-18 degC", reference="30 degC")
+    >>> round(float(law.log10("-30 degC")), 2)
+    12.66
+    """
+
+    C1: float
+    C2: float
+    glass_transition: float
+    reference: float
+
+    kind: ClassVar[str] = "wlf+arrhenius"
+    title: ClassVar[str] = "WLF–Arrhenius"
+    _constants: ClassVar[dict[str, Constant]] = {
+        "C1": Constant("C1"),
+        "C2": Constant("C2", "delta_degC", "K"),
+        "glass_transition": Constant("Tg", "K", "°C", offset=-CELSIUS_ZERO),
+    }
+
+    def __init__(
+        self,
+        C1: float,
+        C2: Quantity,
+        glass_transition: Quantity,
+        reference: Quantity,
+        covariance: Any = None,
+        fitted_range: tuple[Quantity, Quantity] | None = None,
+        bounded: bool = True,
+    ) -> None:
+        self._set((C1, C2, glass_transition), reference, covariance, fitted_range, bounded)
+
+    @property
+    def activation_energy(self) -> float:
+        """Of the Arrhenius law below the glass transition, J/mol."""
+        return GAS_CONSTANT * LN10 * self.glass_transition**2 * self.C1 / self.C2
+
+    @property
+    def described(self) -> str:
+        """The constants about Tg with their standard errors, and the reference."""
+        return f"{', '.join(self._shown_constants())}; α = 1 at {celsius(self.reference):z.1f} °C"
+
+    @property
+    def above(self) -> WLF:
+        """The WLF branch about the glass transition."""
+        return WLF(self.C1, self.C2, self.glass_transition)
+
+    def _about_glass_transition(self, kelvin: Array) -> Array:
+        warmer = np.maximum(kelvin - self.glass_transition, 0.0)
+        colder = np.minimum(kelvin, self.glass_transition)
+        slope = self.C1 / self.C2 * self.glass_transition**2
+        return -self.C1 * warmer / (self.C2 + warmer) + slope * (1.0 / colder - 1.0 / self.glass_transition)
+
+    def _log10(self, kelvin: Array) -> Array:
+        return self._about_glass_transition(kelvin) - self._about_glass_transition(np.asarray(self.reference))
+
+    def _gradient(self, kelvin: Array) -> Array:
+        return self._slopes(kelvin) - self._slopes(np.asarray(self.reference))
+
+    def _slopes(self, kelvin: Array) -> Array:
+        """Return the derivatives of the law about Tg by C1, C2 and Tg."""
+        Tg = self.glass_transition
+        warmer = np.maximum(kelvin - Tg, 0.0)
+        fraction = warmer / (self.C2 + warmer)
+        above = [-fraction, self.C1 * fraction / (self.C2 + warmer), self.C1 * self.C2 / (self.C2 + warmer) ** 2]
+        ratio = Tg / np.minimum(kelvin, Tg)
+        rise = Tg * (ratio - 1.0) / self.C2
+        below = [rise, -self.C1 * rise / self.C2, self.C1 / self.C2 * (2.0 * ratio - 1.0)]
+        return np.where(np.asarray(kelvin >= Tg)[..., None], np.stack(above, axis=-1), np.stack(below, axis=-1))

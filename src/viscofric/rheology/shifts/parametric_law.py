@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
@@ -14,7 +14,7 @@ from viscofric.datasets import plain
 from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.columns import as_record, checked_covariance
 from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
-from viscofric.units import CELSIUS_ZERO, celsius, kelvin_hint, positive, to_si_array
+from viscofric.units import celsius, kelvin_hint, positive, to_si_array
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask
@@ -39,23 +39,14 @@ LEVEL_95 = 1.959963984540054
 SAME_TEMPERATURE = 1e-9  # relative
 
 
-class _Shown(NamedTuple):
-    """How a constant is shown: symbol, unit, and what turns SI into that unit."""
+class Constant(NamedTuple):
+    """A constant of a law: its symbol, its unit in SI, and the unit in which it is shown (SI × factor + offset)."""
 
     symbol: str
-    unit: str = ""
+    unit: str = "dimensionless"
+    shown: str = ""
     factor: float = 1.0
     offset: float = 0.0
-
-
-_SHOWN = {
-    "C1": _Shown("C1"),
-    "C2": _Shown("C2", " K"),
-    "B": _Shown("B", " K"),
-    "T0": _Shown("T0", " °C", 1.0, -CELSIUS_ZERO),
-    "glass_transition": _Shown("Tg", " °C", 1.0, -CELSIUS_ZERO),
-    "activation_energy": _Shown("Ea", " kJ/mol", 1e-3),
-}
 
 
 class Reach(NamedTuple):
@@ -65,10 +56,11 @@ class Reach(NamedTuple):
     reason: str
 
 
+@dataclass(frozen=True, kw_only=True)
 class ParametricLaw(ShiftLaw):
     """A shift law of a few constants, fitted or typed in.
 
-    Subclasses are frozen dataclasses with the constants, `reference` and the three fields below.
+    Subclasses are frozen dataclasses with the constants and `reference`; their constructors call `_set`.
 
     Parameters
     ----------
@@ -84,15 +76,24 @@ class ParametricLaw(ShiftLaw):
     Two laws are equal if their constants and references are; how they were found does not count.
     """
 
-    covariance: Array | None
-    fitted_range: tuple[float, float] | None
-    bounded: bool
+    covariance: Array | None = field(default=None, compare=False, repr=False)
+    fitted_range: tuple[float, float] | None = field(default=None, compare=False, repr=False)
+    bounded: bool = field(default=True, compare=False, repr=False)
 
     #: As `ShiftFactors.law` calls it.
     kind: ClassVar[str]
     #: As it is called in a sentence.
     title: ClassVar[str]
-    _constants: ClassVar[tuple[str, ...]]
+    _constants: ClassVar[dict[str, Constant]]
+
+    def _set(
+        self, constants: tuple[Any, ...], reference: Any, covariance: Any, fitted_range: Any, bounded: bool
+    ) -> None:
+        """Check and keep the constants, in the order of `_constants`, and the rest; for constructors of subclasses."""
+        for (name, constant), value in zip(self._constants.items(), constants, strict=True):
+            object.__setattr__(self, name, positive(value, constant.unit, name))
+        object.__setattr__(self, "reference", positive(reference, "K", "reference"))
+        self._set_fit(covariance, fitted_range, bounded)
 
     def _set_fit(self, covariance: Any, fitted_range: Any, bounded: bool) -> None:
         """Check and keep what is known of the fit; called by the constructors of subclasses."""
@@ -122,8 +123,8 @@ class ParametricLaw(ShiftLaw):
 
     def _shown_constants(self) -> list[str]:
         errors = self.standard_errors or (0.0,) * len(self.parameters)
-        rows = zip(self._constants, self.parameters, errors, strict=True)
-        return [shown_constant(*_SHOWN[name], float(value), error) for name, value, error in rows]
+        rows = zip(self._constants.values(), self.parameters, errors, strict=True)
+        return [shown_constant(constant, float(value), error) for constant, value, error in rows]
 
     # --- constants -------------------------------------------------------------------------------------------
 
@@ -138,7 +139,7 @@ class ParametricLaw(ShiftLaw):
         if values.shape != (len(self._constants),):
             raise InputError(f"parameters = {brief(parameters)}: must be {', '.join(self._constants)}.")
         constants = dict(zip(self._constants, values.tolist(), strict=True))
-        return replace(self, **constants, covariance=None, fitted_range=None)  # type: ignore[type-var]
+        return replace(self, **constants, covariance=None, fitted_range=None)
 
     @property
     def has_standard_error(self) -> bool:
@@ -156,7 +157,7 @@ class ParametricLaw(ShiftLaw):
         """Return the same law with α = 1 at another temperature."""
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
-        return replace(self, reference=kelvin)  # type: ignore[type-var]
+        return replace(self, reference=kelvin)  # type: ignore[call-arg]
 
     # --- uncertainty -----------------------------------------------------------------------------------------
 
@@ -200,6 +201,10 @@ class ParametricLaw(ShiftLaw):
         gradient = self._gradient(kelvin)
         return np.asarray(gradient @ self.covariance @ gradient.T)
 
+    def _transformed(self, slope: list[list[float]]) -> Array | None:
+        """Return the covariance of constants whose derivatives by those of this law are given (rows: new constants)."""
+        return None if self.covariance is None else np.array(slope) @ self.covariance @ np.array(slope).T
+
     # --- extrapolation ---------------------------------------------------------------------------------------
 
     @property
@@ -214,7 +219,7 @@ class ParametricLaw(ShiftLaw):
 
     def unbounded(self) -> Self:
         """Return the same law without limits of extrapolation (but its pole): for those who know it to hold."""
-        return replace(self, bounded=False)  # type: ignore[type-var]
+        return replace(self, bounded=False)
 
     def _cold(self) -> Reach:
         if self.fitted_range is None or not self.bounded:
@@ -298,9 +303,10 @@ class ParametricLaw(ShiftLaw):
         return "measure isotherms there, or lift the limit knowingly (unbounded() of the law, in Python)"
 
 
-def shown_constant(symbol: str, unit: str, factor: float, offset: float, value: float, error: float) -> str:
+def shown_constant(constant: Constant, value: float, error: float) -> str:
     """Write a constant with its standard error to two digits: ``C2 = 126.6 ± 1.2 K``; zero stands for unknown."""
-    value, error = value * factor + offset, error * factor
+    symbol, unit = constant.symbol, f" {constant.shown}" if constant.shown else ""
+    value, error = value * constant.factor + constant.offset, error * constant.factor
     if not 0.0 < error < math.inf:
         return f"{symbol} = {value:.4g}{unit}"
     power = math.floor(math.log10(max(abs(value), error)))

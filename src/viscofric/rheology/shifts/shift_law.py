@@ -58,8 +58,10 @@ class ShiftLaw(ABC):
         """Whether the uncertainty of α(T) is known; False for constants that were typed in without a covariance."""
         return False
 
-    #: Temperature at which the law diverges, and below which it has no meaning, K; zero for laws without a pole.
-    _divergence: float = 0.0
+    @property
+    def _divergence(self) -> float:
+        """Temperature at which the law diverges, and below which it has no meaning, K; zero for laws without a pole."""
+        return 0.0
 
     @overload
     def log10(self, temperature: Quantity) -> float: ...

@@ -318,7 +318,4 @@ def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: 
     errors = (moved + scatter * random.standard_normal(moved.shape)) @ gain.T
     drawn = constants * np.exp(errors) if np.all(constants > 0.0) else constants + scale * errors
     # A draw is to answer, and to refuse, where the law does.
-    return [
-        replace(law.with_parameters(row), fitted_range=law.fitted_range, bounded=law.bounded)  # type: ignore[type-var]
-        for row in drawn
-    ]
+    return [replace(law.with_parameters(row), fitted_range=law.fitted_range, bounded=law.bounded) for row in drawn]
