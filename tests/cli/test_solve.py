@@ -21,7 +21,7 @@ from viscofric.contact import steady
 from viscofric.report.figures.contact import contact_figure
 from viscofric.report.figures.saving import save_picture
 from viscofric.report.texts.contact import UNITS
-from viscofric.rheology.spectra.retardation import SpectrumFit
+from viscofric.rheology.spectra.quality import SpectrumFit
 
 RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
 DMA = str(files("viscofric") / "example" / "dma.csv")

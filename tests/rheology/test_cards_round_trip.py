@@ -19,7 +19,8 @@ from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomia
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 from viscofric.rheology.spectra.modulus_table import ModulusTable
-from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum, SpectrumFit
+from viscofric.rheology.spectra.quality import SpectrumFit
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 
 #: What a card leaves out is the business of two tests below.
 pytestmark = pytest.mark.filterwarnings("ignore:The card for")

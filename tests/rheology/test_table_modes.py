@@ -9,9 +9,8 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import InputError
-from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.modulus_table import CLOSE, LARGEST_ERROR, ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.spectra.table_modes import CLOSE, LARGEST_ERROR
 
 SHARP = RetardationSpectrum(1e6, 2e7, [0.95e-6], [1.37e-3])
 THREE = RetardationSpectrum(1.0 / (9.0e-7 + 1e-9), 1e9, [3e-7, 2e-7, 4e-7], [1.2e-5, 0.9e-3, 0.05])
@@ -31,7 +30,7 @@ def test_a_table_rubs_like_the_spectrum_that_it_was_made_from(
     spectrum: RetardationSpectrum, low: float, high: float
 ) -> None:
     material = vf.Material(table(spectrum, low, high))
-    # Times between two of the finest lattice are met to 2e-4 (`table_modes.RATIOS`).
+    # Times between two of the finest lattice are met to 2e-4 (`modulus_table.RATIOS`).
     omega = np.logspace(low, high, 97)
     assert material.modes_at().complex_modulus(omega) == pytest.approx(spectrum.complex_modulus(omega), rel=1e-3)
     for speed in (0.01, 1.0):

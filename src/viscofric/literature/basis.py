@@ -22,7 +22,8 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, ShiftLaw, WLFArrhenius
 from viscofric.rheology.spectra.modulus_table import ModulusTable
-from viscofric.rheology.spectra.retardation import FROM_FRICTION, RelaxationSpectrum, RetardationSpectrum
+from viscofric.rheology.spectra.quality import FROM_FRICTION
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.roughness.ensemble import RoughFriction

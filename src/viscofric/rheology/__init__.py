@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.vertical_shift import VerticalShift as VerticalShift
     from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors as VerticalShiftFactors
     from viscofric.rheology.spectra.modulus_table import ModulusTable as ModulusTable
+    from viscofric.rheology.spectra.quality import SpectrumFit as SpectrumFit
     from viscofric.rheology.spectra.retardation import RelaxationSpectrum as RelaxationSpectrum
     from viscofric.rheology.spectra.retardation import RetardationSpectrum as RetardationSpectrum
-    from viscofric.rheology.spectra.retardation import SpectrumFit as SpectrumFit
     from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
     from viscofric.rheology.superposition.consistency import SuperpositionCheck as SuperpositionCheck
     from viscofric.rheology.superposition.result import Superposition as Superposition
@@ -66,7 +66,7 @@ _HOME = {
     "ModulusTable": "viscofric.rheology.spectra.modulus_table",
     "RelaxationSpectrum": "viscofric.rheology.spectra.retardation",
     "RetardationSpectrum": "viscofric.rheology.spectra.retardation",
-    "SpectrumFit": "viscofric.rheology.spectra.retardation",
+    "SpectrumFit": "viscofric.rheology.spectra.quality",
     "fit_retardation_spectrum": "viscofric.rheology.spectra.spectrum_fit",
     "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
     "check_superposition": "viscofric.rheology.superposition.result",

@@ -10,9 +10,8 @@ from viscofric.arguments import text
 from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
-from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.spectra.table_modes import modes_of_table, what_was_fitted
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:

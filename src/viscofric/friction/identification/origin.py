@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from viscofric.rheology.spectra.retardation import FROM_FRICTION, RetardationSpectrum, SpectrumFit
+from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from viscofric.friction.identification.result import IdentifiedMaterial

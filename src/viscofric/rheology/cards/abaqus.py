@@ -20,11 +20,12 @@ from viscofric.rheology.cards.card import (
     Writing,
     card_law,
     number_text,
+    relative_series,
     relaxation_of,
+    tensile,
     written_poisson_ratio,
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
-from viscofric.rheology.cards.moduli import relative_series, tensile
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum

@@ -21,11 +21,12 @@ from viscofric.rheology.cards.card import (
     Solid,
     Writing,
     card_law,
+    relative_series,
     relaxation_of,
+    tensile,
     written_poisson_ratio,
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
-from viscofric.rheology.cards.moduli import relative_series, tensile
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
 

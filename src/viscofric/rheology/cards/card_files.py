@@ -12,7 +12,7 @@ from viscofric.arguments import insist_on, whole_number
 from viscofric.errors import DataFileError, InputError, check_choice, not_written, shortened
 from viscofric.files import file_path, read_text
 from viscofric.notes import Note, Remedy
-from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, plain
+from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
 from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
 from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
 from viscofric.rheology.material import insist_on_material
@@ -161,9 +161,9 @@ def write_card(
         unit_system,
     )
     if format == "json":
-        text = plain.write_json(material)
+        text = native.write_json(material)
     elif format == "csv":
-        text = plain.write_csv(material)
+        text = native.write_csv(material)
     else:
         text = _PROGRAMS[format].write(material, writing)
         notes += _left_out(material, format, domain, text)
@@ -291,10 +291,10 @@ def open_card(
         insist_on(unit, name, str, type(None), right="the text of a unit, such as 'MPa'")
     text = read_text(path, LARGEST_CARD)
     try:
-        if format == "json" or (format is None and plain.recognises_json(text)):
-            return Card(plain.read_json(text), plain.NAME_JSON)
-        if format == "csv" or (format is None and plain.recognises_csv(text)):
-            return Card(plain.read_csv(text), plain.NAME_CSV)
+        if format == "json" or (format is None and native.recognises_json(text)):
+            return Card(native.read_json(text), native.NAME_JSON)
+        if format == "csv" or (format is None and native.recognises_csv(text)):
+            return Card(native.read_csv(text), native.NAME_CSV)
         found: str = format or next((key for key, one in _PROGRAMS.items() if one.recognises(text)), "")
         if not found:
             raise InputError(

@@ -25,10 +25,10 @@ from viscofric.rheology.cards.card import (
     card_law,
     number_text,
     relaxation_of,
+    tensile,
     written_poisson_ratio,
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
-from viscofric.rheology.cards.moduli import tensile
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum

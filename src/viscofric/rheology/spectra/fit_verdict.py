@@ -12,8 +12,9 @@ from viscofric.errors import LiquidError
 from viscofric.notes import Note
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST
 from viscofric.rheology.spectra.nonnegative import nonnegative_modes
+from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
-from viscofric.rheology.spectra.retardation import RetardationSpectrum, SpectrumFit
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

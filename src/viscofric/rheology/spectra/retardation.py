@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
+from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import (
     FrequencyResponse,
     checked_shift,
@@ -32,114 +32,6 @@ if TYPE_CHECKING:
 
 #: How exactly 1/E_inf + ΣC must meet 1/E0, relative to 1/E0.
 BALANCE = 1e-6
-
-_EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
-_BEYOND_FRICTION = "extrapolated: beyond what friction tells"
-#: Method of a spectrum that was found from friction.
-FROM_FRICTION = "friction"
-_REACHED = "reached by the sweeps"
-
-
-@dataclass(frozen=True)
-class SpectrumFit:
-    """How well a spectrum describes the master curve that it was fitted to.
-
-    Parameters
-    ----------
-    rms_storage, rms_loss : float or None
-        Root mean square of the difference of log10 E', and of log10 E''; decades.  None where no modulus was measured.
-    E0_extrapolated : bool
-        Whether the rubber plateau lies outside the measurement: E' at the lowest measured frequency exceeds
-        E0 by more than 5 %, or the measured loss tangent there is above 0.1.
-    E_inf_extrapolated : bool
-        Likewise the glass: E_inf exceeds E' at the highest frequency by more than 5 %, or the loss tangent
-        there is above 0.1.
-    frequency_range : tuple of float
-        Lowest and highest reduced angular frequency measured, or identified from friction, rad/s; beyond them the
-        spectrum extrapolates.
-    notes : tuple of str
-        The same in sentences.
-    method : str
-        How it was fitted: "non-negative", "regularised" or "sparse", or "friction" where it was identified from
-        friction; empty where that is not known.
-    modes : int
-        Number of modes that have compliance.
-    tau_ratio : float or None
-        Ratio of neighbouring retardation times; None where they were free.
-    regularisation : float or None
-        Strength λ with which the spectrum was smoothed; None where it was not.
-    measured_storage : tuple of float or None
-        Smallest and largest E' measured, Pa; None where they are not known.
-    E_inf_at_limit : bool
-        Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the sweeps do not tell it,
-        and it is no result.
-    E0_missed, E_inf_missed : bool
-        Whether E0 lies above the softest measured E', or E_inf below the stiffest, by more than 5 %: the fit does not
-        follow these points.
-    """
-
-    rms_storage: float | None
-    rms_loss: float | None
-    E0_extrapolated: bool
-    E_inf_extrapolated: bool
-    frequency_range: tuple[float, float]
-    notes: tuple[str, ...] = ()
-    method: str = ""
-    modes: int = 0
-    tau_ratio: float | None = None
-    regularisation: float | None = None
-    measured_storage: tuple[float, float] | None = None
-    E_inf_at_limit: bool = False
-    E0_missed: bool = False
-    E_inf_missed: bool = False
-
-    def shifted(self, alpha: float, b: float) -> SpectrumFit:
-        """Return the same for the spectrum at another temperature; the notes tell of the fit as it was made."""
-        low, high = self.frequency_range
-        measured = self.measured_storage
-        return replace(
-            self,
-            frequency_range=(low / alpha, high / alpha),
-            measured_storage=None if measured is None else (b * measured[0], b * measured[1]),
-        )
-
-    @property
-    def from_friction(self) -> bool:
-        """Whether the spectrum was identified from friction, without a modulus measured."""
-        return self.method == FROM_FRICTION
-
-    @property
-    def E0_remark(self) -> str:
-        """What is to be said beside E0, in a few words."""
-        if self.E0_missed:
-            return f"the fit lies above the softest measured E'{self._measured(0)}"
-        return self._beyond if self.E0_extrapolated else _REACHED
-
-    @property
-    def E_inf_remark(self) -> str:
-        """What is to be said beside E_inf, in a few words."""
-        if self.E_inf_at_limit:
-            return "not known: the sweeps do not tell it, and the fit stopped at 30 times the largest measured E'"
-        if self.E_inf_missed:
-            return f"the fit lies below the stiffest measured E'{self._measured(1)}"
-        return self._beyond if self.E_inf_extrapolated else _REACHED
-
-    @property
-    def attributes(self) -> dict[str, Any]:
-        """What data sets of the spectrum say of the fit."""
-        return {
-            "E0_remark": self.E0_remark,
-            "E_inf_remark": self.E_inf_remark,
-            "E_inf_at_limit": int(self.E_inf_at_limit),
-            "statements": json.dumps(list(self.notes), ensure_ascii=False),
-        }
-
-    @property
-    def _beyond(self) -> str:
-        return _BEYOND_FRICTION if self.from_friction else _EXTRAPOLATED
-
-    def _measured(self, end: int) -> str:
-        return "" if self.measured_storage is None else f", {shown_modulus(self.measured_storage[end])}"
 
 
 @dataclass(frozen=True, eq=False)
