@@ -116,15 +116,16 @@ def test_tables_tell_what_is_identified_and_what_not() -> None:
 
     from viscofric.report.texts.inverse import family_lines, modulus_lines
 
-    samples = SimpleNamespace(
-        modulus_band=lambda omega: SimpleNamespace(
-            lower=0.9 * RUBBER.complex_modulus(omega), upper=1.1 * RUBBER.complex_modulus(omega)
-        )
-    )
+    def modulus(omega: Any) -> Any:
+        found = RUBBER.spectrum.modulus_dataset(omega)
+        for end, factor in (("lower", 0.9), ("upper", 1.1)):
+            found = found.assign({f"{name}_{end}": factor * part for name, part in found.data_vars.items()})
+        return found
+
     band = SimpleNamespace(low=5.0, high=500.0, decades=2.0, relative=False)
     fits = tuple(SimpleNamespace(factor=f, modulus=f * 2e6, rms=0.01, penalty=f) for f in (0.5, 2.0))
     made: Any = SimpleNamespace(
-        material=RUBBER, samples=samples, identified=band, frequency_range=(3.0, 300.0), middle=30.0, family=fits
+        to_dataset=modulus, identified=band, frequency_range=(3.0, 300.0), middle=30.0, family=fits
     )
     heading, *rows = modulus_lines(made)
     assert heading.split()[:2] == ["ω", "(rad/s)"]

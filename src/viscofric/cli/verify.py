@@ -169,9 +169,9 @@ def _print_verdict(outcomes: list[Outcome]) -> None:
 def _record(outcomes: list[Outcome]) -> dict[str, Any]:
     """Return everything in plain types; a number that is none is null."""
     from viscofric import __version__
-    from viscofric.report.texts.numbers import finite
+    from viscofric.datasets import plain
 
-    return {
+    found: dict[str, Any] = {
         "viscofric": __version__,
         "passed": all(outcome.passed for outcome in outcomes),
         "seconds": sum(outcome.seconds for outcome in outcomes),
@@ -189,10 +189,10 @@ def _record(outcomes: list[Outcome]) -> dict[str, Any]:
                     {
                         "case": one.case,
                         "quantity": one.quantity,
-                        "computed": finite(one.computed),
-                        "expected": finite(one.expected),
+                        "computed": one.computed,
+                        "expected": one.expected,
                         "measure": one.measure,
-                        "error": finite(one.error),
+                        "error": one.error,
                         "bound": one.bound,
                         "passed": one.passed,
                     }
@@ -202,3 +202,4 @@ def _record(outcomes: list[Outcome]) -> dict[str, Any]:
             for outcome in outcomes
         ],
     }
+    return dict(plain(found, digits=None))

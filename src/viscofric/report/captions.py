@@ -8,7 +8,6 @@ import numpy as np
 
 from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
 from viscofric.report.figures.stored_contacts import shown_contacts
-from viscofric.report.figures.style import degrees
 from viscofric.report.figures.sweeps import panel_count
 from viscofric.report.results import (
     group,
@@ -30,7 +29,7 @@ from viscofric.report.sweeps import (
     solved_cases,
     sweep_axes,
 )
-from viscofric.report.texts.numbers import typeset
+from viscofric.report.texts.numbers import degrees, typeset
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.report.figures.style import degrees
 from viscofric.report.results import group
-from viscofric.report.texts.numbers import length, megapascals, short, speed
+from viscofric.report.texts.numbers import degrees, length, megapascals, short, speed
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -18,17 +18,9 @@ from viscofric.report.data import (
     predicted,
 )
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors
-from viscofric.report.figures.style import (
-    GREY,
-    INK,
-    at_temperature,
-    degrees,
-    looks,
-    new_figure,
-    plain_numbers,
-    speed_ticks,
-)
+from viscofric.report.figures.style import GREY, INK, at_temperature, looks, new_figure, plain_numbers, speed_ticks
 from viscofric.report.results import nearest, nominal_temperatures, number
+from viscofric.report.texts.numbers import degrees
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -15,11 +15,11 @@ from viscofric.report.figures.style import (
     VERMILION,
     at_temperature,
     decade_ticks,
-    degrees,
     legend_above,
     temperature_scale,
 )
 from viscofric.report.results import nearest, nominal_temperatures, values
+from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import celsius
 

@@ -15,12 +15,12 @@ from viscofric.report.figures.style import (
     VERMILION,
     at_temperature,
     decade_ticks,
-    degrees,
     legend_above,
     looks,
     plain_numbers,
 )
 from viscofric.report.results import SAME_TEMPERATURE, values
+from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, WLFArrhenius
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw

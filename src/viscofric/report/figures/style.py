@@ -20,6 +20,7 @@ from matplotlib.ticker import (
     NullLocator,
 )
 
+from viscofric.report.texts.numbers import degrees
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -122,12 +123,6 @@ COLUMN: Mapping[Any, Any] = {
 def new_figure(width: float = 6.2, height: float = 4.3) -> Figure:
     """Return an empty figure of a size in inches, without pyplot's global state."""
     return Figure(figsize=(width, height))
-
-
-def degrees(kelvin: float) -> str:
-    """Return a temperature as figures and report print it: −30 °C, 22.5 °C."""
-    text = f"{round(celsius(kelvin), 1) + 0.0:.1f}".removesuffix(".0")
-    return f"{text} °C".replace("-", "−")
 
 
 #: Axes of fewer decades than this have 2s and 5s labelled too, in plain numbers …

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
-from viscofric.report.figures.style import degrees
 from viscofric.report.results import (
     SAME_TEMPERATURE,
     group,
@@ -28,7 +27,7 @@ from viscofric.report.results import (
 )
 from viscofric.report.sweeps import solved_cases
 from viscofric.report.texts.friction import CONSISTENT_WITHIN, consistency_words
-from viscofric.report.texts.numbers import percent, several, significant
+from viscofric.report.texts.numbers import degrees, percent, several, significant
 from viscofric.study.results.results import beyond_accuracy
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.report.texts.numbers import finite, length, prefixed, short, significant, with_error
+from viscofric.datasets import plain
+from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
 
 if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution, Diagnostics
@@ -203,7 +204,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
         "ffts": diagnostics.ffts,
         "seconds": seconds,
     }
-    record: dict[str, Any] = _plain(
+    found: dict[str, Any] = plain(
         {
             "format": "viscofric contact 1",
             "viscofric": version("viscofric"),
@@ -214,24 +215,10 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
             "diagnostics": work,
             "warnings": list(solution.warnings),
             "units": UNITS | (_UNITS_OF_A_LINE if line else {}),
-        }
+        },
+        digits=None,
     )
-    return record
-
-
-def _plain(value: Any) -> Any:
-    """Turn NumPy's numbers into Python's, and those that are not finite into null."""
-    if isinstance(value, dict):
-        return {str(key): _plain(one) for key, one in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    if value is None or isinstance(value, (str, bool)):
-        return value
-    if isinstance(value, int):
-        return int(value)
-    if type(value).__name__ in ("bool", "bool_"):
-        return bool(value)
-    return finite(float(value))
+    return found
 
 
 #: Modes that are shown; all of them are in the record.
@@ -296,8 +283,8 @@ def derivative_record(solution: ContactSolution) -> dict[str, Any] | None:
     line = solution.geometry == "line"
     names = ("C", "tau", "E_inf", "speed", "load", "indentation")
     return {
-        **{name: _listed(getattr(derivatives, name)) for name in names},
-        "logarithmic": {name: _listed(getattr(of_logarithms, name)) for name in names},
+        **{name: getattr(derivatives, name) for name in names},
+        "logarithmic": {name: getattr(of_logarithms, name) for name in names},
         "error": derivatives.error,
         "way": derivatives.way,
         "units": {
@@ -311,7 +298,3 @@ def derivative_record(solution: ContactSolution) -> dict[str, Any] | None:
             "error": "1",
         },
     }
-
-
-def _listed(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value

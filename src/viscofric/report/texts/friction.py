@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import record
 from viscofric.nominal import SAME_TEMPERATURE, numbered
-from viscofric.report.texts.numbers import ABSENT, finite, percent, several, short, significant
+from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
 from viscofric.report.texts.tables import aligned
 from viscofric.units import celsius
 
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
 
 #: Standard errors within which what should be zero counts as zero.
 CONSISTENT_WITHIN = 2.0
-
-#: Units of what `friction_record` holds, but those of the load and of what is a share of it ("1").
-UNITS = {"speed": "m/s", "temperature": "K", "slip": "m/s", "offset": "N"}
 
 
 def friction_table(curves: FrictionCurves) -> list[str]:
@@ -88,28 +86,18 @@ def consistency_words(left_over: Array, error: Array) -> str | None:
 
 
 def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return friction curves in plain types, SI units, without a NaN: what is not known is None.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-    inputs : dict
-        What was asked for, in plain types.
-    """
-    columns = {
-        field.name: getattr(curves, field.name)
-        for field in fields(curves)
-        if isinstance(getattr(curves, field.name), np.ndarray)
-    }
+    """Return friction curves in plain types, SI units; `inputs` are what was asked for, in plain types."""
+    found = record(curves.to_dataset())
+    names = [field.name for field in fields(curves) if field.name in found["units"]]
     return {
         "format": "viscofric friction curves 1",
         "inputs": inputs,
         "points": [
-            {name: finite(column[row].item()) for name, column in columns.items()} for row in range(len(curves))
+            dict(zip(names, point, strict=True)) for point in zip(*(found[name] for name in names), strict=True)
         ],
         "assumption": curves.assumption or None,
         "notes": list(curves.notes),
-        "units": {name: UNITS.get(name, curves.load_unit if name == "load" else "1") for name in columns},
+        "units": {name: found["units"][name] for name in names},
     }
 
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
-from viscofric.report.figures.style import degrees
 from viscofric.report.results import (
     EXTRAPOLATED,
     WIDE,
@@ -24,7 +23,7 @@ from viscofric.report.results import (
     values,
 )
 from viscofric.report.sweeps import VARIED, cases_of, solved_cases, thinned, value_label
-from viscofric.report.texts.numbers import ABSENT, percent, several, signed_percent, significant, with_error
+from viscofric.report.texts.numbers import ABSENT, degrees, percent, several, signed_percent, significant, with_error
 from viscofric.report.texts.tables import (
     Column,
     Table,

@@ -7,20 +7,24 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from viscofric.datasets import plain, record
 from viscofric.errors import InputError
-from viscofric.report.figures.style import degrees
-from viscofric.report.texts.numbers import ABSENT, finite, significant
+from viscofric.report.results import values
+from viscofric.report.texts.numbers import ABSENT, degrees, significant
 from viscofric.report.texts.tables import aligned
-from viscofric.rheology.cards.native import plain
+from viscofric.rheology.cards import native
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from viscofric.arrays import Array
     from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
     from viscofric.rheology.shifts.laws import ParametricLaw
     from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 _SHIFT_UNITS = {
@@ -71,33 +75,26 @@ def law_of(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
 
 
 def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str]:
-    """Return the shift factors as lines of a table, beside those that are known.
-
-    Parameters
-    ----------
-    master : FrictionMasterCurve
-    known : ShiftLaw, optional
-        Of the modulus; dashes where it does not answer.
-    """
-    temperatures, found, doubt = _factors(master)
+    """Return the shift factors as lines of a table, with those of the modulus; dashes where these are not known."""
+    factors = _factors(master)
+    found, doubt = values(factors, "log10_shift_factor"), np.nan_to_num(values(factors, "standard_error"))
+    kelvin = values(factors, "temperature")
     columns = [
-        ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in temperatures)],
+        ["T (°C)", *(f"{celsius(float(one)):z.1f}".replace("-", "−") for one in kelvin)],
         ["log10 α", *_pairs(found, doubt)],
     ]
     if known is not None and master.found:
-        values, errors = known.at_reference(master.reference).values_at(temperatures)
-        columns.append(["of the modulus", *_pairs(values, errors)])
-        columns.append(["difference", *_pairs(found - values, np.hypot(errors, doubt))])
+        other, errors = known.at_reference(master.reference).values_at(kelvin)
+        columns.append(["of the modulus", *_pairs(other, errors)])
+        columns.append(["difference", *_pairs(found - other, np.hypot(errors, doubt))])
     return aligned(zip(*columns, strict=True))
 
 
-def _factors(master: FrictionMasterCurve) -> tuple[Array, Array, Array]:
-    """Return temperatures (K), log10 α and its standard errors: those found, or those given at the curves' own."""
+def _factors(master: FrictionMasterCurve) -> xr.Dataset:
+    """Return the shift factors of a master curve: those found, or those given at the temperatures of the curves."""
     if master.found:
-        factors = master.shift_factors
-        return factors.temperatures, factors.log10_values, factors.standard_errors
-    temperatures = master.curves.temperatures
-    return temperatures, *master.shift.values_at(temperatures)
+        return master.shift_factors.to_dataset()
+    return master.shift.to_dataset(master.curves.temperatures)
 
 
 def _pairs(values: Any, errors: Any) -> list[str]:
@@ -160,43 +157,47 @@ def shift_record(
     inputs : dict
         What was asked for, in plain types.
     """
-    temperatures, values, errors = _factors(master)
-    return {
-        "format": "viscofric friction shift 1",
-        "inputs": inputs,
-        "found": master.found,
-        "reference": master.reference,
-        "temperature": temperatures.tolist(),
-        "log10_shift_factor": values.tolist(),
-        "standard_error": errors.tolist(),
-        "covariance": master.shift_factors.covariance.tolist() if master.found else None,
-        "law": None if law is None else plain(law),
-        "overlap": {
-            "rms": master.overlap_rms,
-            "error": finite(master.overlap_error),
-            "points": master.overlap_points,
-            "sentence": master.overlap_sentence,
+    factors, curve = _factors(master), record(master.to_dataset())
+    names = ("reduced_speed", "temperature", "viscoelastic", "viscoelastic_error", "load")
+    found: dict[str, Any] = plain(
+        {
+            "format": "viscofric friction shift 1",
+            "inputs": inputs,
+            "found": master.found,
+            "reference": master.reference,
+            "temperature": values(factors, "temperature"),
+            "log10_shift_factor": values(factors, "log10_shift_factor"),
+            "standard_error": np.nan_to_num(values(factors, "standard_error")),
+            "covariance": master.shift_factors.covariance if master.found else None,
+            "law": None if law is None else native.plain(law),
+            "overlap": {
+                "rms": master.overlap_rms,
+                "error": master.overlap_error,
+                "points": master.overlap_points,
+                "sentence": master.overlap_sentence,
+            },
+            "agreement": None if agreement is None else {name: getattr(agreement, name) for name in _AGREEMENT},
+            "master_curve": {name: curve[name] for name in names},
+            "notes": master.notes,
+            "units": _SHIFT_UNITS | {"reduced_speed": "m/s", "viscoelastic": "1", "load": master.curves.load_unit},
         },
-        "agreement": None if agreement is None else _agreement(agreement),
-        "master_curve": {
-            "reduced_speed": master.reduced_speed.tolist(),
-            "temperature": master.temperature.tolist(),
-            "viscoelastic": master.friction.tolist(),
-            "viscoelastic_error": [finite(error) for error in master.error.tolist()],
-            "load": master.load,
-        },
-        "notes": list(master.notes),
-        "units": _SHIFT_UNITS | {"reduced_speed": "m/s", "viscoelastic": "1", "load": master.curves.load_unit},
-    }
+        digits=None,
+    )
+    return found
 
 
-def _agreement(agreement: ShiftAgreement) -> dict[str, Any]:
-    names = ("chi2", "freedom", "p_value", "slope", "slope_error", "rms", "sentence")
-    return {
-        "temperature": agreement.temperature.tolist(),
-        "difference": agreement.difference.tolist(),
-        "error": agreement.error.tolist(),
-    } | {name: getattr(agreement, name) for name in names}
+_AGREEMENT = (
+    "temperature",
+    "difference",
+    "error",
+    "chi2",
+    "freedom",
+    "p_value",
+    "slope",
+    "slope_error",
+    "rms",
+    "sentence",
+)
 
 
 _UNITS = {
@@ -233,17 +234,14 @@ def modulus_lines(found: IdentifiedMaterial) -> list[str]:
     ----------
     found : IdentifiedMaterial
     """
-    omega = _frequencies(found)
-    modulus, band = np.asarray(found.material.complex_modulus(omega)), found.samples.modulus_band(omega)
+    data = found.to_dataset(_frequencies(found))
     rows: list[tuple[str, ...]] = [("ω (rad/s)", "E' (MPa)", "95 % limits", "E'' (MPa)", "95 % limits", "")]
-    for row, frequency in enumerate(omega):
-        cells = [significant(float(frequency), 1)]
-        for part in ("real", "imag"):
-            value, low, high = (
-                1e-6 * float(getattr(one, part)) for one in (modulus[row], band.lower[row], band.upper[row])
-            )
+    for row, frequency in enumerate(values(data, "angular_frequency").tolist()):
+        cells = [significant(frequency, 1)]
+        for name in ("storage_modulus", "loss_modulus"):
+            value, low, high = (1e-6 * float(values(data, name + end)[row]) for end in ("", "_lower", "_upper"))
             cells += [significant(value, 4), f"{significant(low)} to {significant(high)}"]
-        rows.append((*cells, _remark(found.identified, float(frequency))))
+        rows.append((*cells, _remark(found.identified, frequency)))
     return aligned(rows)
 
 
@@ -255,59 +253,46 @@ def _remark(band: IdentifiedBand, frequency: float) -> str:
 
 
 def identification_record(found: IdentifiedMaterial, inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return an identified rubber in plain types, SI units.
-
-    Parameters
-    ----------
-    found : IdentifiedMaterial
-    inputs : dict
-        What was asked for, in plain types.
-    """
-    omega = _frequencies(found)
-    modulus, band = np.asarray(found.material.complex_modulus(omega)), found.samples.modulus_band(omega)
-    spectrum = found.material.modes_at()
-    parts = {"storage_modulus": "real", "loss_modulus": "imag"}
-    told: dict[str, list[float]] = {}
-    for name, part in parts.items():
-        told[name] = getattr(modulus, part).tolist()
-        told[f"{name}_lower"] = getattr(band.lower, part).tolist()
-        told[f"{name}_upper"] = getattr(band.upper, part).tolist()
-    return {
-        "format": "viscofric identification 1",
-        "inputs": inputs,
-        "material": {
-            "E0": spectrum.E0,
-            "E_inf": spectrum.E_inf,
-            "C": spectrum.C.tolist(),
-            "tau": spectrum.tau.tolist(),
-            "poisson_ratio": found.material.poisson_ratio,
-            "reference": found.material.reference,
-            "shift": None if found.material.shift is None else plain(found.material.shift),
+    """Return an identified material in plain types, SI units; `inputs` are what was asked for, in plain types."""
+    spectrum, material = found.material.modes_at(), found.material
+    modulus, points = record(found.to_dataset(_frequencies(found))), record(found.friction_dataset())
+    moduli = [f"{part}_modulus{end}" for part in ("storage", "loss") for end in ("", "_lower", "_upper")]
+    friction = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_lower", "viscoelastic_upper", "residual")
+    whole: dict[str, Any] = plain(
+        {
+            "format": "viscofric identification 1",
+            "inputs": inputs,
+            "material": {
+                **_modes(spectrum),
+                "tau": spectrum.tau,
+                "poisson_ratio": material.poisson_ratio,
+                "reference": material.reference,
+                "shift": None if material.shift is None else native.plain(material.shift),
+            },
+            "modulus": {name: modulus[name] for name in ("angular_frequency", *moduli)},
+            "identified": _band(found.identified),
+            "identified_storage": _band(found.identified_storage),
+            "identified_loss": _band(found.identified_loss),
+            "anchored": found.anchored,
+            "shift_found": found.shift_found,
+            "level_range": found.level_range,
+            "family": [{name: getattr(fit, name) for name in _OF_A_LEVEL} for fit in found.family],
+            "fit": {name: float(getattr(found, name)) for name in ("chi2", "freedom", "rms", "error_scale")},
+            "points": {name: points[name] for name in friction},
+            "samples": [_modes(one.modes_at()) for one in found.samples.materials],
+            "sentences": found.sentences,
+            "units": _UNITS | {"load": found.friction.load_unit},
         },
-        "modulus": {"angular_frequency": omega.tolist()} | told,
-        "identified": _band(found.identified),
-        "identified_storage": _band(found.identified_storage),
-        "identified_loss": _band(found.identified_loss),
-        "anchored": found.anchored,
-        "shift_found": found.shift_found,
-        "level_range": list(found.level_range),
-        "family": [
-            {name: float(getattr(fit, name)) for name in ("factor", "modulus", "chi2", "rms", "penalty")}
-            for fit in found.family
-        ],
-        "fit": {name: float(getattr(found, name)) for name in ("chi2", "freedom", "rms", "error_scale")},
-        "points": {
-            name: getattr(found.friction, name).tolist()
-            for name in ("speed", "temperature", "load", "viscoelastic", "viscoelastic_lower", "viscoelastic_upper")
-        }
-        | {"residual": found.residuals.tolist()},
-        "samples": [
-            {"E0": one.modes_at().E0, "E_inf": one.modes_at().E_inf, "C": one.modes_at().C.tolist()}
-            for one in found.samples.materials
-        ],
-        "sentences": list(found.sentences),
-        "units": _UNITS | {"load": found.friction.load_unit},
-    }
+        digits=None,
+    )
+    return whole
+
+
+_OF_A_LEVEL = ("factor", "modulus", "chi2", "rms", "penalty")
+
+
+def _modes(spectrum: RetardationSpectrum) -> dict[str, Any]:
+    return {"E0": spectrum.E0, "E_inf": spectrum.E_inf, "C": spectrum.C}
 
 
 def _band(band: IdentifiedBand) -> dict[str, Any]:

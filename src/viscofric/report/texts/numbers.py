@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import re
 
+from viscofric.units import celsius
+
 ABSENT = "–"
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 #: A relative error below it is rounding.
@@ -18,11 +20,6 @@ _MINUS = re.compile(r"(?<![\w.\-/])-(?=\d)")
 def typeset(sentence: str) -> str:
     """Return a sentence with true minus signs."""
     return _MINUS.sub("−", sentence)
-
-
-def finite(value: float | None) -> float | None:
-    """Return a number for other programs: None where it is not finite, or not there."""
-    return value if value is not None and math.isfinite(value) else None
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -117,3 +114,9 @@ def speed(metres_per_second: float, digits: int = 3) -> str:
 def several(texts: list[str]) -> str:
     """Join texts in words: a, b and c."""
     return " and ".join([", ".join(texts[:-1]), texts[-1]]) if len(texts) > 1 else "".join(texts)
+
+
+def degrees(kelvin: float) -> str:
+    """Return a temperature as figures and report print it: −30 °C, 22.5 °C."""
+    text = f"{round(celsius(kelvin), 1) + 0.0:.1f}".removesuffix(".0")
+    return f"{text} °C".replace("-", "−")

@@ -10,7 +10,6 @@ import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.notes import Note
-from viscofric.report.figures.style import degrees
 from viscofric.report.results import (
     group,
     is_extrapolated,
@@ -27,6 +26,7 @@ from viscofric.report.results import (
 from viscofric.report.sweeps import cases_of, labelled, solved_cases, sweep_axes, value_label
 from viscofric.report.texts.numbers import (
     ABSENT,
+    degrees,
     megapascals,
     percent,
     several,

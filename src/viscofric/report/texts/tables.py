@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.report.figures.style import degrees
 from viscofric.report.results import group, values
 from viscofric.report.results import table as texts
-from viscofric.report.texts.numbers import ABSENT, significant
+from viscofric.report.texts.numbers import ABSENT, degrees, significant
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
