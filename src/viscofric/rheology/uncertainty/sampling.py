@@ -280,7 +280,7 @@ def _tables(
     errors = _drawn(random, covariance, samples)
     offsets = np.zeros((samples, size, 2))
     if fit.offsets is not None:
-        errors = fit.offsets.resized(random, errors)
+        errors = fit.offsets.resized(random.spawn(1)[0], errors)
         offsets = np.swapaxes(errors[:, count:].reshape(samples, 2, size), 1, 2)
     tables = [ShiftFactors(shifts.temperatures, shifts.log10_values + row[:size], shifts.reference) for row in errors]
     if not isinstance(vertical, VerticalShiftFactors):
