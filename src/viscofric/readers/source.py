@@ -20,24 +20,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """What a file holds, opened once and shown to every format.
+    """The content of a file, opened once for all formats, with what the user stated about it."""
 
-    Parameters
-    ----------
-    path : str
-        The file, as the user named it.
-    data : bytes
-        All of it.
-    temperature : float, optional
-        Of all points, K, where the user gave it because the file does not hold it.
-    modulus_unit : str
-        Of the moduli, where the user gave it because the file does not name it; else empty.
-    """
-
-    path: str
+    path: str  # as the user named it
     data: bytes
-    temperature: float | None = None
-    modulus_unit: str = ""
+    temperature: float | None = None  # of all points, K, if the file does not hold it
+    modulus_unit: str = ""  # of the moduli, if the file does not name it
 
     @cached_property
     def text(self) -> str | None:
@@ -80,19 +68,12 @@ STRAIN_FACTORS = {"%": 0.01, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0, "µm/
 
 
 def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
-    """Return whether a comma stands for the decimal point.
-
-    Parameters
-    ----------
-    path : str
-        Named in errors.
-    cells : iterable of (str, int or None)
-        Numbers as printed, each with its row.
+    """Return whether decimals have a comma, from the numbers of a file as printed, each with its row.
 
     Raises
     ------
     DataFileError
-        If every comma is followed by three digits, as in ``33,468``: it may part thousands as well.
+        If every comma is followed by three digits, as in ``33,468``: it may as well separate thousands.
     """
     commas = [(cell.strip(), row) for cell, row in cells if COMMA_NUMBER.fullmatch(cell)]
     if commas and all(_LIKE_THOUSANDS.fullmatch(cell) for cell, _ in commas):
@@ -104,16 +85,9 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
 
 
 def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
-    """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, for plain powers (``N/mm2``) too.
+    """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``).
 
-    Parameters
-    ----------
-    text : str
-        As printed.  ``Mpa`` is MPa: no capital M stands for a thousandth.
-    unit : str
-        The SI unit wanted.
-    name : str
-        What it is the unit of, for the error message.
+    ``Mpa`` is read as MPa: a capital M never means a thousandth.
 
     Raises
     ------
@@ -129,17 +103,10 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
 
 
 def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
-    """Return what turns a frequency as printed into rad/s, None where the unit does not tell it.
+    """Return the factor from a printed frequency to rad/s, None if the unit does not determine it.
 
-    pint holds the radian for a pure number, so hertz and rad/s are told apart here.  A frequency in 1/s may be
+    pint treats the radian as a pure number, so Hz and rad/s are distinguished here.  A frequency in 1/s may be
     either; an angular frequency in 1/s is in rad/s.
-
-    Parameters
-    ----------
-    unit : str
-        As printed.
-    angular : bool
-        Whether the name is that of an angular frequency.
     """
     plain = unit.replace(" ", "")
     if re.fullmatch(r"rad(/s|/sec|s\^?-1|·s⁻¹|s⁻¹|\*s\^-1)", plain):

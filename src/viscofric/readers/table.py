@@ -42,17 +42,7 @@ _LONGEST_HEADING = 200
 
 @dataclass(frozen=True)
 class Column:
-    """One column's heading.
-
-    Parameters
-    ----------
-    heading : str
-        As printed in the file.
-    name : str
-        The heading without its unit, single-spaced, all sorts of primes written as ``'`` and ``''``.
-    unit : str
-        The unit's text, empty if the heading has none.
-    """
+    """One column's heading as printed, its name (single-spaced, all primes as ``'`` and ``''``) and its unit, or ""."""
 
     heading: str
     name: str
@@ -67,30 +57,14 @@ class Column:
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A delimited text table, still as text, with the file's line numbers.
-
-    Parameters
-    ----------
-    path : str
-        The file, as the user named it.
-    columns : tuple of Column
-        Headings, left to right.
-    rows : tuple of tuple of str
-        Cells of each row, as many as there are columns.
-    lines : (n,) array of int
-        Line of the file, counted from 1, that each row stands on.
-    decimal_comma : bool
-        Whether numbers are written as ``1,5``.
-    tools : tuple of (str, str)
-        Label and value of what names, beside the table, the tool that held the sample.
-    """
+    """A delimited text table with cells as text, as many in each row as there are columns, and line numbers from 1."""
 
     path: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[str, ...], ...]
     lines: Integers
     decimal_comma: bool
-    tools: tuple[tuple[str, str], ...] = ()
+    tools: tuple[tuple[str, str], ...] = ()  # label and value of what names the sample holder
 
     def headings(self) -> str:
         """Return the headings as one readable list, for error messages."""
@@ -134,43 +108,14 @@ class Table:
         return value
 
     def values(self, column: int, unit: str) -> Array:
-        """Return a column in an SI unit.
-
-        Parameters
-        ----------
-        column : int
-            Its place, counted from 0.
-        unit : str
-            The SI unit wanted, such as ``"Pa"`` or ``"K"``.
-
-        Returns
-        -------
-        (n,) array
-
-        Raises
-        ------
-        DataFileError
-            If a cell is not a finite number, or the heading's unit is missing or of the wrong kind.
-        """
+        """Return a column, (n,), in an SI unit, or raise `DataFileError` for a wrong cell or unit."""
         factor, offset = self.conversion(self.columns[column], unit)
         return factor * self.numbers(column) + offset
 
     def conversion(self, column: Column, unit: str, hint: Remedy | None = None) -> tuple[float, float]:
-        """Return ``(factor, offset)`` that turn a column as printed into an SI unit.
+        """Return ``(factor, offset)`` from a column as printed to an SI unit.
 
-        Parameters
-        ----------
-        column : Column
-            One of `columns`.
-        unit : str
-            The SI unit wanted.
-        hint : Remedy, optional
-            What the user may do where the heading has no unit, besides adding it: the end of a sentence.
-
-        Raises
-        ------
-        DataFileError
-            If the heading's unit is missing or of the wrong kind.
+        Without a unit in the heading, the error ends with the hint; a unit of the wrong kind is an error too.
         """
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s"}.get(unit, unit)
         if not column.unit:
@@ -195,12 +140,8 @@ class Table:
     def find(self, names: frozenset[str], what: str) -> int | None:
         """Return the place of the one column whose name is among `names`, or None.
 
-        A name is looked for as printed and in small letters, with underscores read as blanks.
-
-        Raises
-        ------
-        DataFileError
-            If several columns answer to these names; `what` says what they could both be.
+        Names are compared as printed and in lower case, with underscores as spaces.  Several such columns are an error, in
+        which `what` names the quantity.
         """
         found = [
             place
@@ -217,13 +158,13 @@ def read_table(path: str | PathLike[str]) -> Table:
     """Read a table of numbers separated by commas, semicolons or tabs, under one row of headings.
 
     UTF-8 and UTF-16 (with a byte-order mark) are recognised, anything else is read as Windows-1252.  Blank
-    lines, lines that begin with ``#`` and a first line ``sep=;``, which tells Excel the delimiter, are passed over.
+    lines, lines that begin with ``#`` and a first line ``sep=;`` (the delimiter for Excel) are skipped.
 
     Raises
     ------
     DataFileError
-        If there is no such file, it is no regular file, empty, binary or too large, or its rows are not as long
-        as its header.
+        If the file does not exist, is not a regular file, is empty, binary or too large, or if rows and header differ in
+        length.
     """
     return table_of_text(str(path), read_text(path))
 
@@ -253,23 +194,12 @@ def text_lines(text: str) -> list[tuple[int, str]]:
 def make_table(
     path: str, columns: tuple[Column, ...], numbered: Sequence[tuple[int, Sequence[str]]], *, comma_is_free: bool = True
 ) -> Table:
-    """Put rows of cells under their headings.
-
-    Parameters
-    ----------
-    path : str
-        Named in errors.
-    columns : tuple of Column
-        The headings.
-    numbered : list of (int, list of str)
-        Each row with its number in the file.
-    comma_is_free : bool
-        Whether a comma may stand for the decimal point.
+    """Return a table of numbered rows under their headings; `comma_is_free`: a comma may be a decimal comma.
 
     Raises
     ------
     DataFileError
-        If there is no row, one is not as long as the header, or commas may part decimals or thousands.
+        If there is no row, a row differs in length from the header, or commas may separate decimals or thousands.
     """
     rows = []
     for number, row in numbered:

@@ -22,14 +22,7 @@ LARGEST_MODULUS = 1e15  # Pa
 
 
 def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
-    """Return which points can be used, and a note on each sort of those left out.
-
-    Parameters
-    ----------
-    points : Points
-        As read.
-    source : str
-        Named in errors.
+    """Return the usable points, and a note on each kind of those left out.
 
     Raises
     ------
@@ -122,18 +115,9 @@ LAST_DECIMAL = 0.01
 def insist_on_agreement(
     path: str, storage: Array, loss: Array, tangent: Array | None = None, absolute: Array | None = None
 ) -> None:
-    """Raise `DataFileError` where most of the printed tan δ or |E*| do not follow from E' and E''.
+    """Raise `DataFileError` if most of the printed tan δ or |E*| do not follow from E' and E''.
 
-    Single points may differ: noise about zero, numbers of few digits.
-
-    Parameters
-    ----------
-    path : str
-        Named in errors.
-    storage, loss : (n,) array
-        Of one unit, NaN where missing.
-    tangent, absolute : (n,) array, optional
-        tan δ, and |E*| in the same unit.
+    Single points may differ: noise about zero, numbers of few digits.  Moduli have one unit, NaN if missing.
     """
     used = (storage > 0.0) & (loss > 0.0)
     for printed, name, formula, slack, follows in (
@@ -161,19 +145,7 @@ PLAUSIBLE_MODULUS = (1.0, 1e13)  # Pa
 
 
 def doubts(table: Table, places: dict[str, int], temperature: Array, storage_modulus: Array) -> list[str]:
-    """Say what looks like a wrong unit; nothing is changed.
-
-    Parameters
-    ----------
-    table : Table
-        The file.
-    places : dict
-        Its columns by what they hold; temperature and moduli are looked at.
-    temperature : (n,) array
-        As the heading says it, K; NaN where there is none.
-    storage_modulus : (n,) array
-        As the heading says it, Pa; NaN where there is none.
-    """
+    """Return notes on values, K and Pa, that suggest a wrong unit in a heading; nothing is changed."""
     notes = _of_temperature(table, places["temperature"], temperature) if "temperature" in places else []
     solid = (storage_modulus >= PLAUSIBLE_MODULUS[0]) & (storage_modulus <= PLAUSIBLE_MODULUS[1])
     # what is not above zero is noise of the instrument, told elsewhere

@@ -40,26 +40,17 @@ TEMPERATURE_SWEEP = 5
 
 
 def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[Indices], list[Note]]:
-    """Return the points of each isotherm, in the order of reading, and notes on points that belong to none.
+    """Return the points of each isotherm, in the order of reading, and notes on points outside all of them.
 
-    Points of one file and step are parted where their temperatures leave a gap.  Where they leave none over more
-    than `WIDEST_ISOTHERM`, the sample was heated between its isotherms while points were recorded: what was
-    recorded while the temperature was held is kept.  Groups of equal temperature, of one file or several, become
-    one isotherm; groups of hardly any frequency, beside isotherms with several, are left out.
-
-    Parameters
-    ----------
-    points : Points
-        As read.
-    keep : (m,) array of int
-        Which of them can be used.
-    source : str
-        Named in errors.
+    Points of one file and step are separated at gaps in temperature.  Without a gap over more than
+    `WIDEST_ISOTHERM`, the sample was heated between its isotherms during recording: points at a held temperature are
+    kept.  Groups of equal temperature, of one file or several, are one isotherm; groups of hardly any frequency,
+    beside isotherms with several, are left out.
 
     Raises
     ------
     DataFileError
-        If the temperatures form a ramp, a temperature sweep at one frequency, or isotherms that cannot be parted.
+        If the temperatures form a ramp, a temperature sweep at one frequency, or isotherms that cannot be separated.
     """
     groups: list[Indices] = []
     moving: list[int] = []

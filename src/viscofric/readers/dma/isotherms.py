@@ -32,20 +32,10 @@ REPEATS_DIFFER = 0.02
 
 @dataclass(frozen=True, eq=False)
 class TracedSweeps:
-    """Sweeps with every reading that they were made of, or that was left out.
+    """Sweeps with all readings, those left out included.
 
-    Parameters
-    ----------
-    sweeps : IsothermalSweeps
-    readings : tuple of Readings
-        One per file.
-    points : Points
-        The readings of all files in one row.
-    isotherms : tuple of Sorted
-        Which of them each isotherm of the sweeps was made of.
-    deformation_known : bool
-        Whether a file or the caller said that the moduli are tensile or shear; where not, they count as tensile for
-        a first look, and nothing may be concluded from them.
+    `points` are the readings of all files in one row, `isotherms` their assignment.  If `deformation_known` is false,
+    neither files nor caller decide between tension and shear: the moduli count as tensile for a first look only.
     """
 
     sweeps: IsothermalSweeps
@@ -67,26 +57,16 @@ def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | N
 
 
 def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> TracedSweeps:
-    """Sort the points of one or several files into isotherms, and keep what they were made of.
+    """Sort the points of one or several files of one specimen into isotherms, and keep their assignment.
 
-    Parameters
-    ----------
-    readings : sequence of Readings
-        One per file, all of one specimen.
-    deformation : {"tension", "shear"}, optional
-        What the moduli are, where the files do not say it.
-
-    Returns
-    -------
-    TracedSweeps
-        The notes of its sweeps name what was left out, averaged or reordered, and what is doubtful: temperatures that
-        drift within an isotherm, points far off their neighbours, strain amplitudes that differ between isotherms.
+    The notes of the sweeps report what was left out, averaged or reordered, and what is doubtful: drifting
+    temperatures, outliers, strain amplitudes that differ between isotherms.
 
     Raises
     ------
     DataFileError
-        If the files contradict each other or `deformation`, too few points can be used, the temperatures form a
-        ramp, or the points are those of an amplitude sweep.
+        If the files contradict each other or `deformation`, too few points are usable, the temperatures form a
+        ramp, or the points belong to an amplitude sweep.
     InputError
         If there is no file, or `deformation` is neither "tension" nor "shear".
     """

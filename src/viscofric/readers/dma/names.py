@@ -107,13 +107,7 @@ _TEMPERATURE_IN_NAME = re.compile(
 
 
 def quantity(name: str) -> str | None:
-    """Return what a column of this name holds, in the words of `QUANTITIES`, or None.
-
-    Parameters
-    ----------
-    name : str
-        A heading without its unit, see `viscofric.readers.table.Column`; capitals matter for one letter only.
-    """
+    """Return the quantity, a key of `QUANTITIES`, that a heading without its unit names, or None."""
     plain = unicodedata.normalize("NFC", name)
     for what, names in QUANTITIES.items():
         if plain in names or (len(plain) > 1 and plain.lower() in names):
@@ -122,13 +116,9 @@ def quantity(name: str) -> str | None:
 
 
 def temperature_in_name(name: str) -> float | None:
-    """Return the one temperature that the name of a file or sheet tells, K, or None.
+    """Return the temperature in the name of a file or sheet, such as ``"foam_dma_-25C"``, K, or None.
 
-    Parameters
-    ----------
-    name : str
-        Without folder and ending, such as ``"foam_dma_-25C"``.  A minus must follow a blank or underscore:
-        in ``"foam-25C"`` it may be a dash.
+    A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash.
     """
     found = list(_TEMPERATURE_IN_NAME.finditer(name))
     if len(found) != 1 or found[0]["dash"]:
@@ -191,14 +181,10 @@ def deformation_of(name: str) -> Deformation | None:
 
 
 def tool_says(texts: Iterable[tuple[str, str]], *, axial: bool = False) -> Said:
-    """Return what the tool that held the sample implies: shear, or tension (bending and compression give E too).
+    """Return the deformation that the sample holder implies (bending and compression give E too).
 
-    Parameters
-    ----------
-    texts : pairs of str
-        Label and value in the head of a file, such as ``("Geometry name", "Shear sandwich")``.
-    axial : bool
-        Whether the instrument oscillated along its axis as far as the columns show it, so that plates do not shear.
+    `texts` are label and value from the head of a file, such as ``("Geometry name", "Shear sandwich")``.  `axial`: the
+    columns show an axial oscillation, in which plates do not shear.
     """
     said: dict[Deformation, str] = {}
     for label, value in texts:
@@ -224,19 +210,10 @@ def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
 
 
 def said_by_columns(moduli: Iterable[str], columns: Iterable[str], tools: Iterable[tuple[str, str]] = ()) -> Said:
-    """Decide between E and G by what a file says beside its numbers.
+    """Decide between E and G by headings and tools.
 
-    The headings of the moduli come first, then the tool, then a column of shear strain, stress or rate, then a torque
-    where there is no force.
-
-    Parameters
-    ----------
-    moduli : iterable of str
-        Headings of the moduli.
-    columns : iterable of str
-        Headings of all columns that hold numbers.
-    tools : pairs of str
-        Label and value of what names the tool; see `tools_in`.
+    The headings of the moduli come first, then the tool (see `tools_in`), then a column of shear strain, stress or rate,
+    then a torque without a force.  `columns` are the headings of all columns that hold numbers.
     """
     for heading in moduli:
         kind = deformation_of(heading)

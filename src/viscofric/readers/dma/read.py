@@ -34,20 +34,14 @@ if TYPE_CHECKING:
 
 
 class Format(Protocol):
-    """What the module of one format offers.
-
-    Attributes
-    ----------
-    NAME : str
-        The format in words: ``"TA Instruments TRIOS text"``.
-    """
+    """The module of one format; `NAME` is the format in words, such as ``"TA Instruments TRIOS text"``."""
 
     @property
     def NAME(self) -> str:
         """The format in words."""
 
     def recognises(self, source: Source) -> bool:
-        """Return whether the file is of this format, told by its content; quick, and never raises."""
+        """Return whether the file has this format, by its content; quick, and never raises."""
 
     def read(self, source: Source) -> Readings:
         """Return the points of the file, or raise `DataFileError`."""
@@ -68,18 +62,7 @@ FORMATS: tuple[Format, ...] = (
 
 
 def format_of(source: Source) -> Format:
-    """Return the format of a file.
-
-    Parameters
-    ----------
-    source : Source
-        The file.
-
-    Raises
-    ------
-    DataFileError
-        If the file is empty, or no format recognises it.
-    """
+    """Return the format of a file, or raise `DataFileError` if the file is empty or no format recognises it."""
     for one in FORMATS:
         if one.recognises(source):
             return one
@@ -160,9 +143,9 @@ def trace_dma(
     temperature: Quantity | Sequence[Quantity | None] | None = None,
     modulus_unit: str | None = None,
 ) -> TracedSweeps:
-    """Read what `read_dma` reads, and return with the sweeps every reading of the files; see there.
+    """Read the same as `read_dma`, and return the sweeps with every reading of the files.
 
-    That nothing decides between tension and shear is no error here, so that the sweeps can be shown with the question.
+    If nothing decides between tension and shear, this raises no error, so that the page can show the sweeps and ask.
     """
     if deformation not in (None, "tension", "shear"):
         raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")

@@ -36,51 +36,24 @@ AS_SWEEPS = Remedy(
 
 @dataclass(frozen=True, eq=False)
 class Readings:
-    """Points of frequency sweeps as one file holds them, neither sorted nor judged yet.
+    """Points of frequency sweeps in one file, neither sorted nor checked yet.
 
-    Rows that are no points of a frequency sweep may be left out already; `notes` tells of them.
-
-    Parameters
-    ----------
-    source : str
-        The file, as the user named it.
-    format : str
-        What it was taken for, in words: ``"TA Instruments TRIOS text (LIMS export)"``.
-    places : tuple of str
-        Where each point stands, for notes: ``"line 18"``, ``"sheet 'Exported Data', row 4"``.
-    temperature : (n,) array
-        As measured at the sample, K.
-    angular_frequency : (n,) array
-        rad/s.
-    storage_modulus, loss_modulus : (n,) array
-        As printed, of any sign, Pa.
-    deformation : {"tension", "shear"} or None
-        None where the file does not say it.
-    said_by : str
-        What in the file says so: ``"the heading G' (MPa)"``.
-    strain_amplitude : (n,) array, optional
-        Of the oscillation, as a fraction (0.01 is 1 %); NaN where a point has none.
-    step : (n,) array of int, optional
-        Number of the step of the instrument's programme that each point belongs to.
-    notes : tuple of str
-        What was doubtful or passed over while reading: one sentence each.
-    unit_is_asked : bool
-        Whether the moduli have no unit but the one that the user gave.
+    Rows that are not points of a frequency sweep may be left out already; `notes` reports them.
     """
 
     source: str
-    format: str
-    places: tuple[str, ...]
-    temperature: Array
-    angular_frequency: Array
-    storage_modulus: Array
-    loss_modulus: Array
-    deformation: Deformation | None = None
-    said_by: str = ""
-    strain_amplitude: Array | None = None
-    step: Integers | None = None
+    format: str  # in words, such as "TA Instruments TRIOS text (LIMS export)"
+    places: tuple[str, ...]  # of each point: "line 18"
+    temperature: Array  # (n,), of the sample, K
+    angular_frequency: Array  # rad/s
+    storage_modulus: Array  # as printed, of any sign, Pa
+    loss_modulus: Array  # Pa
+    deformation: Deformation | None = None  # None if the file does not state it
+    said_by: str = ""  # such as "the heading G' (MPa)"
+    strain_amplitude: Array | None = None  # fraction (0.01 is 1 %), NaN if unknown
+    step: Integers | None = None  # of the instrument's programme
     notes: tuple[str, ...] = ()
-    unit_is_asked: bool = False
+    unit_is_asked: bool = False  # the moduli have no unit but the user's
 
     def __len__(self) -> int:
         return len(self.temperature)
@@ -92,39 +65,23 @@ _SHOWN = 3
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """What several `Readings` hold, in the order in which it was read.
+    """The points of several `Readings`, in the order of reading."""
 
-    Parameters
-    ----------
-    places : tuple of str
-        Where each point stands, the file's name included where there are several.
-    temperature, angular_frequency, storage_modulus, loss_modulus : (n,) array
-        K, rad/s, Pa; as printed.
-    strain_amplitude : (n,) array
-        Fraction, NaN where unknown.
-    file : (n,) array of int
-        Which file each point comes from.
-    step : (n,) array of int
-        Step of the instrument's programme; meaningless where `has_step` is false.
-    has_step : (n,) array of bool
-        Whether the file tells steps.
-    """
-
-    places: tuple[str, ...]
-    temperature: Array
-    angular_frequency: Array
-    storage_modulus: Array
-    loss_modulus: Array
-    strain_amplitude: Array
-    file: Integers
-    step: Integers
+    places: tuple[str, ...]  # with the file's name if there are several
+    temperature: Array  # K
+    angular_frequency: Array  # rad/s
+    storage_modulus: Array  # Pa
+    loss_modulus: Array  # Pa
+    strain_amplitude: Array  # fraction, NaN if unknown
+    file: Integers  # number of the file
+    step: Integers  # arbitrary if has_step is false
     has_step: Mask
 
     def __len__(self) -> int:
         return len(self.places)
 
     def named(self, indices: Iterable[int]) -> str:
-        """Name the places of points, the first few of many: ``"lines 18, 20, 31 and 9 more"``."""
+        """Return the places of points, the first few of many: ``"lines 18, 20, 31 and 9 more"``."""
         places = [self.places[index] for index in indices]
         shown, more = places[:_SHOWN], max(0, len(places) - _SHOWN)
         parted = [re.fullmatch(r"(?P<before>.*?)(?P<what>line|row|point) (?P<number>\d+)", place) for place in shown]
@@ -138,21 +95,11 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Sorted:
-    """One isotherm and where its points come from.
-
-    Parameters
-    ----------
-    isotherm : Isotherm
-        Sorted and averaged.
-    rows : (m,) array of int
-        All its points in the order of reading.
-    origins : tuple of (k,) array of int
-        The points that each frequency was averaged from.
-    """
+    """One isotherm, sorted and averaged, and the points it consists of."""
 
     isotherm: Isotherm
-    rows: Indices
-    origins: tuple[Indices, ...]
+    rows: Indices  # all its points in the order of reading
+    origins: tuple[Indices, ...]  # the points that each frequency was averaged from
 
 
 def joined(readings: Sequence[Readings]) -> Points:

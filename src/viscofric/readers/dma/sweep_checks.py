@@ -107,18 +107,11 @@ def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
 
 
 def outliers(isotherms: Sequence[Isotherm], name: str) -> list[tuple[int, int]]:
-    """Return isotherm and place of points far off the smooth course of their neighbours in log modulus.
+    """Return isotherm and place of points far from the smooth curve of their neighbours in log modulus.
 
     Each point is compared with the parabola through its nearest neighbours, two on either side, in log frequency
-    and log modulus; the yardstick is the scatter of all points of all isotherms (median absolute deviation).  The
-    worst point is set aside and its neighbours are judged anew, so that it does not blame them.
-
-    Parameters
-    ----------
-    isotherms : sequence of Isotherm
-        Of one specimen.
-    name : {"storage", "loss"}
-        Which modulus.
+    and log modulus, relative to the scatter of all points of all isotherms (median absolute deviation).  The
+    worst point is removed and its neighbours are judged again, so that it does not affect them.
     """
     curves = [
         (np.log10(one.angular_frequency), np.log10(getattr(one, f"{name}_modulus")), np.arange(len(one)))
@@ -142,9 +135,9 @@ def outliers(isotherms: Sequence[Isotherm], name: str) -> list[tuple[int, int]]:
 
 
 def _residuals(x: Array, y: Array) -> Array:
-    """Return each point's distance from the parabola of its four nearest neighbours, over its standard deviation.
+    """Return each point's distance from the parabola through its four nearest neighbours, over its standard deviation.
 
-    The ends of a sweep are left out (zero): beyond the last neighbour a parabola says little.
+    The ends of a sweep are zero: a parabola is uncertain beyond the last neighbour.
     """
     n = len(x)
     if n < 7:
@@ -204,17 +197,7 @@ AMPLITUDE_SWEEP, SWEPT_AMPLITUDE = 3, 2.0
 
 
 def insist_on_one_amplitude(points: Points, rows: Indices, source: str) -> None:
-    """Raise `DataFileError` where the amplitude of the strain, not the frequency, was swept at one temperature.
-
-    Parameters
-    ----------
-    points : Points
-        As read.
-    rows : (m,) array of int
-        Points of one isotherm.
-    source : str
-        Named in errors.
-    """
+    """Raise `DataFileError` if the strain amplitude, not the frequency, was swept at one temperature."""
     rows = rows[points.strain_amplitude[rows] > 0.0]
     held = np.round(np.log(points.angular_frequency[rows]) / HELD_FREQUENCY)
     swept: list[int] = []
@@ -234,7 +217,7 @@ def insist_on_one_amplitude(points: Points, rows: Indices, source: str) -> None:
 
 
 def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:
-    """Tell strain amplitudes that differ: the modulus of a filled rubber falls with amplitude.
+    """Return notes on differing strain amplitudes: the modulus of a filled rubber falls with amplitude.
 
     A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57, doi:10.1002/app.1962.070061906.
     """

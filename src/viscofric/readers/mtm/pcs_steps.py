@@ -256,15 +256,9 @@ _FIRST_YEAR, _LAST_YEAR = 1970, 2200
 
 
 def start_times(printed: Sequence[str]) -> list[datetime | None]:
-    """Return when steps began, None where it cannot be told.
+    """Return when steps began, from date and time as printed (``"23/03/2018 10:12:01"``), None if unreadable.
 
-    The day comes before the month, as in all samples, unless some date then is none and all are with the month
-    first.
-
-    Parameters
-    ----------
-    printed : sequence of str
-        Date and clock time of each step: ``"23/03/2018 10:12:01"``.
+    The day precedes the month, as in all samples, unless only the other order makes dates of all of them.
     """
     day_first = [_moment(text, 0, 1) for text in printed]
     month_first = [_moment(text, 1, 0) for text in printed]

@@ -42,13 +42,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source, thermometer: Thermometer) -> TractionReadings:
-    """Return the readings of an export, two (or four) for each row with the slip reversed.
-
-    Raises
-    ------
-    DataFileError
-        If a number is damaged, a row is cut short, or a row with a force lacks its speeds, load or temperature.
-    """
+    """Return the readings of an export, two (or four) for each row in which the slip was reversed."""
     export = parse(source.path, source.text or "")
     rows = rows_of(export)
     load, where = _load(rows)

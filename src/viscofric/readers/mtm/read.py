@@ -26,13 +26,7 @@ if TYPE_CHECKING:
 
 
 def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:
-    """Return the readings of a file.
-
-    Raises
-    ------
-    DataFileError
-        If the file is empty or binary, or cannot be read as what it is.
-    """
+    """Return the readings of a file, or raise `DataFileError` for an empty, binary or damaged one."""
     if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
         raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.")
     if pcs_text.recognises(source):
@@ -234,10 +228,10 @@ def _nominal(columns: dict[str, Array]) -> Integers:
 
 
 def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) -> tuple[Integers, tuple[str, ...]]:
-    """Take the replicate numbers of the files, counted on where a file repeats what an earlier one holds.
+    """Return the replicate numbers of the files, continued where a file repeats conditions of an earlier one.
 
-    Files of one repetition, such as one for each direction, have no reading in common; files that were each numbered
-    from 1 have.
+    Files of one repetition, such as one for each direction, share no reading; files that were each numbered
+    from 1 do.
     """
     sense = np.sign(columns["disc_speed"] - columns["ball_speed"]).astype(np.int64)
     conditions = np.column_stack([_nominal(columns), sense])

@@ -20,29 +20,7 @@ Thermometer: TypeAlias = Literal["lube", "pot"]
 
 @dataclass(frozen=True, eq=False)
 class TractionReadings:
-    """Readings as one file holds them.
-
-    Parameters
-    ----------
-    source : str
-        The file, as the user named it.
-    disc_speed, ball_speed, traction_force, load, temperature : (n,) array
-        As in `viscofric.traction.TractionRuns`.
-    row : (n,) array of int
-        Row of the file's tables that a reading stands in: those of one row were taken together.
-    replicate : (n,) array of int, optional
-        As the file numbers its repetitions.
-    zero_force, time, track_radius : (n,) array, optional
-        As in `viscofric.traction.TractionRuns`; the time is that since the file's first reading.
-    step : (n,) array of int, optional
-        As the file numbers its steps.
-    steps : tuple of TractionStep
-        What the file says of them.
-    began : datetime, optional
-        When the first reading was taken, by the clock of the instrument.
-    notes : tuple of str
-        What was doubtful, passed over or assumed: one sentence each.
-    """
+    """Readings of one file; columns as in `viscofric.traction.TractionRuns`."""
 
     source: str
     disc_speed: Array
@@ -50,14 +28,14 @@ class TractionReadings:
     traction_force: Array
     load: Array
     temperature: Array
-    row: Integers
-    replicate: Integers | None = None
+    row: Integers  # of the file's tables; readings of one row were taken together
+    replicate: Integers | None = None  # as the file numbers its repetitions
     zero_force: Array | None = None
-    time: Array | None = None
+    time: Array | None = None  # since the file's first reading, s
     track_radius: Array | None = None
-    step: Integers | None = None
+    step: Integers | None = None  # as the file numbers its steps
     steps: tuple[TractionStep, ...] = ()
-    began: datetime | None = None
+    began: datetime | None = None  # time of the first reading by the instrument's clock
     notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:

@@ -43,13 +43,13 @@ _MOST_CELLS = 500_000
 
 
 def read_with_package(source: Source, asked: Asked) -> Scan:
-    """Read a file in whatever format the package recognises by its content, in a process with limits.
+    """Read a file in any format that SurfaceTopography recognises by its content, in a process with limits.
 
     Raises
     ------
     DataFileError
-        If the package is not installed, does not know the format, finds the file damaged, there is no such channel,
-        what the file says contradicts what was asked, or reading takes too long or too much memory.
+        If the package is not installed, does not know the format or finds the file damaged, the channel does not exist,
+        file and user contradict each other, or reading takes too much time or memory.
     """
     insist_on_size(source.data, source.path)
     _insist_on_small_workbook(source)

@@ -16,24 +16,7 @@ if TYPE_CHECKING:
 
 
 def read_scan(path: object, asked: Asked) -> Scan:
-    """Read a file of heights; its format is told by its content.
-
-    Parameters
-    ----------
-    path : str or path
-    asked : Asked
-
-    Returns
-    -------
-    Scan
-
-    Raises
-    ------
-    DataFileError
-        If the file cannot be read, or does not say what is needed.
-    InputError
-        If what was asked makes no sense.
-    """
+    """Read a file of heights, whose format is recognised by its content."""
     check_choice(asked.lines, "lines", "x", "y")
     if not isinstance(asked.unit, str):
         raise InputError(f"unit = {brief(asked.unit)}: must be text, such as 'um'.")

@@ -18,52 +18,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Asked:
-    """What the user says about a file, where it does not say so itself.
+    """What the user states about a file that does not contain it."""
 
-    Parameters
-    ----------
-    unit : str
-        Of the heights (and of the positions, where the file holds them); empty: the file's, or m.
-    spacing : (float, float), optional
-        Distance of neighbouring points along x and y, m.
-    channel : str or int, optional
-        Name of one of several fields of heights in a file, or its number counted from 0.
-    missing : float, optional
-        Number that stands for a point without a reading.
-    lines : {"x", "y"}
-        Axis along which the lines of a text table, or the rows of an array, follow one another.
-    """
-
-    unit: str = ""
-    spacing: tuple[float, float] | None = None
-    channel: str | int | None = None
-    missing: float | None = None
-    lines: str = "x"
+    unit: str = ""  # of heights and positions; empty: the file's, or m
+    spacing: tuple[float, float] | None = None  # along x and y, m
+    channel: str | int | None = None  # name, or number from 0
+    missing: float | None = None  # number that means no reading
+    lines: str = "x"  # "x" or "y": axis along which the lines of a table or rows of an array follow
 
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """Heights as a file holds them.
+    """Heights as a file holds them."""
 
-    Parameters
-    ----------
-    heights : (nx, ny) array
-        m, NaN where there is no reading; (nx, 1) for a line scan.
-    spacing : (float, float)
-        Distance of neighbouring points along x and y, m.
-    told : str
-        What was read, such as ``"read from scan.sur (Digital Surf SUR), channel 'Height'"``.
-    periodic : bool
-        Whether the file says that the surface repeats itself.
-    notes : tuple of str
-        What else was done to the readings, one step each.
-    """
-
-    heights: Array
-    spacing: tuple[float, float]
-    told: str
-    periodic: bool = False
-    notes: tuple[str, ...] = ()
+    heights: Array  # (nx, ny), m, NaN without a reading; (nx, 1) for a line scan
+    spacing: tuple[float, float]  # along x and y, m
+    told: str  # "read from scan.sur (Digital Surf SUR), channel 'Height'"
+    periodic: bool = False  # as the file states
+    notes: tuple[str, ...] = ()  # further steps applied to the readings
 
 
 def name_of(source: Source) -> str:
@@ -80,21 +52,12 @@ _LEAST_FILLED = 0.25
 
 
 def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]) -> Scan:
-    """Put points onto their grid.
-
-    Parameters
-    ----------
-    source : Source
-    points : (n, 2) or (n, 3) array
-        x and z, or x, y and z, m; z is NaN where there is no reading.
-    asked : Asked
-    lines : list of int
-        Line of the file of each point, for errors.
+    """Return points x, z or x, y, z, m (z is NaN without a reading), on their grid; `lines` are those of the file.
 
     Raises
     ------
     DataFileError
-        If a spacing is given, a position is missing, or the positions are no grid.
+        If a spacing is given, a position is missing, or the positions form no grid.
     """
     if asked.spacing is not None:
         raise DataFileError(source.path, "holds the positions of its points; leave the spacing out.")

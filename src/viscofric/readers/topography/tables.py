@@ -53,13 +53,7 @@ def is_table(text: str | None) -> bool:
 
 
 def read_array(source: Source, asked: Asked) -> Scan:
-    """Read a .npy file: a matrix or a row of heights.
-
-    Raises
-    ------
-    DataFileError
-        If it is no such array, or its spacing is not given.
-    """
+    """Read a .npy file: a matrix or a row of heights, whose spacing must be given."""
     array = saved_array(source.data, source.path)
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size < 2:
         problem = f"holds an array of shape {array.shape} of {array.dtype}; a row or a matrix of heights is wanted."
@@ -68,13 +62,7 @@ def read_array(source: Source, asked: Asked) -> Scan:
 
 
 def read_text_table(source: Source, asked: Asked) -> Scan:
-    """Read a text table: a matrix of heights, or columns x, z or x, y, z, told by their headings or by their grid.
-
-    Raises
-    ------
-    DataFileError
-        If a cell is no number, rows are not equally long, or a spacing or a unit is missing.
-    """
+    """Read a text table: a matrix of heights, or columns x, z or x, y, z, recognised by headings or by their grid."""
     assert source.text is not None
     table = _parsed(source.path, source.text)
     named = _points_headings(table.headings)

@@ -60,25 +60,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Return the points of an Eplexor workbook.
-
-    Rows of a master curve are moved back to the temperatures and frequencies that they were measured at.
-
-    Parameters
-    ----------
-    source : Source
-        The workbook.
-
-    Returns
-    -------
-    Readings
-        `strain_amplitude` is the column 'Strain dyn'.
-
-    Raises
-    ------
-    DataFileError
-        If columns, units or numbers are missing or wrong, or a master curve cannot be taken apart.
-    """
+    """Return the points; rows of a master curve are moved back to their measured temperatures and frequencies."""
     tables = sheets(source)
     sheet = _Sheet(source.path, tables[DATA])
     if {"E'", "G'"} <= set(sheet.names):

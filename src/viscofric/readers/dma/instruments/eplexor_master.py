@@ -46,24 +46,12 @@ _C2 = re.compile(r"C2\s*:?\s*" + _NUMBER + r"\s*K?")
 
 @dataclass(frozen=True, eq=False)
 class ShiftList:
-    """What the sheet 'Shiftlist' holds.
+    """The sheet 'Shiftlist': isotherms in its order, and the software's own reference and WLF constants."""
 
-    Parameters
-    ----------
-    temperatures : (n,) array
-        Of the isotherms, in the order of the sheet, K.
-    log10_shifts : (n,) array
-        log10 α.
-    reference : float or None
-        Reference temperature as the sheet states it (a programmed one, such as 25.0 °C), K.
-    wlf : (float, float) or None
-        The software's own WLF fit about the reference: C1 and C2 (K).
-    """
-
-    temperatures: Array
+    temperatures: Array  # K
     log10_shifts: Array
-    reference: float | None
-    wlf: tuple[float, float] | None
+    reference: float | None  # as programmed, such as 25.0 °C, K
+    wlf: tuple[float, float] | None  # C1 and C2 (K)
 
     @property
     def measured_reference(self) -> float | None:
@@ -73,20 +61,7 @@ class ShiftList:
 
 
 def shift_list(tables: Mapping[str, Rows], path: str) -> ShiftList | None:
-    """Return the shift list of a workbook, or None where it has none.
-
-    Parameters
-    ----------
-    tables : mapping of str to rows
-        Sheets of the workbook.
-    path : str
-        The file, for error messages.
-
-    Raises
-    ------
-    DataFileError
-        If the sheet is there but holds no rows of a temperature and a shift.
-    """
+    """Return the shift list of a workbook, None without one; a sheet without temperatures and shifts is an error."""
     rows = tables.get(SHIFT_LIST)
     if rows is None:
         return None
@@ -133,22 +108,9 @@ def _above_zero(kelvin: float, place: int, path: str) -> float:
 
 
 def insist_on_sense(shifts: ShiftList, reference: float, path: str) -> None:
-    """Refuse a shift list that contradicts the rows' own temperature, or whose shifts rise with temperature.
+    """Refuse a shift list that contradicts the temperature of the rows, or whose shifts rise with temperature.
 
-    Parameters
-    ----------
-    shifts : ShiftList
-        Of the workbook.
-    reference : float
-        Temperature that the rows of its master curve carry, K.
-    path : str
-        The file, for error messages.
-
-    Raises
-    ------
-    DataFileError
-        If the isotherm without shift has another temperature, as a list in another unit would show; or if shifts
-        rise with temperature, so that hot and cold isotherms would change places.
+    In the former case the list has another unit, in the latter hot and cold isotherms would change places.
     """
     still = shifts.measured_reference
     if still is not None and abs(still - reference) > SAME_TEMPERATURE:
@@ -189,13 +151,7 @@ MOST_CANDIDATES = 5_000_000
 
 
 def programmed_frequencies(tables: Mapping[str, Rows]) -> Array | None:
-    """Return the frequencies of the sweep, Hz, as the sheet 'Data header' gives them, or None if it does not.
-
-    Parameters
-    ----------
-    tables : mapping of str to rows
-        Sheets of the workbook.
-    """
+    """Return the frequencies of the sweep, Hz, from the sheet 'Data header', or None."""
     rows = tables.get(HEADER, ())
     for place, row in enumerate(rows):
         titles = [str(cell).strip() for cell in row]
@@ -220,33 +176,16 @@ def programmed_frequencies(tables: Mapping[str, Rows]) -> Array | None:
 def isotherm_of_each_row(
     frequency: Array, time: Array | None, shifts: Array, programmed: Array, path: str, places: Sequence[str]
 ) -> Indices:
-    """Find the isotherm that each row of a master curve was measured in.
+    """Return the isotherm, a place in `shifts`, of each row of a master curve.
 
-    A row belongs to the isotherm whose shift takes its frequency back to one of the programme.  Where two shifts
-    do so (they differ by a whole number of steps), the row belongs with those measured next to it in time.
-
-    Parameters
-    ----------
-    frequency : (n,) array
-        Shifted, Hz.
-    time : (n,) array or None
-        Of measurement, s.
-    shifts : (m,) array
-        log10 α of the isotherms.
-    programmed : (k,) array
-        Frequencies of the sweep, Hz, ascending.
-    path, places
-        The file, and where each row stands, for error messages.
-
-    Returns
-    -------
-    (n,) array of int
-        Places in `shifts`.
+    The shift of that isotherm takes the row's frequency, (n,) Hz, back to one of the programme, (k,) Hz, ascending.
+    If two shifts do so (they differ by a whole number of steps), the row belongs to the isotherm of its neighbours in
+    time, s.
 
     Raises
     ------
     DataFileError
-        If a row fits no isotherm, or several and cannot be told apart: for want of times, or because an isotherm would
+        If a row fits no isotherm, or several that cannot be distinguished: without times, or because an isotherm would
         be left without rows or hold a frequency twice.
     """
     if frequency.size * shifts.size > MOST_CANDIDATES:
@@ -274,9 +213,9 @@ def isotherm_of_each_row(
 
 
 def _insist_on_one_row_each(chosen: Indices, place: Indices, fits: Mask, path: str) -> None:
-    """Refuse isotherms that lost all their rows to others, or took such of others.
+    """Refuse isotherms that lost all their rows to others, or took rows of others.
 
-    Both happen where shifts lie whole steps of the programme apart, so that all rows of an isotherm fit another too.
+    Both happen if shifts differ by whole steps of the programme, so that all rows of an isotherm fit another too.
     """
     lost = fits.any(axis=0) & ~np.isin(np.arange(fits.shape[1]), chosen)
     doubtful = fits.sum(axis=1) > 1

@@ -63,24 +63,7 @@ def _primes(text: str) -> str:
 
 
 def read(source: Source) -> Readings:
-    """Return the points of a Mettler text file.
-
-    Parameters
-    ----------
-    source : Source
-        The file.
-
-    Returns
-    -------
-    Readings
-        The temperature is Ts.  The amplitude x is a displacement, and the file does not tell the length of the
-        sample, so that `strain_amplitude` is None.
-
-    Raises
-    ------
-    DataFileError
-        If a row has not the cells that the header names, or a cell is not a finite number, or a unit is wrong.
-    """
+    """Return the points, or raise `DataFileError` for a missing column, a wrong unit or a damaged row."""
     blocks = _blocks(source)
     letters = {letter for block in blocks for letter in "EG" if f"{letter}'" in block.names}
     if len(letters) != 1:

@@ -44,17 +44,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Return the points of all frequency sweeps of a RheoCompass export.
-
-    Parameters
-    ----------
-    source : Source
-        The file; its `temperature` stands for a column of temperatures that was not exported.
-
-    Returns
-    -------
-    Readings
-        One step for each interval.  Intervals that are no frequency sweeps are told of in a note.
+    """Return the points of all frequency sweeps; each interval is a step.
 
     Raises
     ------

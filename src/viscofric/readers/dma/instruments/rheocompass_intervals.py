@@ -47,28 +47,14 @@ _THOUSANDS_POINT = re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?")
 
 @dataclass(frozen=True, eq=False)
 class Interval:
-    """One interval, its numbers still as text.
+    """One interval, its numbers still as text; the first column is the empty cell at the beginning of each row."""
 
-    Parameters
-    ----------
-    line : int
-        Line of the file that it begins on.
-    announced : int
-        Number of points that the file says it has.
-    columns, units : tuple of str
-        Left to right; the first stands for the empty cell that rows begin with.
-    rows : tuple of (int, tuple of str)
-        Line and cells of each numbered point.
-    invalid : tuple of int
-        Lines of points that the instrument marked beside their number.
-    """
-
-    line: int
-    announced: int
+    line: int  # of the file
+    announced: int  # number of points
     columns: tuple[str, ...]
     units: tuple[str, ...]
-    rows: tuple[tuple[int, tuple[str, ...]], ...]
-    invalid: tuple[int, ...]
+    rows: tuple[tuple[int, tuple[str, ...]], ...]  # line and cells of each numbered point
+    invalid: tuple[int, ...]  # lines of points marked by the instrument
 
     @cached_property
     def places(self) -> dict[str, int]:
@@ -106,12 +92,7 @@ def head(source: Source) -> list[list[str]]:
 
 
 def intervals(source: Source) -> list[Interval]:
-    """Split an export into its intervals.
-
-    Parameters
-    ----------
-    source : Source
-        The file.
+    """Return the intervals of an export.
 
     Raises
     ------
@@ -183,20 +164,14 @@ def _padded(row: list[str], size: int) -> list[str]:
 
 @dataclass(frozen=True)
 class Decimals:
-    """How the numbers of one file are written.
-
-    Parameters
-    ----------
-    thousands, point : str
-        What parts thousands (nothing, as a rule) and what parts decimals.
-    """
+    """The separators of thousands (usually none) and decimals in one file."""
 
     thousands: str = ""
     point: str = "."
 
     @classmethod
     def of(cls, path: str, found: list[Interval]) -> Decimals:
-        """Tell it from all numbers of the intervals together, or raise `DataFileError` if they contradict."""
+        """Return those of all numbers of the intervals, or raise `DataFileError` if they contradict each other."""
         numbers = [
             (row[place], line)
             for interval in found

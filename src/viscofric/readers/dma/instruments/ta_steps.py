@@ -39,15 +39,7 @@ _SAME_FREQUENCY = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Signal:
-    """One column of a step.
-
-    Parameters
-    ----------
-    heading, unit : str
-        As printed.
-    values : (n,) array
-        As printed; NaN where a cell is empty or no finite number.
-    """
+    """One column of a step as printed; NaN for an empty cell, or one without a finite number."""
 
     heading: str
     unit: str
@@ -56,18 +48,9 @@ class Signal:
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """One step of an instrument's programme.
+    """One step of an instrument's programme: its signals by role, and the place of each point (``"line 18"``).
 
-    Parameters
-    ----------
-    name : str
-        As printed.
-    signals : dict
-        Those columns that have a role in `ROLES`, by role.
-    places : tuple of str
-        Where each point stands: ``"line 18"``.
-    named_by_instrument : bool
-        Whether the name tells the technique; a name that the user gave tells nothing.
+    `named_by_instrument`: the name is that of a technique; names by users carry no information.
     """
 
     name: str
@@ -101,9 +84,9 @@ class Step:
 
 
 def roles(names: Sequence[str]) -> dict[str, int]:
-    """Return the place of the first column of each role in `ROLES` that there is.
+    """Return the place of the first column of each role in `ROLES`.
 
-    One variable may stand in a file twice, in two units; the first serves as well as the second.
+    A variable may occur twice, in two units; the first is taken.
     """
     places: dict[str, int] = {}
     for place, name in enumerate(names):
@@ -119,17 +102,7 @@ _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\s*")
 
 @dataclass
 class Table:
-    """One step as printed.
-
-    Parameters
-    ----------
-    name : str
-        Of the step.
-    names, units : list of str
-        Of the columns; there may be more of the one than of the other.
-    rows : list of (int, list of str)
-        Line of the file, counted from 1, and cells; a row may be shorter than the list of names.
-    """
+    """One step as printed; rows have a line number from 1, and may be shorter than the list of names."""
 
     name: str
     names: list[str] = field(default_factory=list)
@@ -138,16 +111,9 @@ class Table:
 
 
 def steps_of(path: str, tables: Sequence[Table], also: Mapping[str, str] | None = None) -> list[Step]:
-    """Turn tables of text into steps of numbers.
+    """Return steps of numbers from all tables of a file, which share one decimal mark.
 
-    Parameters
-    ----------
-    path : str
-        The file, for errors.
-    tables : sequence of Table
-        All of the file, so that one decimal mark holds for all.
-    also : dict, optional
-        Roles of further names of columns, as `viscofric.readers.dma.instruments.ta_steps.roles` does not know them.
+    `also` maps further names of columns to those that `roles` knows.
 
     Raises
     ------

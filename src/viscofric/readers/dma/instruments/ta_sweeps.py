@@ -40,18 +40,7 @@ def readings_of(
 ) -> Readings:
     """Return the points of all frequency sweeps among the steps of a file.
 
-    Parameters
-    ----------
-    source : Source
-        The file.
-    kind : str
-        What it was taken for, in words.
-    steps : sequence of Step
-        All of them, in the order of the file.
-    tools : pairs of str
-        What the header says of the tool; see `viscofric.readers.dma.names.tool_says`.
-    notes : sequence of str
-        What was doubtful before.
+    `tools` are labels and values of the header, see `viscofric.readers.dma.names.tool_says`.
 
     Raises
     ------

@@ -62,13 +62,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all frequency sweeps of an export; see `viscofric.readers.dma.read.Format`.
-
-    Raises
-    ------
-    DataFileError
-        If the file is no whole JSON, has no results, or holds no frequency sweep (the message says what it holds).
-    """
+    """Return the points of all frequency sweeps, or raise `DataFileError`, which names what the file holds instead."""
     try:
         document = parse_json(source.text or "")
     except json.JSONDecodeError as error:

@@ -43,13 +43,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all frequency sweeps of an export; see `viscofric.readers.dma.read.Format`.
-
-    Raises
-    ------
-    DataFileError
-        If the file holds no frequency sweep (the message says what it holds), or a column, unit or row is wrong.
-    """
+    """Return the points of all frequency sweeps, or raise `DataFileError`, which names what the file holds instead."""
     text = source.text or ""
     short = _SHORT.match(text[:_HEAD])
     delimiter = short["delimiter"] if short else "\t"
@@ -96,10 +90,7 @@ def _rows(path: str, text: str, delimiter: str) -> Iterator[Row]:
 
 
 def _drop_torn_cell(draft: list[Row]) -> None:
-    """Empty the cell at which a file ends without an end of line, where its row is shorter than the one before.
-
-    The number in it may have lost digits, and would still be read as a number.
-    """
+    """Empty the last cell of a file without a final end of line: its number may have lost digits."""
     line, cells = draft[-1]
     if len(draft) > 1 and len(cells) < len(draft[-2][1]):
         draft[-1] = (line, [*cells[:-1], ""])

@@ -51,13 +51,12 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Read all points of a file that oscillate; see `viscofric.readers.dma.read.Format`.
+    """Return all points that oscillate.
 
     Raises
     ------
     DataFileError
-        If the header is cut short or contradicts itself, the file holds no frequency sweep (the message says what
-        it holds), or a row is wrong.
+        If the header is cut short or contradicts itself, the file holds no frequency sweep, or a row is wrong.
     """
     end = _end_of_header(source.data)
     notes: list[str] = []

@@ -30,10 +30,10 @@ _FREQUENCIES = {"frequency", "angular frequency", "reduced frequency", "reduced 
 
 
 def header_row(rows: Sequence[NumberedRow]) -> int | None:
-    """Return which row names the columns of a DMA table, None if no row does.
+    """Return the row that names the columns of a DMA table, or None.
 
-    It is the first that names a frequency and a modulus; without such a row, the first that names two
-    quantities of `viscofric.readers.dma.names`, or a traction: that a column is missing is said later.
+    It is the first that names a frequency and a modulus; else the first that names two quantities of
+    `viscofric.readers.dma.names`, or a traction: missing columns are reported later.
     """
     second_best = None
     for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
@@ -69,23 +69,12 @@ def quantities(cells: Sequence[str]) -> set[str]:
 
 
 def table_under(path: str, rows: Sequence[NumberedRow], header: int, *, comma_is_free: bool = True) -> Table:
-    """Return the table under a header.
-
-    Parameters
-    ----------
-    path : str
-        Named in errors.
-    rows : list of (int, list of str)
-        All rows that are not blank, each with its number in the file.
-    header : int
-        Which of them is the header, see `header_row`.
-    comma_is_free : bool
-        Whether a comma may stand for the decimal point.
+    """Return the table under a header, from all rows that are not blank, each with its number in the file.
 
     Raises
     ------
     DataFileError
-        If rows of numbers stand above the header, there is none below it, or one is not as long as the header.
+        If rows of numbers stand above the header, there is none below it, or a row differs from it in length.
     """
     _insist_on_text(path, rows[:header])
     names = list(rows[header][1])
@@ -151,13 +140,7 @@ def read(source: Source) -> Readings:
 
 
 def delimited_table(source: Source) -> Table:
-    """Return the table of a text file.
-
-    Raises
-    ------
-    DataFileError
-        If no line names columns, or a row is not as long as its header.
-    """
+    """Return the table of a text file, or raise `DataFileError` without a header or with rows of another length."""
     lines = text_lines(source.text or "")
     delimiter = _delimiter(lines)
     if delimiter is None:

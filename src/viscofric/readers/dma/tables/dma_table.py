@@ -46,7 +46,7 @@ _MODULI = ("storage modulus", "loss modulus", "complex modulus")
 def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     """Return the places of the columns by quantity.
 
-    Reduced frequencies count before measured ones in a master curve; `is_reduced` tells which of the two was found.
+    Reduced frequencies have priority over measured ones in a master curve; `is_reduced` distinguishes the two.
 
     Raises
     ------
@@ -143,10 +143,10 @@ def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array
 
 
 def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str]) -> tuple[Array, Array]:
-    """Return storage and loss modulus, Pa, as printed or from tan δ; adds notes on what was computed.
+    """Return storage and loss modulus, Pa, as printed or from tan δ, with notes on what was computed.
 
-    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ give the others exactly; where more is printed
-    than is needed, `DataFileError` is raised if it contradicts.
+    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ give the others exactly; redundant columns must
+    agree, else `DataFileError` is raised.
     """
     values = {what: _modulus(table, places[what], source, notes) for what in _MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
@@ -201,13 +201,7 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
 
 
 def deformation(table: Table, places: dict[str, int]) -> Said:
-    """Return what headings and tool say of the deformation, and by which words.
-
-    Raises
-    ------
-    DataFileError
-        If one modulus is called tensile and another one shear.
-    """
+    """Return tension or shear with the words that say so; `DataFileError` if one modulus is called tensile, another shear."""
     said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
     if {"tension", "shear"} <= {kind for kind, _ in said}:
         raise DataFileError(table.path, "one modulus is headed as tensile (E), the other as shear (G).")
@@ -229,19 +223,8 @@ WIDEST_SWEEP = 7.0  # decades
 def read_points(table: Table, source: Source, format: str, name: str, where: str = "line") -> Readings:  # noqa: A002
     """Return the points of one table.
 
-    Parameters
-    ----------
-    table : Table
-        With temperature, frequency, storage and loss modulus; one modulus or both may be given by tan δ and the
-        absolute value |E*|.
-    source : Source
-        The file, with what the user said of it.
-    format : str
-        What it was taken for.
-    name : str
-        Of the file or sheet, without folder and ending: it may tell a temperature that no column holds.
-    where : str
-        What the numbers of rows count: lines or rows.
+    `name` is that of the file or sheet, which may contain the temperature; numbers of rows count lines, or what `where`
+    says.
 
     Raises
     ------

@@ -29,35 +29,17 @@ _PARAMETERS = re.compile(r"\s*(?:[\w ]+=[^;=]*;)+(?:[\w ]+=[^;=]*)?\s*")
 
 @dataclass(frozen=True, eq=False)
 class RepTateColumns:
-    """What a file of RepTate holds.
+    """The content of a RepTate file; without names of columns it is a master curve."""
 
-    Parameters
-    ----------
-    parameters : dict
-        Of the first line: ``{"T": "-35", "Mw": "2.4"}``.
-    is_master_curve : bool
-        Whether no line names the columns.
-    lines : (n,) array of int
-        Line of the file of each point.
-    angular_frequency, storage_modulus, loss_modulus : (n,) array
-        rad/s and Pa.
-    temperature : (n,) array
-        K; that of the first line where no column holds it, NaN where neither does.
-    strain_amplitude : (n,) array or None
-        Fraction.
-    said_by : str
-        The heading of the storage modulus, empty in a master curve.
-    """
-
-    parameters: dict[str, str]
+    parameters: dict[str, str]  # of the first line, such as {"T": "-35", "Mw": "2.4"}
     is_master_curve: bool
-    lines: Integers
-    angular_frequency: Array
-    storage_modulus: Array
-    loss_modulus: Array
-    temperature: Array
-    strain_amplitude: Array | None
-    said_by: str
+    lines: Integers  # of the file
+    angular_frequency: Array  # rad/s
+    storage_modulus: Array  # Pa
+    loss_modulus: Array  # Pa
+    temperature: Array  # K, NaN if unknown
+    strain_amplitude: Array | None  # fraction
+    said_by: str  # heading of the storage modulus
 
 
 def recognises(source: Source) -> bool:
@@ -74,13 +56,7 @@ def _parameters(line: str) -> dict[str, str]:
 
 
 def read(source: Source) -> Readings:
-    """Return the points of one sweep (.osc).
-
-    Raises
-    ------
-    DataFileError
-        If a column is missing or no number, or the file is a master curve, see `read_master_curve`.
-    """
+    """Return the points of one sweep (.osc); a master curve is an error, see `read_master_curve`."""
     found = columns(source)
     if found.is_master_curve:
         reference = found.parameters.get("T", "25")

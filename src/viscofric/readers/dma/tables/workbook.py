@@ -70,26 +70,10 @@ def sheet_names(source: Source) -> tuple[str, ...]:
 
 
 def sheets(source: Source) -> dict[str, Rows]:
-    """Return the sheets of a workbook, in its order.
+    """Return the sheets of a workbook, in its order: numbers as float, dates and times as text, ``""`` for nothing.
 
-    The file is parsed once, in a process of its own with limited memory and time: a crafted workbook can ask for
-    hundreds of gigabytes.
-
-    Parameters
-    ----------
-    source : Source
-        The file.
-
-    Returns
-    -------
-    dict
-        Name of the sheet -> rows of cells from the first row and column on: numbers as float, text, or ``""``.
-        Dates and times are text.
-
-    Raises
-    ------
-    DataFileError
-        If it is damaged, protected or far larger than a workbook of measurements.
+    The file is parsed once, in a separate process with limited memory and time: a crafted workbook can request
+    hundreds of gigabytes.  A damaged, protected or oversized workbook is a `DataFileError`.
     """
     return _workbook(source).sheets
 
@@ -138,15 +122,10 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Return the points of all sheets that hold a DMA table.
+    """Return the points of all sheets with a DMA table.
 
-    Several sheets are taken for several temperatures of one specimen; if their temperatures overlap, they may as
-    well be several specimens, or one sheet a copy of the other, and are refused.
-
-    Raises
-    ------
-    DataFileError
-        If the workbook cannot be parsed, no sheet holds a DMA table, sheets overlap, or a table is wrong.
+    Several sheets are the temperatures of one specimen.  If their temperatures overlap, they may as well be several
+    specimens, or copies, and are refused.
     """
     readings = {
         name: read_points(table, source, NAME, name, where=f"sheet {name!r}, row")
@@ -163,13 +142,7 @@ def read(source: Source) -> Readings:
 
 
 def tables(source: Source) -> dict[str, Table]:
-    """Return the tables with moduli of a workbook by the names of their sheets.
-
-    Raises
-    ------
-    DataFileError
-        If the workbook cannot be parsed, no sheet holds such a table, or a row is wrong.
-    """
+    """Return the tables with moduli by the names of their sheets, or raise `DataFileError`."""
     found = {}
     for name, cells in sheets(source).items():
         rows = _numbered(f"{source.path}, sheet {name!r}", cells)
