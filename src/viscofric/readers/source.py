@@ -80,7 +80,9 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
         cell, row = commas[0]
         as_decimal, as_thousands = cell.replace(",", "."), cell.replace(",", "")
         problem = f"{cell!r} may be {as_decimal} or {as_thousands}, since every comma stands before three digits; "
-        raise DataFileError(path, problem + "write decimals with a point, and no thousands marks.", row)
+        raise DataFileError(
+            path, problem + "write decimals with a point, and no thousands marks.", row, code="ambiguous-decimals"
+        )
     return bool(commas)
 
 

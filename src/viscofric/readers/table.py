@@ -90,13 +90,16 @@ class Table:
     def _number(self, cell: str, heading: str, line: int) -> float:
         text = cell.strip()
         if not text:
-            raise DataFileError(self.path, f"the cell in column {heading!r} is empty; give a number.", line)
+            raise DataFileError(
+                self.path, f"the cell in column {heading!r} is empty; give a number.", line, code="empty-cell"
+            )
         if self.decimal_comma and "." in text:
             raise DataFileError(
                 self.path,
                 f"{text!r} in column {heading!r} has a point, but other numbers of the file have a comma, so that "
                 "decimals cannot be told from thousands; write all decimals in one way and no thousands marks.",
                 line,
+                code="mixed-decimals",
             )
         plain = text.replace(",", ".") if self.decimal_comma else text
         try:
@@ -104,7 +107,9 @@ class Table:
         except ValueError:
             value = math.nan
         if not math.isfinite(value) or "_" in plain:
-            raise DataFileError(self.path, f"{text!r} in column {heading!r} is not a finite number.", line)
+            raise DataFileError(
+                self.path, f"{text!r} in column {heading!r} is not a finite number.", line, code="not-a-number"
+            )
         return value
 
     def values(self, column: int, unit: str) -> Array:
@@ -131,6 +136,7 @@ class Table:
             raise DataFileError(
                 self.path,
                 f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}.",
+                code="wrong-unit",
             ) from None
 
     def unused(self, used: Collection[int]) -> list[Column]:
@@ -140,8 +146,8 @@ class Table:
     def find(self, names: frozenset[str], what: str) -> int | None:
         """Return the place of the one column whose name is among `names`, or None.
 
-        Names are compared as printed and in lower case, with underscores as spaces.  Several such columns are an error, in
-        which `what` names the quantity.
+        Names are compared as printed and in lower case, with underscores as spaces.  Several such columns are an error,
+        in which `what` names the quantity.
         """
         found = [
             place
@@ -150,7 +156,9 @@ class Table:
         ]
         if len(found) > 1:
             both = " and ".join(repr(self.columns[place].heading) for place in found)
-            raise DataFileError(self.path, f"{both} could each be the {what}; keep one of them.")
+            raise DataFileError(
+                self.path, f"{both} could each be the {what}; keep one of them.", code="ambiguous-columns"
+            )
         return found[0] if found else None
 
 
@@ -163,8 +171,8 @@ def read_table(path: str | PathLike[str]) -> Table:
     Raises
     ------
     DataFileError
-        If the file does not exist, is not a regular file, is empty, binary or too large, or if rows and header differ in
-        length.
+        If the file does not exist, is not a regular file, is empty, binary or too large, or if rows and header differ
+        in length.
     """
     return table_of_text(str(path), read_text(path))
 
@@ -175,11 +183,13 @@ def table_of_text(shown: str, text: str) -> Table:
     if lines and _FOR_EXCEL.fullmatch(lines[0][1]):
         del lines[0]
     if not lines:
-        raise DataFileError(shown, "the file is empty; it must hold a header and rows of numbers.")
+        raise DataFileError(shown, "the file is empty; it must hold a header and rows of numbers.", code="empty")
     first, header = lines[0]
     delimiter = max("\t;,", key=header.count)
     if delimiter not in header:
-        raise DataFileError(shown, "the header has no columns separated by commas, semicolons or tabs.", first)
+        raise DataFileError(
+            shown, "the header has no columns separated by commas, semicolons or tabs.", first, code="missing-columns"
+        )
     columns = tuple(heading(cell) for cell in split_cells(shown, first, header, delimiter))
     rows = [(number, split_cells(shown, number, line, delimiter)) for number, line in lines[1:]]
     return make_table(shown, columns, rows, comma_is_free=delimiter != ",")
@@ -208,10 +218,10 @@ def make_table(
             cells.pop()
         if len(cells) != len(columns):
             problem = f"the row has {len(cells)} cells where the header names {len(columns)} columns."
-            raise DataFileError(path, problem, number)
+            raise DataFileError(path, problem, number, code="row-length")
         rows.append(tuple(cells))
     if not rows:
-        raise DataFileError(path, "there is a header, but no row of numbers under it.")
+        raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")
     # a remark may hold any comma; a pure number, such as a coefficient of friction, has no unit
     measured = [
         place
@@ -229,7 +239,7 @@ def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
     try:
         return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
     except csv.Error as error:
-        raise DataFileError(path, f"the row cannot be split into cells ({error}).", number) from None
+        raise DataFileError(path, f"the row cannot be split into cells ({error}).", number, code="row-length") from None
 
 
 def heading(text: str) -> Column:

@@ -31,7 +31,7 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
         if a temperature is not above absolute zero, or a modulus far above that of any solid.
     """
     if not len(points):
-        raise DataFileError(source, "holds no point of a frequency sweep.")
+        raise DataFileError(source, "holds no point of a frequency sweep.", code="no-points")
     columns = (points.temperature, points.angular_frequency, points.storage_modulus, points.loss_modulus)
     keep = np.all([np.isfinite(column) for column in columns], axis=0)
     notes: list[Note] = []
@@ -39,12 +39,12 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
     cold = np.flatnonzero(keep & (points.temperature <= 0.0))
     if cold.size:
         problem = f"{points.places[cold[0]]} has a temperature of {points.temperature[cold[0]]:.4g} K; "
-        raise DataFileError(source, problem + "it must be above absolute zero.")
+        raise DataFileError(source, problem + "it must be above absolute zero.", code="not-positive")
     moduli = np.fmax(points.storage_modulus, points.loss_modulus)
     stiff = np.flatnonzero(keep & (moduli > LARGEST_MODULUS))
     if stiff.size:
         problem = f"{points.places[stiff[0]]} has a modulus of {moduli[stiff[0]]:.4g} Pa; nothing is as stiff, "
-        raise DataFileError(source, problem + "so the number or its unit is wrong.")
+        raise DataFileError(source, problem + "so the number or its unit is wrong.", code="implausible-modulus")
     for name, plural, values, unit in (
         ("frequency", "frequencies", points.angular_frequency / (2 * math.pi), "Hz"),
         ("storage modulus", "storage moduli", points.storage_modulus, "Pa"),
@@ -55,7 +55,7 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
         _leave_out(points, source, bad, notes, told, (values, unit), most=name != "loss modulus")
         keep &= ~bad
     if not keep.any():
-        raise DataFileError(source, "no row has a loss modulus above zero.")
+        raise DataFileError(source, "no row has a loss modulus above zero.", code="points-unusable")
     return np.flatnonzero(keep), notes
 
 
@@ -75,7 +75,9 @@ def _leave_out(
         return
     named = points.named(rows.tolist())
     if most and 2 * len(rows) > len(points):
-        raise DataFileError(source, f"{len(rows)} of {len(points)} points cannot be used: {told[1]} ({named}).")
+        raise DataFileError(
+            source, f"{len(rows)} of {len(points)} points cannot be used: {told[1]} ({named}).", code="points-unusable"
+        )
     first = int(rows[0])
     if len(rows) > 1:
         notes.append(Note("points-left-out", f"{len(rows)} points left out: {told[1]} ({named}{_span(points, rows)})."))
@@ -133,7 +135,7 @@ def insist_on_agreement(
             first = int(np.argmax(apart))
             problem = f"the {name} of {np.count_nonzero(apart)} of {apart.size} points is not {formula}, first "
             problem += f"{told[known][first]:.4g} where they give {follows[known][first]:.4g}; are columns swapped, or "
-            raise DataFileError(path, problem + "is a unit wrong?")
+            raise DataFileError(path, problem + "is a unit wrong?", code="columns-contradict")
 
 
 #: Sweeps of a rubber, printed in kelvin, lie within this.

@@ -124,7 +124,11 @@ def _insist_on_one_temperature(points: Points, groups: list[Indices], source: st
         if 2 * np.count_nonzero(spans > ISOTHERM_GAP) > spans.size:
             low, high = (f"{celsius(float(f(points.temperature[group]))):z.1f}" for f in (np.min, np.max))
             problem = f"each frequency was measured several times between {low} and {high} °C, and the temperatures "
-            raise DataFileError(source, problem + "cannot be parted into isotherms; give them as a column of steps.")
+            raise DataFileError(
+                source,
+                problem + "cannot be parted into isotherms; give them as a column of steps.",
+                code="no-isotherms",
+            )
 
 
 def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
@@ -141,6 +145,7 @@ def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
         source,
         f"the temperatures from {celsius(low):z.1f} to {celsius(high):z.1f} °C run on without a gap of "
         f"{ISOTHERM_GAP:g} K; isothermal sweeps are wanted, not a temperature ramp.",
+        code="temperature-ramp",
     )
 
 
@@ -211,7 +216,7 @@ def _insist_on_several(points: Points, groups: list[Indices], source: str) -> li
     counts = [len(_printed_frequencies(points, group)) for group in groups]
     if len(groups) >= TEMPERATURE_SWEEP and max(counts) == 1:
         problem = f"each of the {len(groups)} temperatures has one frequency; frequency sweeps are wanted, not a "
-        raise DataFileError(source, problem + "temperature sweep.")
+        raise DataFileError(source, problem + "temperature sweep.", code="temperature-sweep")
     # one frequency beside three, two beside six
     needed = min(3, 1 + max(counts) // 3)
     return [group for group, count in zip(groups, counts, strict=True) if count >= needed]

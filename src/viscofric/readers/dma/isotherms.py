@@ -71,7 +71,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
         If there is no file, or `deformation` is neither "tension" nor "shear".
     """
     if not readings:
-        raise InputError("at least one file of DMA sweeps is needed.")
+        raise InputError("at least one file of DMA sweeps is needed.", code="no-file")
     source = _source(readings)
     kind, on_deformation = _deformation(readings, deformation)
     points = joined(readings)
@@ -129,7 +129,7 @@ def _own_notes(readings: Sequence[Readings]) -> list[Note]:
 def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[Note]]:
     """Decide between tension and shear: what the files say, else what the caller says."""
     if asked not in (None, "tension", "shear"):
-        raise InputError(f"deformation = {asked!r}: must be 'tension' or 'shear'.")
+        raise InputError(f"deformation = {asked!r}: must be 'tension' or 'shear'.", code="wrong-choice")
     said = [one for one in readings if one.deformation is not None]
     if not said:
         if asked is not None:
@@ -146,9 +146,13 @@ def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tup
     if other is not None:
         other_by = f" ({other.said_by})" if other.said_by else ""
         problem = f"says {other.deformation}{other_by}, but {said[0].source} says {kind}{by}; read them apart."
-        raise DataFileError(other.source, problem)
+        raise DataFileError(other.source, problem, code="deformation-contradicts")
     if asked not in (None, kind):
-        raise DataFileError(said[0].source, f"the header says {kind}{by}, but deformation={asked!r} was asked.")
+        raise DataFileError(
+            said[0].source,
+            f"the header says {kind}{by}, but deformation={asked!r} was asked.",
+            code="deformation-contradicts",
+        )
     notes = [Note("deformation", f"The file's header says that the moduli were measured in {kind}{by}.")]
     silent = [one for one in readings if one.deformation is None]
     if silent:

@@ -83,7 +83,7 @@ def read_master_curve(
     """
     kelvin = positive(reference, "K", "reference")
     if deformation not in (None, "tension", "shear"):
-        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")
+        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.", code="wrong-choice")
     ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
@@ -113,7 +113,7 @@ def _table(source: Source) -> Table:
     tables = workbook.tables(source)
     if len(tables) > 1:
         problem = f"the sheets {', '.join(map(repr, tables))} each hold a table with moduli; keep one of them."
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, problem, code="several-tables")
     return next(iter(tables.values()))
 
 
@@ -123,7 +123,7 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
     frequency = dma_table.angular_frequency(table, places, doubts)
     if doubts:  # a master curve carries no notes
         heading = table.columns[places["frequency"]].heading
-        raise DataFileError(table.path, f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.")
+        raise DataFileError(table.path, f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.", code="no-unit")
     dma_table.insist_on_one_frequency(table, places, frequency)
     storage, loss = dma_table.moduli(table, places, source, [])
     temperature = np.full(len(frequency), reference)
@@ -168,13 +168,15 @@ def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> 
         bad = np.flatnonzero(~(values > 0.0))
         if bad.size:
             problem = f"the {name} is missing or not above zero; correct or leave out the row."
-            raise DataFileError(path, problem, int(lines[bad[0]]))
+            raise DataFileError(path, problem, int(lines[bad[0]]), code="not-positive")
 
 
 def _kind(source: Source, said: Deformation | None, asked: Deformation | None) -> Deformation:
     """Return what the moduli are; nothing is assumed."""
     if said is not None and asked not in (None, said):
-        raise DataFileError(source.path, f"the file says {said}, but deformation={asked!r} was asked.")
+        raise DataFileError(
+            source.path, f"the file says {said}, but deformation={asked!r} was asked.", code="deformation-contradicts"
+        )
     kind = said or asked
     if kind is None:
         raise DataFileError(source.path, NOT_SAID)

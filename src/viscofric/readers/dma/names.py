@@ -212,8 +212,8 @@ def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
 def said_by_columns(moduli: Iterable[str], columns: Iterable[str], tools: Iterable[tuple[str, str]] = ()) -> Said:
     """Decide between E and G by headings and tools.
 
-    The headings of the moduli come first, then the tool (see `tools_in`), then a column of shear strain, stress or rate,
-    then a torque without a force.  `columns` are the headings of all columns that hold numbers.
+    The headings of the moduli come first, then the tool (see `tools_in`), then a column of shear strain, stress or
+    rate, then a torque without a force.  `columns` are the headings of all columns that hold numbers.
     """
     for heading in moduli:
         kind = deformation_of(heading)

@@ -67,12 +67,12 @@ def format_of(source: Source) -> Format:
         if one.recognises(source):
             return one
     if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
-        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.")
+        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.", code="empty")
     if source.text is None:
         what = "is a binary file of no known kind"
     else:
         what = "has no columns that name a modulus and a frequency"
-    raise DataFileError(source.path, f"{what}; what can be read: {known()}.")
+    raise DataFileError(source.path, f"{what}; what can be read: {known()}.", code="unknown-format")
 
 
 def known() -> str:
@@ -148,7 +148,7 @@ def trace_dma(
     If nothing decides between tension and shear, this raises no error, so that the page can show the sweeps and ask.
     """
     if deformation not in (None, "tension", "shear"):
-        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.")
+        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.", code="wrong-choice")
     files = _files(paths)
     given = _temperatures(temperature, len(files))
     if modulus_unit is not None:
@@ -159,7 +159,10 @@ def trace_dma(
     _insist_on_different(sources)
     readings = [_read(source) for source in sources]
     if modulus_unit is not None and not any(one.unit_is_asked for one in readings):
-        raise InputError(f"modulus_unit = {modulus_unit!r}: the files name the units of their moduli; leave it out.")
+        raise InputError(
+            f"modulus_unit = {modulus_unit!r}: the files name the units of their moduli; leave it out.",
+            code="unit-not-needed",
+        )
     return traced_sweeps(readings, deformation)
 
 
@@ -172,9 +175,9 @@ def _files(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]])
         try:
             files += [str(one) for one in path]
         except TypeError:
-            raise InputError(f"{path!r} is not the name of a file, nor a list of such.") from None
+            raise InputError(f"{path!r} is not the name of a file, nor a list of such.", code="not-a-name") from None
     if not files:
-        raise InputError("read_dma needs at least one file.")
+        raise InputError("read_dma needs at least one file.", code="no-file")
     return files
 
 
@@ -183,7 +186,10 @@ def _temperatures(given: Quantity | Sequence[Quantity | None] | None, count: int
     if not isinstance(given, (list, tuple, np.ndarray)) or getattr(given, "ndim", 1) == 0:
         return [None if given is None else _kelvin(cast("Quantity", given))] * count
     if len(given) != count:
-        raise InputError(f"temperature holds {len(given)} values for {count} files; give one for all, or one for each.")
+        raise InputError(
+            f"temperature holds {len(given)} values for {count} files; give one for all, or one for each.",
+            code="wrong-count",
+        )
     return [None if one is None else _kelvin(one) for one in given]
 
 
@@ -191,13 +197,15 @@ def _kelvin(value: Quantity) -> float:
     kelvin = positive(value, "K", "temperature")
     hint = kelvin_hint(kelvin) if isinstance(value, (int, float)) else ""
     if hint:
-        raise InputError(f"temperature = {value!r}: is {celsius(kelvin):.4g} °C{hint}.")
+        raise InputError(f"temperature = {value!r}: is {celsius(kelvin):.4g} °C{hint}.", code="looks-like-celsius")
     return kelvin
 
 
 def _bytes(path: str) -> bytes:
     if "\0" not in path and Path(path).is_dir():
-        raise DataFileError(path, "is a folder, not a data file; give its files, e.g. *sorted(Path(folder).glob('*')).")
+        raise DataFileError(
+            path, "is a folder, not a data file; give its files, e.g. *sorted(Path(folder).glob('*')).", code="folder"
+        )
     return read_bytes(path)
 
 
@@ -210,7 +218,7 @@ def _insist_on_different(sources: Sequence[Source]) -> None:
             (source.data, "holds the same as {}; give one of them only."),
         ):
             if key in seen:
-                raise DataFileError(source.path, problem.format(seen[key].path))
+                raise DataFileError(source.path, problem.format(seen[key].path), code="given-twice")
             seen[key] = source
 
 
@@ -219,5 +227,9 @@ def _read(source: Source) -> Readings:
     readings = format_of(source).read(source)
     told = source.temperature
     if told is not None and not np.all(np.isclose(readings.temperature, told, rtol=0.0, atol=1e-9)):
-        raise DataFileError(source.path, f"holds temperatures itself ({readings.format}); leave out temperature.")
+        raise DataFileError(
+            source.path,
+            f"holds temperatures itself ({readings.format}); leave out temperature.",
+            code="temperature-not-needed",
+        )
     return readings

@@ -213,7 +213,9 @@ def insist_on_one_amplitude(points: Points, rows: Indices, source: str) -> None:
     problem = (
         f"{at([kelvin])} the strain amplitude runs from {span} at one frequency ({points.named(swept)}); frequency "
     )
-    raise DataFileError(source, problem + "sweeps at one amplitude are wanted, not an amplitude sweep.")
+    raise DataFileError(
+        source, problem + "sweeps at one amplitude are wanted, not an amplitude sweep.", code="amplitude-sweep"
+    )
 
 
 def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:

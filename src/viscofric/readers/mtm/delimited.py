@@ -106,6 +106,7 @@ def _unused(table: Table, places: dict[str, int]) -> tuple[str, ...]:
             table.path,
             f"the numbered {_named(numbered)} would be left out, since a row of a table is one reading; write "
             "each force in a row of its own with the signed speeds of disc and ball that go with it, or remove them.",
+            code="several-readings-a-row",
         )
     return (Note("unused-columns", f"Not read: the {_named(unused)}."),) if unused else ()
 
@@ -131,7 +132,12 @@ def _insist_on_positive(table: Table, place: int, values: Array, limit: str) -> 
     if bad.size:
         row = int(bad[0])
         cell, heading = table.rows[row][place].strip(), table.columns[place].heading
-        raise DataFileError(table.path, f"{cell} in column {heading!r} must be above {limit}.", int(table.lines[row]))
+        raise DataFileError(
+            table.path,
+            f"{cell} in column {heading!r} must be above {limit}.",
+            int(table.lines[row]),
+            code="not-positive",
+        )
 
 
 def _whole_numbers(table: Table, names: frozenset[str], what: str) -> Integers | None:
@@ -144,5 +150,5 @@ def _whole_numbers(table: Table, names: frozenset[str], what: str) -> Integers |
         row = int(bad[0])
         cell, heading = table.rows[row][place].strip(), table.columns[place].heading
         problem = f"{cell} in column {heading!r} must be a whole number, at most {LARGEST_COUNT:.0f}."
-        raise DataFileError(table.path, problem, int(table.lines[row]))
+        raise DataFileError(table.path, problem, int(table.lines[row]), code="not-a-whole-number")
     return numbers.astype(np.int64)

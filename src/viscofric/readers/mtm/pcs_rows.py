@@ -53,7 +53,9 @@ class Rows:
 
     def refuse(self, place: int, problem: str) -> NoReturn:
         """Refuse the file for a row."""
-        raise DataFileError(self.export.path, self.at(place) + problem, int(self.line[place]))
+        raise DataFileError(
+            self.export.path, self.at(place) + problem, int(self.line[place]), code="reading-incomplete"
+        )
 
 
 def rows_of(export: Export) -> Rows:

@@ -144,15 +144,25 @@ def number_of(export: Export, cell: str, where: str, line: int) -> float | None:
         plain = cell.replace(",", ".", 1) if export.decimal_comma and "." not in cell else cell
         if not NUMBER.fullmatch(plain):
             raise DataFileError(
-                export.path, f"{where} holds {cell.strip()[:40]!r}, which is not a finite number.", line
+                export.path,
+                f"{where} holds {cell.strip()[:40]!r}, which is not a finite number.",
+                line,
+                code="not-a-number",
             )
         cell = plain
     elif export.decimal_comma and "." in cell:
         problem = f"{where} holds {cell.strip()!r} with a point, but other numbers of the file have a comma; "
-        raise DataFileError(export.path, problem + "write all decimals in one way and no thousands marks.", line)
+        raise DataFileError(
+            export.path, problem + "write all decimals in one way and no thousands marks.", line, code="mixed-decimals"
+        )
     value = float(cell)
     if abs(value) > LARGEST:
-        raise DataFileError(export.path, f"{where} holds {cell.strip()!r}, which is too large for a measurement.", line)
+        raise DataFileError(
+            export.path,
+            f"{where} holds {cell.strip()!r}, which is too large for a measurement.",
+            line,
+            code="too-large",
+        )
     return value
 
 
@@ -168,7 +178,7 @@ def _is_told(path: str, step: Step, line: int, cells: list[str]) -> bool:
         return False
     if key == "step type" and (step.blocks or key in step.told):
         problem = f"step {step.number}: a second step type; is the line 'Step … started at' before it missing?"
-        raise DataFileError(path, problem, line)
+        raise DataFileError(path, problem, line, code="step-type-twice")
     step.told[key.replace("disk", "disc").split(" used for")[0]] = (cells[0], cells[1].strip(), line)
     if key == "step type":
         for name, value in zip(cells[2::2], cells[3::2], strict=False):
@@ -198,7 +208,7 @@ def _layout(path: str, step: Step, line: int, cells: list[str]) -> Layout | None
         except InputError:
             example = {"K": "degC", "m/s": "mm/s"}.get(wanted, wanted)
             problem = f"step {step.number}: column {shown!r} must have a unit like {example!r}."
-            raise DataFileError(path, problem, line) from None
+            raise DataFileError(path, problem, line, code="wrong-unit") from None
         places[name] = Place(place, shown, factor, offset)
     return Layout(len(cells), places)
 
@@ -217,7 +227,7 @@ def _take_row(export: Export, step: Step, number: int, cells: list[str], *, last
     block = step.blocks[-1]
     if len(cells) > block.layout.width:
         problem = f"{at(step, step.rows + 1)}{len(cells)} cells where the header names {block.layout.width} columns."
-        raise DataFileError(export.path, problem, number)
+        raise DataFileError(export.path, problem, number, code="row-length")
     width = len(block.rows[-1]) if block.rows else block.layout.width
     if last and len(cells) < width:
         export.cut = f"step {step.number}, row {step.rows + 1}"
@@ -239,7 +249,7 @@ def _insist_on_width(export: Export) -> None:
                     f"{at(step, block.first + short)}{widths[short]} cells where the header names "
                     f"{block.layout.width} columns."
                 )
-                raise DataFileError(export.path, problem, block.lines[short])
+                raise DataFileError(export.path, problem, block.lines[short], code="row-length")
 
 
 def _all_rows(export: Export) -> Iterator[tuple[Step, list[str], int]]:

@@ -52,7 +52,7 @@ def read(source: Source, thermometer: Thermometer) -> TractionReadings:
             f"none of its {len(export.steps)} steps holds a row with a traction force (in a column "
             "'Traction Force (N)' or 'TF1 (N)') under load."
         )
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, problem, code="no-points")
     disc, ball = _speeds(rows, row, signal)
     temperature, thermal = _temperature(rows, row, thermometer)
     force = np.concatenate([rows.stacked(*SIGNALS), [rows.columns["traction force"]]])[signal, row]
@@ -238,10 +238,15 @@ def _told(export: Export, key: str, unit: str) -> Array:
         except InputError:
             example = {"m": "mm"}.get(unit, unit)
             problem = f"step {step.number}: {printed.strip()[:60]!r} must have a unit like ({example})."
-            raise DataFileError(export.path, problem, line) from None
+            raise DataFileError(export.path, problem, line, code="wrong-unit") from None
         values[place] = factor * value
         if unit == "m" and value <= 0.0:
-            raise DataFileError(export.path, f"step {step.number}: the track radius {cell} must be above zero.", line)
+            raise DataFileError(
+                export.path,
+                f"step {step.number}: the track radius {cell} must be above zero.",
+                line,
+                code="not-positive",
+            )
     return values
 
 

@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:
     """Return the readings of a file, or raise `DataFileError` for an empty, binary or damaged one."""
     if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
-        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.")
+        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.", code="empty")
     if pcs_text.recognises(source):
         return pcs_text.read(source, thermometer)
     if source.text is None:
         what = f"what can be read: {pcs_text.NAME} and {delimited.NAME}"
-        raise DataFileError(source.path, f"is a binary file of no known kind; {what}.")
+        raise DataFileError(source.path, f"is a binary file of no known kind; {what}.", code="unknown-format")
     return delimited.read(source)
 
 
@@ -103,19 +103,25 @@ def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> 
     [30.0, 60.0, 90.0]
     """
     if not paths:
-        raise InputError("read_mtm needs at least one file.")
+        raise InputError("read_mtm needs at least one file.", code="no-file")
     check_choice(thermometer, "thermometer", "lube", "pot")
     if isinstance(paths[0], (list, tuple)):
-        raise InputError("read_mtm takes the files one after the other, read_mtm(*paths), not in a list.")
+        raise InputError(
+            "read_mtm takes the files one after the other, read_mtm(*paths), not in a list.", code="files-in-a-list"
+        )
     files = [str(file_path(path)) for path in paths]
     for place, path in enumerate(files):
         if any(Path(path).resolve() == Path(other).resolve() for other in files[:place] if "\0" not in path + other):
-            raise DataFileError(path, "is given twice; name each file once.")
+            raise DataFileError(path, "is given twice; name each file once.", code="given-twice")
     parts = [read_file(Source(path, read_bytes(path)), thermometer) for path in files]
     for place, part in enumerate(parts):
         for other in parts[:place]:
             if part.same_as(other):
-                raise DataFileError(part.source, f"holds the same readings as {other.source}; give one of them only.")
+                raise DataFileError(
+                    part.source,
+                    f"holds the same readings as {other.source}; give one of them only.",
+                    code="given-twice",
+                )
     return _together(parts)
 
 
@@ -193,7 +199,9 @@ def _replicates(
         return _counted_on(parts, columns)
     if known:
         without = next(part.source for part in parts if part.replicate is None)
-        raise DataFileError(without, "has no replicate column, but another file of the same call has one.")
+        raise DataFileError(
+            without, "has no replicate column, but another file of the same call has one.", code="no-replicates"
+        )
     # Readings of one row were taken together; rows in succession at equal speeds, load and temperature are one pass.
     lengths = np.cumsum([0, *(int(part.row.max()) + 1 for part in parts)])
     row = np.concatenate([part.row + first for part, first in zip(parts, lengths[:-1], strict=True)])

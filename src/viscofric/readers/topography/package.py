@@ -55,7 +55,7 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
     _insist_on_small_workbook(source)
     if find_spec("SurfaceTopography") is None:
         why = "SurfaceTopography is not installed: pip install 'viscofric[surfaces]'"
-        raise DataFileError(source.path, _BY_PACKAGE.format(why=why))
+        raise DataFileError(source.path, _BY_PACKAGE.format(why=why), code="package-missing")
     try:
         _APART.call(load_package)  # on a busy machine that may take longer than reading
         found = _APART.call(read_here, source=Source(source.path, source.data), asked=asked)
@@ -68,7 +68,9 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
     else:
         assert isinstance(found, Scan)
         return found
-    raise DataFileError(source.path, f"{why}; save its heights as a matrix of numbers (CSV or .npy).")
+    raise DataFileError(
+        source.path, f"{why}; save its heights as a matrix of numbers (CSV or .npy).", code="reading-failed"
+    )
 
 
 def load_package() -> None:
@@ -87,7 +89,7 @@ def read_here(source: Source, asked: Asked) -> Scan:
             from SurfaceTopography.Exceptions import CannotDetectFileFormat  # type: ignore[import-untyped]
         except Exception as error:  # noqa: BLE001 - of whatever it imports itself
             why = not_imported("SurfaceTopography", error)
-            raise DataFileError(source.path, _BY_PACKAGE.format(why=why)) from None
+            raise DataFileError(source.path, _BY_PACKAGE.format(why=why), code="package-missing") from None
         try:
             with open_topography(io.BytesIO(source.data)) as reader:
                 return _scan(source, reader, asked)
@@ -95,11 +97,15 @@ def read_here(source: Source, asked: Asked) -> Scan:
             raise
         except CannotDetectFileFormat:
             raise DataFileError(
-                source.path, "is in none of the formats that are known for heights of a surface."
+                source.path,
+                "is in none of the formats that are known for heights of a surface.",
+                code="unknown-format",
             ) from None
         except Exception as error:  # noqa: BLE001 - a damaged file makes the package raise whatever it meets
             reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
-            raise DataFileError(source.path, f"cannot be read as heights of a surface ({reason[:200]}).") from None
+            raise DataFileError(
+                source.path, f"cannot be read as heights of a surface ({reason[:200]}).", code="damaged"
+            ) from None
 
 
 def _insist_on_small_workbook(source: Source) -> None:
@@ -110,36 +116,50 @@ def _insist_on_small_workbook(source: Source) -> None:
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive, archive.open(_CONTENTS) as contents:
             listed = contents.read(_LONGEST_CONTENTS)
     except Exception:  # noqa: BLE001 - a torn archive raises whatever it meets
-        raise DataFileError(source.path, "is a damaged workbook.") from None
+        raise DataFileError(source.path, "is a damaged workbook.", code="damaged") from None
     if not all(f'name="{name}"'.encode() in listed for name in _TESTER_SHEETS):  # before it takes time to parse
-        raise DataFileError(source.path, "is a workbook, but not one of heights; save the sheet of heights as CSV.")
+        raise DataFileError(
+            source.path, "is a workbook, but not one of heights; save the sheet of heights as CSV.", code="not-heights"
+        )
     held = sheets(source)
     cells = sum(len(row) for rows in held.values() for row in rows)
     if cells > _MOST_CELLS:
-        raise DataFileError(source.path, f"holds {cells} cells, more than a line scan has; save it as CSV.")
+        raise DataFileError(
+            source.path, f"holds {cells} cells, more than a line scan has; save it as CSV.", code="too-large"
+        )
 
 
 def _scan(source: Source, reader: Any, asked: Asked) -> Scan:
     if reader.format() in _BY_SIZE:
-        raise DataFileError(source.path, "is in none of the formats that are known for heights of a surface.")
+        raise DataFileError(
+            source.path, "is in none of the formats that are known for heights of a surface.", code="unknown-format"
+        )
     channel = _channel(source, reader, asked.channel)
     given: dict[str, Any] = {}
     if channel.unit is None:
         if not asked.unit:
-            raise DataFileError(source.path, "does not say the unit of its heights; give unit='um', for instance.")
+            raise DataFileError(
+                source.path, "does not say the unit of its heights; give unit='um', for instance.", code="no-unit"
+            )
         given["unit"] = asked.unit
     elif asked.unit:
         raise DataFileError(
-            source.path, f"says that its heights are in {channel.unit!r}; leave unit = {asked.unit!r} out."
+            source.path,
+            f"says that its heights are in {channel.unit!r}; leave unit = {asked.unit!r} out.",
+            code="unit-not-needed",
         )
     factor, _ = conversion(str(channel.unit or asked.unit), "m", "unit")
     if channel.physical_sizes is None:
         if asked.spacing is None:
-            raise DataFileError(source.path, "does not say how far its points lie apart; give spacing='5 um'.")
+            raise DataFileError(
+                source.path, "does not say how far its points lie apart; give spacing='5 um'.", code="no-spacing"
+            )
         points = channel.nb_grid_pts
         given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, asked.spacing, strict=False))
     elif asked.spacing is not None:
-        raise DataFileError(source.path, "says how far its points lie apart; leave the spacing out.")
+        raise DataFileError(
+            source.path, "says how far its points lie apart; leave the spacing out.", code="spacing-not-needed"
+        )
     measured = channel.topography(**given)
     told = f"read from {name_of(source)} ({reader.name()}), channel {channel.name!r}"
     heights = factor * np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), math.nan)
@@ -168,7 +188,7 @@ def _channel(source: Source, reader: Any, wanted: str | int | None) -> Any:
     heights = [one for one in reader.channels if one.is_height_channel] or list(reader.channels)
     names = ", ".join(repr(one.name) for one in heights)
     if not heights:
-        raise DataFileError(source.path, "holds no heights.")
+        raise DataFileError(source.path, "holds no heights.", code="not-heights")
     if wanted is None:
         default = reader.default_channel
         return default if any(default is one for one in heights) else heights[0]
@@ -176,5 +196,7 @@ def _channel(source: Source, reader: Any, wanted: str | int | None) -> Any:
         return heights[wanted]
     found = [one for one in heights if one.name == wanted]
     if not found:
-        raise DataFileError(source.path, f"holds no channel {wanted!r} of heights; it holds {names}.")
+        raise DataFileError(
+            source.path, f"holds no channel {wanted!r} of heights; it holds {names}.", code="no-channel"
+        )
     return found[0]

@@ -19,20 +19,24 @@ def read_scan(path: object, asked: Asked) -> Scan:
     """Read a file of heights, whose format is recognised by its content."""
     check_choice(asked.lines, "lines", "x", "y")
     if not isinstance(asked.unit, str):
-        raise InputError(f"unit = {brief(asked.unit)}: must be text, such as 'um'.")
+        raise InputError(f"unit = {brief(asked.unit)}: must be text, such as 'um'.", code="not-text")
     if asked.unit:
         conversion(asked.unit, "m", "unit")
     if not (asked.channel is None or isinstance(asked.channel, (str, int))):
-        raise InputError(f"channel = {brief(asked.channel)}: must be the name of a channel or its number.")
+        raise InputError(
+            f"channel = {brief(asked.channel)}: must be the name of a channel or its number.", code="no-channel"
+        )
     file = str(file_path(path))
     source = Source(file, read_bytes(file, LARGEST_FILE))
     if not source.data:
-        raise DataFileError(file, "is empty.")
+        raise DataFileError(file, "is empty.", code="empty")
     try:
         plain = source.data.startswith(NUMPY) or is_table(source.text)
         if plain and asked.channel not in (None, 0):
             raise DataFileError(
-                file, f"holds one field of heights, without a name; leave channel = {asked.channel!r} out."
+                file,
+                f"holds one field of heights, without a name; leave channel = {asked.channel!r} out.",
+                code="no-channel",
             )
         if source.data.startswith(NUMPY):
             return read_array(source, asked)
@@ -42,4 +46,4 @@ def read_scan(path: object, asked: Asked) -> Scan:
     except DataFileError:
         raise
     except InputError as error:  # a unit that the file names, and that is none
-        raise DataFileError(file, str(error)) from None
+        raise DataFileError(file, error.note) from None

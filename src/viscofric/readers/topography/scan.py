@@ -60,15 +60,22 @@ def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]
         If a spacing is given, a position is missing, or the positions form no grid.
     """
     if asked.spacing is not None:
-        raise DataFileError(source.path, "holds the positions of its points; leave the spacing out.")
+        raise DataFileError(
+            source.path, "holds the positions of its points; leave the spacing out.", code="spacing-not-needed"
+        )
     bad = np.flatnonzero(~np.all(np.isfinite(points[:, :-1]), axis=1))
     if bad.size:
-        raise DataFileError(source.path, "a position has no number; only heights may be missing.", lines[int(bad[0])])
+        raise DataFileError(
+            source.path,
+            "a position has no number; only heights may be missing.",
+            lines[int(bad[0])],
+            code="not-a-number",
+        )
     if asked.missing is not None:
         points = points.copy()
         points[points[:, -1] == asked.missing, -1] = math.nan
     if len(points) < 2:
-        raise DataFileError(source.path, "holds one point only; a line or a grid of them is wanted.")
+        raise DataFileError(source.path, "holds one point only; a line or a grid of them is wanted.", code="no-points")
     return _line(source, points) if points.shape[1] == 2 else _grid(source, points)
 
 
@@ -77,7 +84,11 @@ def _line(source: Source, points: Array) -> Scan:
     told = f"read from {name_of(source)} (line scan)"
     steps = np.diff(x)
     if not np.all(steps > 0.0):
-        raise DataFileError(source.path, f"two points lie at the same position, x = {x[:-1][steps <= 0.0][0]:.6g} m.")
+        raise DataFileError(
+            source.path,
+            f"two points lie at the same position, x = {x[:-1][steps <= 0.0][0]:.6g} m.",
+            code="same-position",
+        )
     mean = float(np.ptp(x)) / (len(x) - 1)
     if float(np.abs(x - x[0] - mean * np.arange(len(x))).max()) <= _EVEN * mean:
         return Scan(z[:, None], (mean, mean), told)
@@ -85,7 +96,7 @@ def _line(source: Source, points: Array) -> Scan:
     step = float(np.quantile(steps, 0.25))
     count = int(np.ptp(x) / step) + 1
     if count > 100 * len(x):
-        raise DataFileError(source.path, "its positions are too uneven to be put onto a grid.")
+        raise DataFileError(source.path, "its positions are too uneven to be put onto a grid.", code="no-grid")
     even = x[0] + (np.ptp(x) / (count - 1)) * np.arange(count)
     heights = np.interp(even, x, z)
     note = f"{len(x)} uneven positions interpolated linearly onto {count} even ones"
@@ -99,6 +110,7 @@ def _grid(source: Source, points: Array) -> Scan:
             source.path,
             f"its {len(points)} points are no grid: their x and y would make one of {nx} × {ny}; a matrix of heights "
             "needs spacing='5 um', for instance.",
+            code="no-grid",
         )
     heights = np.full((nx, ny), math.nan)
     heights[i, j] = points[:, 2]
@@ -106,7 +118,11 @@ def _grid(source: Source, points: Array) -> Scan:
     np.add.at(taken, (i, j), 1)
     if taken.max() > 1:
         where = np.argwhere(taken > 1)[0]
-        raise DataFileError(source.path, f"two points lie at the same position, column {where[0]}, row {where[1]}.")
+        raise DataFileError(
+            source.path,
+            f"two points lie at the same position, column {where[0]}, row {where[1]}.",
+            code="same-position",
+        )
     told = f"read from {name_of(source)} (x, y, z)"
     if nx == 1:
         return Scan(heights.T, (dy, dy), told, notes=("a line along y, taken as one along x",))
@@ -133,5 +149,7 @@ def _rows(source: Source, positions: Array, axis: str) -> tuple[Integers, float,
     rows = np.rint(found)
     rows -= rows.min()
     if float(np.abs(found - np.rint(found)).max()) > _SAME:
-        raise DataFileError(source.path, f"the {axis} of its points are not evenly spaced; a grid of points is wanted.")
+        raise DataFileError(
+            source.path, f"the {axis} of its points are not evenly spaced; a grid of points is wanted.", code="no-grid"
+        )
     return rows.astype(np.int64), step, int(rows.max()) + 1

@@ -57,7 +57,7 @@ def read_array(source: Source, asked: Asked) -> Scan:
     array = saved_array(source.data, source.path)
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size < 2:
         problem = f"holds an array of shape {array.shape} of {array.dtype}; a row or a matrix of heights is wanted."
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, problem, code="not-heights")
     return _matrix(source, np.asarray(array, dtype=float), asked, {}, "NumPy array")
 
 
@@ -80,7 +80,9 @@ def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str],
     told_unit = remarks.get("value units", "")
     if asked.unit and told_unit:
         raise DataFileError(
-            source.path, f"says that its heights are in {told_unit!r}; leave unit = {asked.unit!r} out."
+            source.path,
+            f"says that its heights are in {told_unit!r}; leave unit = {asked.unit!r} out.",
+            code="unit-not-needed",
         )
     factor, _ = conversion(asked.unit or told_unit or "m", "m", "unit")
     table = np.where(table == asked.missing, math.nan, table) if asked.missing is not None else table
@@ -91,13 +93,15 @@ def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str],
     spacing = asked.spacing
     if "width" in remarks:
         if spacing is not None:
-            raise DataFileError(source.path, "says how wide it is; leave the spacing out.")
+            raise DataFileError(source.path, "says how wide it is; leave the spacing out.", code="spacing-not-needed")
         width = _length(source.path, remarks["width"])
         height = _length(source.path, remarks["height"]) if "height" in remarks else width
         spacing = (width / heights.shape[0], height / heights.shape[1])
     if spacing is None:
         raise DataFileError(
-            source.path, "does not say how far its points lie apart; give spacing='5 um', for instance."
+            source.path,
+            "does not say how far its points lie apart; give spacing='5 um', for instance.",
+            code="no-spacing",
         )
     notes = () if asked.unit or told_unit else ("heights taken to be in m",)
     return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=notes)
@@ -106,7 +110,7 @@ def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str],
 def _length(path: str, text: str) -> float:
     match = re.fullmatch(r"([0-9.eE+-]+)\s*(\S+)", text)
     if match is None or not _NUMBER.fullmatch(match[1]):
-        raise DataFileError(path, f"{text!r} in its remarks is not a length such as '10 um'.")
+        raise DataFileError(path, f"{text!r} in its remarks is not a length such as '10 um'.", code="wrong-unit")
     factor, _ = conversion(match[2], "m", "width")
     return factor * float(match[1])
 
@@ -139,10 +143,14 @@ def _units(source: Source, headings: tuple[str, ...], asked: Asked) -> Array:
         match = _UNIT.search(cell.strip().strip('"'))
         told = next((part for part in match.groups() if part), "") if match else ""
         if told and asked.unit:
-            raise DataFileError(source.path, f"column {cell!r} says its unit; leave unit = {asked.unit!r} out.")
+            raise DataFileError(
+                source.path, f"column {cell!r} says its unit; leave unit = {asked.unit!r} out.", code="unit-not-needed"
+            )
         if not told and not asked.unit:
             raise DataFileError(
-                source.path, f"column {cell!r} has no unit; write it as '{cell} (um)', or give unit='um'."
+                source.path,
+                f"column {cell!r} has no unit; write it as '{cell} (um)', or give unit='um'.",
+                code="no-unit",
             )
         factors.append(conversion(told or asked.unit, "m", f"unit of column {cell!r}")[0])
     return np.array(factors)
@@ -166,14 +174,16 @@ def _parsed(path: str, text: str) -> _Text:
         else:
             found.append((number, cells))
     if not found:
-        raise DataFileError(path, "holds no heights.")
+        raise DataFileError(path, "holds no heights.", code="no-points")
     if all(len(cells) > 1 and not cells[-1] for _, cells in found):  # delimiters that close each row
         found = [(number, cells[:-1]) for number, cells in found]
     wanted = len(headings) or len(found[0][1])
     first = "the header names" if headings else "the first holds"
     for number, cells in found:
         if len(cells) != wanted:
-            raise DataFileError(path, f"the line holds {len(cells)} numbers where {first} {wanted}.", number)
+            raise DataFileError(
+                path, f"the line holds {len(cells)} numbers where {first} {wanted}.", number, code="row-length"
+            )
     rows = np.array([[_number(path, cell, number) for cell in cells] for number, cells in found])
     return _Text(headings, rows, [number for number, _ in found], remarks)
 
@@ -182,10 +192,10 @@ def _number(path: str, cell: str, line: int) -> float:
     if cell.lower() in MISSING:
         return math.nan
     if _NUMBER.fullmatch(cell) is None:
-        raise DataFileError(path, f"{cell[:40]!r} is not a number.", line)
+        raise DataFileError(path, f"{cell[:40]!r} is not a number.", line, code="not-a-number")
     value = float(cell.replace(",", "."))
     if not math.isfinite(value):
-        raise DataFileError(path, f"{cell[:40]!r} is not a finite number.", line)
+        raise DataFileError(path, f"{cell[:40]!r} is not a finite number.", line, code="not-a-number")
     return value
 
 
@@ -226,7 +236,9 @@ def read_heights(path: str | Path, unit: str = "m") -> Array:
         insist_on_short_text(data, path)
         table = _text(decoded(data, path), path)
     if not np.all(np.isfinite(table)):
-        raise DataFileError(path, "some heights are not finite numbers; fill gaps of a measurement first.")
+        raise DataFileError(
+            path, "some heights are not finite numbers; fill gaps of a measurement first.", code="not-a-number"
+        )
     return checked_heights(factor * table, path)
 
 
@@ -234,7 +246,11 @@ def checked_heights(heights: Array, path: object) -> Array:
     """Return heights, m, or raise `DataFileError` where they differ by more than any surface's; NaN is passed over."""
     largest = float(np.nanmax(np.abs(heights), initial=0.0))
     if largest > HIGHEST:
-        raise DataFileError(path, f"holds heights of up to {largest:.3g} m, which no surface has; check their unit.")
+        raise DataFileError(
+            path,
+            f"holds heights of up to {largest:.3g} m, which no surface has; check their unit.",
+            code="implausible-height",
+        )
     return heights
 
 
@@ -242,7 +258,9 @@ def _numpy(data: bytes, path: str | Path) -> Array:
     array = saved_array(data, path)
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size == 0:
         raise DataFileError(
-            path, f"holds an array of shape {array.shape} of {array.dtype}; a table of heights is wanted."
+            path,
+            f"holds an array of shape {array.shape} of {array.dtype}; a table of heights is wanted.",
+            code="not-heights",
         )
     return np.atleast_2d(np.asarray(array, dtype=float).T).T
 
@@ -255,11 +273,13 @@ def _text(text: str, path: str | Path) -> Array:
         try:
             row = [float(word) for word in _BETWEEN.split(words.strip(",;"))]
         except ValueError:
-            raise DataFileError(path, f"{words[:40]!r} is not a line of heights, plain numbers only.", number) from None
+            raise DataFileError(
+                path, f"{words[:40]!r} is not a line of heights, plain numbers only.", number, code="not-a-number"
+            ) from None
         if rows and len(row) != len(rows[0]):
             problem = f"holds {len(row)} heights where the first line holds {len(rows[0])}."
-            raise DataFileError(path, problem, number)
+            raise DataFileError(path, problem, number, code="row-length")
         rows.append(row)
     if not rows:
-        raise DataFileError(path, "holds no heights.")
+        raise DataFileError(path, "holds no heights.", code="no-points")
     return np.array(rows)

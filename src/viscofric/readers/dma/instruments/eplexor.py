@@ -64,14 +64,20 @@ def read(source: Source) -> Readings:
     tables = sheets(source)
     sheet = _Sheet(source.path, tables[DATA])
     if {"E'", "G'"} <= set(sheet.names):
-        raise DataFileError(source.path, f"sheet {DATA!r} names E' and G'; keep the columns of one of them.")
+        raise DataFileError(
+            source.path,
+            f"sheet {DATA!r} names E' and G'; keep the columns of one of them.",
+            code="deformation-contradicts",
+        )
     deformation: Deformation = "tension" if "E'" in sheet.names else "shear"
     letter = "E" if deformation == "tension" else "G"
     needed = {name: sheet.column(name) for name in ("f", "T", f"{letter}'", f"{letter}''")}
     complete = np.all([np.isfinite(column) for column in needed.values()], axis=0)
     notes = _passed_over(sheet, complete)
     if not complete.any():
-        raise DataFileError(source.path, f"sheet {DATA!r} has no row with all of {', '.join(needed)}.")
+        raise DataFileError(
+            source.path, f"sheet {DATA!r} has no row with all of {', '.join(needed)}.", code="no-points"
+        )
     kept = np.flatnonzero(complete)
     frequency = sheet.in_unit("f", "Hz")[kept]
     temperature = sheet.in_unit("T", "K")[kept]
@@ -132,7 +138,7 @@ class _Sheet:
 
     def _index(self, name: str) -> int:
         if name not in self.names:
-            raise DataFileError(self.path, f"sheet {DATA!r} has no column {name!r}.")
+            raise DataFileError(self.path, f"sheet {DATA!r} has no column {name!r}.", code="missing-columns")
         return self.names.index(name)
 
     def unit(self, name: str) -> str:
@@ -153,7 +159,11 @@ class _Sheet:
         except ValueError:
             value = math.nan
         if isinstance(cell, bool) or "_" in text or not math.isfinite(value * LARGEST_FACTOR):
-            raise DataFileError(self.path, f"{place}: {text!r} in column {self.names[index]!r} is not a finite number.")
+            raise DataFileError(
+                self.path,
+                f"{place}: {text!r} in column {self.names[index]!r} is not a finite number.",
+                code="not-a-number",
+            )
         return value
 
     def in_unit(self, name: str, unit: str) -> Array:
@@ -164,11 +174,13 @@ class _Sheet:
             problem = (
                 f"column {name!r} of sheet {DATA!r} has the unit {self.unit(name)!r}; it must be like {example!r}."
             )
-            raise DataFileError(self.path, problem) from None
+            raise DataFileError(self.path, problem, code="wrong-unit") from None
         values = factor * self.column(name) + offset
         if unit in ("K", "Hz") and np.any(values <= 0.0):
             row = int(np.argmax(values <= 0.0))
-            raise DataFileError(self.path, f"{self.places[row]}: column {name!r} must be above {_bound(unit)}.")
+            raise DataFileError(
+                self.path, f"{self.places[row]}: column {name!r} must be above {_bound(unit)}.", code="not-positive"
+            )
         return np.asarray(values)
 
 
@@ -212,6 +224,7 @@ def _isotherms(
             path,
             f"is a master curve at {celsius(float(temperature[0])):z.1f} °C without the {lacking} that would take it "
             f"apart into isotherms; {AS_IT_IS}.",
+            code="master-curve-inseparable",
         )
     usable = time if time is not None and np.all(np.isfinite(time)) else None
     return isotherm_of_each_row(frequency, usable, shifts.log10_shifts, programmed, path, places)

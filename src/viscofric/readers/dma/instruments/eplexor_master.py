@@ -83,7 +83,7 @@ def shift_list(tables: Mapping[str, Rows], path: str) -> ShiftList | None:
             numbers.append((_above_zero(factor * temperature + offset, place, path), shift))
     if len(numbers) < 2:
         problem = f"sheet {SHIFT_LIST!r} must list a temperature and a shift for each of two isotherms or more."
-        raise DataFileError(path, problem)
+        raise DataFileError(path, problem, code="shift-list")
     temperatures, shifts = np.array(numbers).T
     return ShiftList(temperatures, shifts, reference, wlf)
 
@@ -91,7 +91,9 @@ def shift_list(tables: Mapping[str, Rows], path: str) -> ShiftList | None:
 def _pair(row: Sequence[Any], place: int, path: str) -> tuple[float, float]:
     cells = [cell for cell in row[:2] if isinstance(cell, (int, float)) and math.isfinite(cell)]
     if len(cells) != 2 or abs(cells[1]) > LARGEST_SHIFT:
-        raise DataFileError(path, f"sheet {SHIFT_LIST!r}, row {place} must hold a temperature and a shift.")
+        raise DataFileError(
+            path, f"sheet {SHIFT_LIST!r}, row {place} must hold a temperature and a shift.", code="shift-list"
+        )
     return float(cells[0]), float(cells[1])
 
 
@@ -103,7 +105,9 @@ def _unit_beside(label: str) -> tuple[float, float]:
 
 def _above_zero(kelvin: float, place: int, path: str) -> float:
     if not kelvin > 0.0:
-        raise DataFileError(path, f"sheet {SHIFT_LIST!r}, row {place}: the temperature is not above absolute zero.")
+        raise DataFileError(
+            path, f"sheet {SHIFT_LIST!r}, row {place}: the temperature is not above absolute zero.", code="not-positive"
+        )
     return kelvin
 
 
@@ -116,13 +120,13 @@ def insist_on_sense(shifts: ShiftList, reference: float, path: str) -> None:
     if still is not None and abs(still - reference) > SAME_TEMPERATURE:
         told = f"{celsius(still):z.1f} °C, but the rows are of {celsius(reference):z.1f} °C"
         problem = f"the isotherm without shift in sheet {SHIFT_LIST!r} is of {told}; is the list in another unit?"
-        raise DataFileError(path, problem)
+        raise DataFileError(path, problem, code="shift-list-contradicts")
     about = shifts.temperatures - shifts.temperatures.mean()
     if about @ shifts.log10_shifts > 0.0:
         problem = (
             f"the shifts in sheet {SHIFT_LIST!r} rise with temperature; above the reference they must be negative."
         )
-        raise DataFileError(path, problem)
+        raise DataFileError(path, problem, code="shift-list-contradicts")
 
 
 def _kelvin(words: str) -> float | None:
@@ -189,7 +193,9 @@ def isotherm_of_each_row(
         be left without rows or hold a frequency twice.
     """
     if frequency.size * shifts.size > MOST_CANDIDATES:
-        raise DataFileError(path, f"{frequency.size} rows and {shifts.size} shifts are more than any sweep has.")
+        raise DataFileError(
+            path, f"{frequency.size} rows and {shifts.size} shifts are more than any sweep has.", code="too-large"
+        )
     measured = np.log10(frequency)[:, None] - shifts[None, :]
     grid = np.log10(programmed)
     after = np.clip(np.searchsorted(grid, measured), 1, max(grid.size - 1, 1))
@@ -204,6 +210,7 @@ def isotherm_of_each_row(
             path,
             f"{places[first]}: no shift of the list takes {frequency[first]:.6g} Hz back to a frequency of the "
             f"programme, so that the master curve cannot be taken apart; {AS_IT_IS}.",
+            code="master-curve-inseparable",
         )
     chosen: Indices = np.argmax(fits, axis=1)
     for row in np.flatnonzero(count > 1):
@@ -222,7 +229,11 @@ def _insist_on_one_row_each(chosen: Indices, place: Indices, fits: Mask, path: s
     _, which, count = np.unique(np.stack([chosen, place]), axis=1, return_inverse=True, return_counts=True)
     if lost.any() or np.any(doubtful & (count[np.ravel(which)] > 1)):
         problem = f"the shifts in sheet {SHIFT_LIST!r} lie whole steps of the frequency programme apart, so that the "
-        raise DataFileError(path, problem + f"rows of the master curve cannot be told apart; {AS_IT_IS}.")
+        raise DataFileError(
+            path,
+            problem + f"rows of the master curve cannot be told apart; {AS_IT_IS}.",
+            code="master-curve-inseparable",
+        )
 
 
 def _next_in_time(
@@ -239,6 +250,7 @@ def _next_in_time(
         raise DataFileError(
             path,
             f"{places[row]} could belong to several isotherms, and no column 'Time' tells which; {AS_IT_IS}.",
+            code="master-curve-inseparable",
         )
     distance = np.where(near, np.abs(time - time[row]), np.inf)
     return int(chosen[np.argmin(distance)])

@@ -67,7 +67,11 @@ def read(source: Source) -> Readings:
     blocks = _blocks(source)
     letters = {letter for block in blocks for letter in "EG" if f"{letter}'" in block.names}
     if len(letters) != 1:
-        raise DataFileError(source.path, "some blocks hold E', others G'; split the file by deformation.")
+        raise DataFileError(
+            source.path,
+            "some blocks hold E', others G'; split the file by deformation.",
+            code="deformation-contradicts",
+        )
     letter = letters.pop()
     deformation: Deformation = "tension" if letter == "E" else "shear"
     columns = [
@@ -86,7 +90,9 @@ def read(source: Source) -> Readings:
         if np.any(values <= 0.0):
             bound = "absolute zero" if name == "Ts" else "zero"
             row = int(np.argmax(values <= 0.0))
-            raise DataFileError(source.path, f"the number in column {name!r} must be above {bound}.", lines[row])
+            raise DataFileError(
+                source.path, f"the number in column {name!r} must be above {bound}.", lines[row], code="not-positive"
+            )
     notes = []
     if "x" in blocks[0].names:
         notes.append(
@@ -123,14 +129,18 @@ def _blocks(source: Source) -> list[_Block]:
             units = _UNIT.findall(next(lines, (0, ""))[1])
             names = _primes(line).split()
             if len(units) != len(names):
-                raise DataFileError(source.path, "each name must have a unit in brackets below it.", number + 1)
+                raise DataFileError(
+                    source.path, "each name must have a unit in brackets below it.", number + 1, code="wrong-unit"
+                )
             blocks.append(_Block(names, [word.end() for word in _WORD.finditer(line)], units))
             previous = -1
             step += 1
         elif blocks and re.fullmatch(r"\d+", line.split()[0]):
             cells = _cells(line, blocks[-1], source.path, number)
             if not re.fullmatch(r"\d{1,9}", cells[0]):
-                raise DataFileError(source.path, f"{cells[0]!r} in column 'Index' is not a whole number.", number)
+                raise DataFileError(
+                    source.path, f"{cells[0]!r} in column 'Index' is not a whole number.", number, code="not-a-number"
+                )
             index = int(cells[0])
             step, previous = step + (index <= previous), index
             blocks[-1].rows.append(cells)
@@ -138,7 +148,7 @@ def _blocks(source: Source) -> list[_Block]:
             blocks[-1].steps.append(step)
     blocks = [block for block in blocks if block.rows]
     if not blocks:
-        raise DataFileError(source.path, "there is a header, but no row of numbers under it.")
+        raise DataFileError(source.path, "there is a header, but no row of numbers under it.", code="no-points")
     numbered = [one for block in blocks for one in zip(block.rows, block.lines, strict=True)]
     decimal_comma(source.path, ((cell, line) for row, line in numbered for cell in row))
     return blocks
@@ -151,13 +161,15 @@ def _cells(line: str, block: _Block, path: str, number: int) -> list[str]:
         cells = [line[start:end].strip() for start, end in zip([0, *block.ends], block.ends, strict=False)]
     if len(cells) != len(block.names):
         problem = f"the row has {len(cells)} cells where the header names {len(block.names)} columns."
-        raise DataFileError(path, problem, number)
+        raise DataFileError(path, problem, number, code="row-length")
     return cells
 
 
 def _column(path: str, block: _Block, name: str, unit: str) -> Array:
     if name not in block.names:
-        raise DataFileError(path, f"there is no column {name!r}, only {', '.join(block.names)}.")
+        raise DataFileError(
+            path, f"there is no column {name!r}, only {', '.join(block.names)}.", code="missing-columns"
+        )
     place = block.names.index(name)
     values = []
     for row, line in zip(block.rows, block.lines, strict=True):
@@ -166,7 +178,9 @@ def _column(path: str, block: _Block, name: str, unit: str) -> Array:
         except ValueError:
             value = math.nan
         if not math.isfinite(value * LARGEST_FACTOR) or "_" in row[place]:
-            raise DataFileError(path, f"{row[place]!r} in column {name!r} is not a finite number.", line)
+            raise DataFileError(
+                path, f"{row[place]!r} in column {name!r} is not a finite number.", line, code="not-a-number"
+            )
         values.append(value)
     text = block.units[place].strip("[] ")
     if not unit:
@@ -175,5 +189,7 @@ def _column(path: str, block: _Block, name: str, unit: str) -> Array:
         factor, offset = unit_conversion(text, unit, name)
     except InputError:
         example = {"K": "°C", "Pa": "MPa"}.get(unit, unit)
-        raise DataFileError(path, f"column {name!r} has the unit {text!r}; it must be like {example!r}.") from None
+        raise DataFileError(
+            path, f"column {name!r} has the unit {text!r}; it must be like {example!r}.", code="wrong-unit"
+        ) from None
     return np.asarray(factor * np.array(values) + offset)

@@ -74,6 +74,7 @@ def read(source: Source) -> Readings:
             source.path,
             f"no interval of {len(found)} is a frequency sweep, with frequency, storage and loss modulus; the first "
             f"has the columns {headings}.",
+            code="no-frequency-sweep",
         )
     others = len(found) - len(sweeps)
     if others:
@@ -132,10 +133,12 @@ def _table(source: Source, interval: Interval, rows: Rows, frequency: Array, dec
         temperature = np.full(frequency.shape, source.temperature)
     else:
         problem = "the interval has no column of temperatures; export it, or give temperature= of all points."
-        raise DataFileError(path, problem, interval.line)
+        raise DataFileError(path, problem, interval.line, code="no-temperature")
     for values, what, bound in ((frequency, "frequency", "zero"), (temperature, "temperature", "absolute zero")):
         if np.any(values <= 0.0):
-            raise DataFileError(path, f"the {what} must be above {bound}.", rows[int(np.argmax(values <= 0.0))][0])
+            raise DataFileError(
+                path, f"the {what} must be above {bound}.", rows[int(np.argmax(values <= 0.0))][0], code="not-positive"
+            )
     amplitude = np.full(frequency.shape, np.nan)
     place = interval.places.get("strain amplitude")
     if place is not None and interval.units[place] in STRAIN_FACTORS:
@@ -184,7 +187,9 @@ def _to_angular(path: str, interval: Interval) -> float:
     factor = to_rad_per_second(unit, angular=angular)
     if factor is not None:
         return factor
-    raise DataFileError(path, f"column {heading!r} has the unit {unit!r}; it must be 'rad/s' or 'Hz'.", interval.line)
+    raise DataFileError(
+        path, f"column {heading!r} has the unit {unit!r}; it must be 'rad/s' or 'Hz'.", interval.line, code="wrong-unit"
+    )
 
 
 def _conversion(path: str, interval: Interval, what: str, unit: str) -> tuple[float, float]:
@@ -195,4 +200,4 @@ def _conversion(path: str, interval: Interval, what: str, unit: str) -> tuple[fl
     except InputError:
         example = {"K": "°C"}.get(unit, unit)
         problem = f"column {heading!r} has the unit {text!r}; it must be one like {example!r}."
-        raise DataFileError(path, problem, interval.line) from None
+        raise DataFileError(path, problem, interval.line, code="wrong-unit") from None

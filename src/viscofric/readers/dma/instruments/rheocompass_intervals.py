@@ -102,19 +102,24 @@ def intervals(source: Source) -> list[Interval]:
     text = source.text or ""
     first = _INTERVAL.search(text)
     if first is None:
-        raise DataFileError(source.path, "holds no interval of numbered points.")
+        raise DataFileError(source.path, "holds no interval of numbered points.", code="no-points")
     lines = text.splitlines()
     cells = [_cells(line, first["mark"]) for line in lines]
     found = []
     for start in (place for place, row in enumerate(cells) if _begins(row)):
         named = next((place for place in range(start + 1, min(start + 3, len(cells))) if cells[place][0]), None)
         if named is None or not cells[named][0].endswith(":") or _begins(cells[named]):
-            raise DataFileError(source.path, "the names of the columns must follow the number of points.", start + 1)
+            raise DataFileError(
+                source.path,
+                "the names of the columns must follow the number of points.",
+                start + 1,
+                code="missing-columns",
+            )
         found.append(_interval(source.path, cells, start, named))
     broken = found[-1].missing > 0 or len(cells[-1]) < len(found[-1].columns)
     if broken and not text.endswith(("\n", "\r")):
         problem = f"the last interval announces {found[-1].announced} points, but the file breaks off; export it anew."
-        raise DataFileError(source.path, problem, len(lines))
+        raise DataFileError(source.path, problem, len(lines), code="cut-short")
     return found
 
 
@@ -138,7 +143,9 @@ def _interval(path: str, cells: list[list[str]], start: int, named: int) -> Inte
         None,
     )
     if units_at is None:
-        raise DataFileError(path, "a row of units in brackets must stand below the names of the columns.", named + 1)
+        raise DataFileError(
+            path, "a row of units in brackets must stand below the names of the columns.", named + 1, code="no-unit"
+        )
     rows, invalid = [], []
     for place in range(units_at + 1, len(cells)):
         row = cells[place]
@@ -193,6 +200,7 @@ class Decimals:
             f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals cannot be "
             "told from thousands; export all decimals in one way.",
             points[0][1],
+            code="mixed-decimals",
         )
 
     def number(self, path: str, cell: str, heading: str, line: int) -> float:
@@ -204,5 +212,7 @@ class Decimals:
         except ValueError:
             value = math.nan
         if not math.isfinite(value * LARGEST_FACTOR) or "_" in plain:
-            raise DataFileError(path, f"{cell!r} in column {heading!r} is not a finite number.", line)
+            raise DataFileError(
+                path, f"{cell!r} in column {heading!r} is not a finite number.", line, code="not-a-number"
+            )
         return value

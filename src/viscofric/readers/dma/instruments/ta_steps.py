@@ -136,7 +136,7 @@ def _insist_on_columns(path: str, table: Table) -> None:
     for line, cells in table.rows:
         if len(cells) > columns and any(cell.strip() for cell in cells[columns:]):
             problem = f"the row has {len(cells)} cells where step {table.name!r} names {columns} columns."
-            raise DataFileError(path, problem, line)
+            raise DataFileError(path, problem, line, code="row-length")
 
 
 def _decimal_comma(path: str, found: Sequence[tuple[Table, dict[str, int]]]) -> bool:
@@ -151,7 +151,7 @@ def _decimal_comma(path: str, found: Sequence[tuple[Table, dict[str, int]]]) -> 
     point = next((line for cell, line in numbers if "." in cell), None)
     if comma and point:
         problem = f"decimals have a comma here and a point in line {point}; write all of them in one way."
-        raise DataFileError(path, problem, comma)
+        raise DataFileError(path, problem, comma, code="mixed-decimals")
     return decimal_comma(path, numbers)
 
 

@@ -50,7 +50,9 @@ def readings_of(
     """
     sweeps = [(number, step) for number, step in enumerate(steps, start=1) if step.is_frequency_sweep]
     if not sweeps:
-        raise DataFileError(source.path, f"holds no frequency sweep of an oscillation; {_told(steps)}.")
+        raise DataFileError(
+            source.path, f"holds no frequency sweep of an oscillation; {_told(steps)}.", code="no-frequency-sweep"
+        )
     notes = [*notes, *_passed_over(steps)]
     with np.errstate(all="ignore"):  # what overflows is no modulus and is left out
         parts = [_points(source, step, notes) for _, step in sweeps]
@@ -62,7 +64,9 @@ def readings_of(
     places = tuple(place for part in parts for place in part.places)
     if not places:
         raise DataFileError(
-            source.path, "no point of its frequency sweeps has all of temperature, frequency and moduli."
+            source.path,
+            "no point of its frequency sweeps has all of temperature, frequency and moduli.",
+            code="no-points",
         )
     temperature, frequency, storage, loss, strain = (
         np.concatenate(columns) for columns in zip(*(part.columns for part in parts), strict=True)
@@ -150,7 +154,7 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
     if signal is not None:
         if source.temperature is not None:
             problem = f"column {signal.heading!r} holds the temperatures; leave out temperature for this file."
-            raise DataFileError(source.path, problem)
+            raise DataFileError(source.path, problem, code="temperature-not-needed")
         factor, offset = _conversion(source, step, signal, "K", "°C")
         return factor * signal.values + offset
     if source.temperature is None:
@@ -170,7 +174,7 @@ def _modulus(source: Source, step: Step, role: str, notes: list[str]) -> Array:
     signal = step.signals[role]
     if source.modulus_unit and signal.unit:
         problem = f"column {signal.heading!r} has the unit {signal.unit!r}; leave out modulus_unit."
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, problem, code="unit-not-needed")
     if source.modulus_unit:
         notes.append(
             Note(
@@ -197,7 +201,7 @@ def _factor_and_offset(text: str, unit: str) -> tuple[float, float]:
 def _wrong_unit(source: Source, step: Step, signal: Signal, right: str) -> DataFileError:
     shown = f"the unit {signal.unit!r}" if signal.unit else "no unit"
     where = f"column {signal.heading!r} of step {step.name!r}"
-    return DataFileError(source.path, f"{where} has {shown}; it must be {right}.")
+    return DataFileError(source.path, f"{where} has {shown}; it must be {right}.", code="wrong-unit")
 
 
 def _angular_frequency(source: Source, step: Step) -> Array:
@@ -214,7 +218,11 @@ def _angular_frequency(source: Source, step: Step) -> Array:
     apart = np.abs(found[-1] - found[0]) > PRINTED_FREQUENCY * np.abs(found[0])
     if np.any(apart):
         place = step.places[int(np.argmax(apart))]
-        raise DataFileError(source.path, f"angular frequency and frequency contradict each other in {place} (ω = 2πf).")
+        raise DataFileError(
+            source.path,
+            f"angular frequency and frequency contradict each other in {place} (ω = 2πf).",
+            code="columns-contradict",
+        )
     return found[0]
 
 

@@ -67,13 +67,15 @@ def read(source: Source) -> Readings:
         document = parse_json(source.text or "")
     except json.JSONDecodeError as error:
         problem = f"is not whole JSON ({error.msg}); the file may have been cut short."
-        raise DataFileError(source.path, problem, error.lineno) from None
+        raise DataFileError(source.path, problem, error.lineno, code="damaged") from None
     except ValueError as error:  # nested too deeply, or with numbers of thousands of digits
-        raise DataFileError(source.path, f"is no JSON of an instrument ({error}).") from None
+        raise DataFileError(source.path, f"is no JSON of an instrument ({error}).", code="damaged") from None
     held = _part(document, "Results")
     name = next((one for one in _SECTIONS if _part(_part(held, one), "ColumnHeaders")), None)
     if name is None:
-        raise DataFileError(source.path, f"has no results under any of {', '.join(_SECTIONS)}; export them with them.")
+        raise DataFileError(
+            source.path, f"has no results under any of {', '.join(_SECTIONS)}; export them with them.", code="no-points"
+        )
     section = held[name]
     results = _as_stated(section)
     if len(results.step_ids) <= _MOST_ROWS:

@@ -86,7 +86,9 @@ def _rows(path: str, text: str, delimiter: str) -> Iterator[Row]:
             if any(cell.strip() for cell in cells):
                 yield reader.line_num, cells
     except csv.Error as error:
-        raise DataFileError(path, f"the row cannot be split into cells ({error}).", reader.line_num) from None
+        raise DataFileError(
+            path, f"the row cannot be split into cells ({error}).", reader.line_num, code="row-length"
+        ) from None
 
 
 def _drop_torn_cell(draft: list[Row]) -> None:

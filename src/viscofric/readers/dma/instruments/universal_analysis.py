@@ -74,7 +74,9 @@ def read(source: Source) -> Readings:
     if not step.has_moduli:
         instrument = next((value for tag, value in header if tag.lower() == "instrument"), "the instrument")
         raise DataFileError(
-            source.path, f"holds no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}."
+            source.path,
+            f"holds no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}.",
+            code="missing-columns",
         )
     tools = [(tag, value) for tag, value in header if _CLAMP_TAGS.fullmatch(tag)]
     # The file does not tell the steps of its programme apart.
@@ -109,7 +111,7 @@ def _split(path: str, text: str) -> tuple[list[tuple[str, str]], list[tuple[int,
     lines = re.split(r"\r\n|\r|\n", text)
     start = next((place for place, line in enumerate(lines) if line.strip().lower() == "startofdata"), None)
     if start is None:
-        raise DataFileError(path, "has no line 'StartOfData'; the file ends within its header.")
+        raise DataFileError(path, "has no line 'StartOfData'; the file ends within its header.", code="cut-short")
     body = [(number, line) for number, line in enumerate(lines[start + 1 :], start + 2) if line.strip()]
     rows = [(number, line.rstrip(" ").split("\t") if "\t" in line else line.split()) for number, line in body]
     return [_tag(line) for line in lines[:start]], rows
@@ -126,14 +128,24 @@ def _signals(path: str, header: Sequence[tuple[str, str]]) -> tuple[list[str], l
     stated = next((value for tag, value in header if tag.lower() == "nsig"), "")
     if not re.fullmatch(r"[0-9]{1,3}", stated) or int(stated) == 0:
         shown = f"'Nsig {stated[:20]}'" if stated else "no line 'Nsig'"
-        raise DataFileError(path, f"the header has {shown}; it must give the number of signals, such as 'Nsig 17'.")
+        raise DataFileError(
+            path,
+            f"the header has {shown}; it must give the number of signals, such as 'Nsig 17'.",
+            code="damaged-header",
+        )
     found = {tag.lower(): value for tag, value in header if re.fullmatch(r"sig\d+", tag, re.IGNORECASE)}
     missing = [f"Sig{k}" for k in range(1, int(stated) + 1) if f"sig{k}" not in found]
     if missing:
-        raise DataFileError(path, f"the header states {int(stated)} signals but has no line {missing[0]!r}.")
+        raise DataFileError(
+            path, f"the header states {int(stated)} signals but has no line {missing[0]!r}.", code="damaged-header"
+        )
     parts = [_name_and_unit(found[f"sig{k}"]) for k in range(1, int(stated) + 1)]
     if not re.match("time", parts[0][0], re.IGNORECASE):
-        raise DataFileError(path, f"the first signal is {parts[0][0]!r}; it must be the time, whose sign marks events.")
+        raise DataFileError(
+            path,
+            f"the first signal is {parts[0][0]!r}; it must be the time, whose sign marks events.",
+            code="damaged-header",
+        )
     return [name for name, _ in parts], [unit for _, unit in parts]
 
 
@@ -162,7 +174,7 @@ def _step_of_text(
     for line, cells in measured:
         if len(cells) < len(names):
             problem = f"the row has {len(cells)} cells where the header names {len(names)} signals."
-            raise DataFileError(path, problem, line)
+            raise DataFileError(path, problem, line, code="row-length")
     step = steps_of(path, [Table(title, names, units, measured)], _ALSO)[0]
     return replace(step, named_by_instrument=False)
 

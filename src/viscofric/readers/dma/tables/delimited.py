@@ -98,7 +98,12 @@ def table_under(path: str, rows: Sequence[NumberedRow], header: int, *, comma_is
 def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
     for number, cells in above:
         if sum(is_number(cell) for cell in cells) > 2:
-            raise DataFileError(path, "a row of numbers stands above the header; put the header first.", number)
+            raise DataFileError(
+                path,
+                "a row of numbers stands above the header; put the header first.",
+                number,
+                code="numbers-above-header",
+            )
 
 
 def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
@@ -144,7 +149,9 @@ def delimited_table(source: Source) -> Table:
     lines = text_lines(source.text or "")
     delimiter = _delimiter(lines)
     if delimiter is None:
-        raise DataFileError(source.path, "no line names columns separated by commas, semicolons or tabs.")
+        raise DataFileError(
+            source.path, "no line names columns separated by commas, semicolons or tabs.", code="unknown-format"
+        )
     rows: list[NumberedRow]
     if delimiter == _BLANKS:
         rows = [(number, _split_at_blanks(line)) for number, line in lines]

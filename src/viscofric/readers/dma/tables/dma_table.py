@@ -77,6 +77,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
             table.path,
             f"no column for {' or '.join(missing)}; a DMA table has e.g. 'temperature (degC)', 'frequency (Hz)', "
             f"'storage modulus (MPa)', 'loss modulus (MPa)', this one has {table.headings()}.",
+            code="missing-columns",
         )
     return places
 
@@ -124,7 +125,7 @@ def _in_rad_per_second(table: Table, place: int) -> Array:
         return factor * table.numbers_or_missing(place)
     right = "'rad/s'" if named_angular else "'Hz' or 'rad/s'"
     shown = f"the unit {column.unit!r}" if column.unit else "no unit"
-    raise DataFileError(table.path, f"column {column.heading!r} has {shown}; it must be {right}.")
+    raise DataFileError(table.path, f"column {column.heading!r} has {shown}; it must be {right}.", code="wrong-unit")
 
 
 def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array) -> None:
@@ -139,7 +140,7 @@ def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array
             f"{table.rows[row][place].strip()} in column {table.columns[place].heading!r}" for place in (other, used)
         ]
         problem = f"{' and '.join(told)} contradict each other (ω = 2πf); correct or leave out one of them."
-        raise DataFileError(table.path, problem, int(table.lines[row]))
+        raise DataFileError(table.path, problem, int(table.lines[row]), code="columns-contradict")
 
 
 def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str]) -> tuple[Array, Array]:
@@ -201,10 +202,12 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
 
 
 def deformation(table: Table, places: dict[str, int]) -> Said:
-    """Return tension or shear with the words that say so; `DataFileError` if one modulus is called tensile, another shear."""
+    """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`."""
     said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
     if {"tension", "shear"} <= {kind for kind, _ in said}:
-        raise DataFileError(table.path, "one modulus is headed as tensile (E), the other as shear (G).")
+        raise DataFileError(
+            table.path, "one modulus is headed as tensile (E), the other as shear (G).", code="deformation-contradicts"
+        )
     for kind, place in said:
         if kind is not None:
             return kind, f"the heading {table.columns[place].heading!r}"
@@ -271,14 +274,14 @@ def _temperature(
         if source.temperature is not None:
             heading = table.columns[places["temperature"]].heading
             problem = f"column {heading!r} holds the temperatures; leave out temperature for this file."
-            raise DataFileError(table.path, problem)
+            raise DataFileError(table.path, problem, code="temperature-not-needed")
         factor, offset = table.conversion(table.columns[places["temperature"]], "K")
         kelvin = factor * table.numbers_or_missing(places["temperature"]) + offset
         cold = np.flatnonzero(kelvin <= 0.0)
         if cold.size:
             row, place = int(cold[0]), places["temperature"]
             problem = f"{_cell(table, row, place)} in column {table.columns[place].heading!r} must be above "
-            raise DataFileError(table.path, problem + "absolute zero.", int(table.lines[row]))
+            raise DataFileError(table.path, problem + "absolute zero.", int(table.lines[row]), code="not-positive")
         return kelvin
     if source.temperature is not None:
         notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
@@ -326,7 +329,7 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
     table.numbers(place)  # tells the first cell that is empty or no number
     row = int(bad[0])
     problem = f"{_cell(table, row, place)} in column {table.columns[place].heading!r} must be above zero."
-    raise DataFileError(table.path, problem, int(table.lines[row]))
+    raise DataFileError(table.path, problem, int(table.lines[row]), code="not-positive")
 
 
 def _note_numbered(table: Table, notes: list[str]) -> None:

@@ -63,9 +63,15 @@ def read(source: Source) -> Readings:
         problem = f"is a master curve of RepTate at {reference} °C"
         raise DataFileError(source.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
     if source.temperature is not None:
-        raise DataFileError(source.path, "tells its temperature itself; leave out temperature for this file.")
+        raise DataFileError(
+            source.path,
+            "tells its temperature itself; leave out temperature for this file.",
+            code="temperature-not-needed",
+        )
     if not np.all(np.isfinite(found.temperature)):
-        raise DataFileError(source.path, "tells no temperature, neither as T= in its first line nor in a column.")
+        raise DataFileError(
+            source.path, "tells no temperature, neither as T= in its first line nor in a column.", code="no-temperature"
+        )
     return Readings(
         source=source.path,
         format=NAME,
@@ -88,13 +94,13 @@ def columns(source: Source) -> RepTateColumns:
     names, units = _header(body)
     rows = body[2:] if names and units else body[1:] if names else body
     if not rows:
-        raise DataFileError(source.path, "there is no row of numbers under the line of parameters.")
+        raise DataFileError(source.path, "there is no row of numbers under the line of parameters.", code="no-points")
     places = _places(source, names)
     width = max(places[what] for what in ("frequency", "storage modulus", "loss modulus")) + 1
     cells = [(number, line.split()) for number, line in rows]
     short = next((number for number, row in cells if len(row) < width), None)
     if short is not None:
-        raise DataFileError(source.path, f"the row has fewer than {width} columns.", short)
+        raise DataFileError(source.path, f"the row has fewer than {width} columns.", short, code="row-length")
 
     def column(what: str) -> Array | None:
         place = places.get(what)
@@ -153,7 +159,11 @@ def _places(source: Source, names: list[str]) -> dict[str, int]:
             places.setdefault("frequency" if what == "angular frequency" else what, place)
     missing = [what for what in ("frequency", "storage modulus", "loss modulus") if what not in places]
     if missing:
-        raise DataFileError(source.path, f"no column for {' or '.join(missing)}; this file has {', '.join(names)}.")
+        raise DataFileError(
+            source.path,
+            f"no column for {' or '.join(missing)}; this file has {', '.join(names)}.",
+            code="missing-columns",
+        )
     return places
 
 
@@ -162,7 +172,9 @@ def _conversion(source: Source, what: str, unit: str) -> tuple[float, float]:
     if what == "frequency":
         factor = to_rad_per_second(unit or "rad/s", angular=False)
         if factor is None:
-            raise DataFileError(source.path, f"the unit {unit!r} of the frequency must be 'rad/s' or 'Hz'.")
+            raise DataFileError(
+                source.path, f"the unit {unit!r} of the frequency must be 'rad/s' or 'Hz'.", code="wrong-unit"
+            )
         return factor, 0.0
     if what == "strain amplitude":
         return (1.0 if unit in ("-", "1") else 0.01), 0.0
@@ -171,12 +183,14 @@ def _conversion(source: Source, what: str, unit: str) -> tuple[float, float]:
     try:
         return unit_conversion(unit or "Pa", "Pa")
     except ValueError:
-        raise DataFileError(source.path, f"the unit {unit!r} of the {what} must be one like 'Pa'.") from None
+        raise DataFileError(
+            source.path, f"the unit {unit!r} of the {what} must be one like 'Pa'.", code="wrong-unit"
+        ) from None
 
 
 def _number(source: Source, cell: str, line: int) -> float:
     if not _is_number(cell) or not np.isfinite(float(cell)):
-        raise DataFileError(source.path, f"{cell[:40]!r} is not a finite number.", line)
+        raise DataFileError(source.path, f"{cell[:40]!r} is not a finite number.", line, code="not-a-number")
     return float(cell)
 
 

@@ -86,7 +86,7 @@ def _workbook(source: Source) -> _Workbook:
             _parsed[source] = error
     found = _parsed[source]
     if isinstance(found, DataFileError):
-        raise DataFileError(found.path, found.problem)
+        raise DataFileError(found.path, found.problem, code=found.code)
     return found
 
 
@@ -102,17 +102,19 @@ def _parse(source: Source) -> _Workbook:
         answer = json.loads(done.stdout)
     except subprocess.TimeoutExpired:
         problem = f"takes longer than {LONGEST_PARSE:.0f} s to parse; save the sheet of measurements alone, or as CSV."
-        raise DataFileError(source.path, problem) from None
+        raise DataFileError(source.path, problem, code="workbook-refused") from None
     except ValueError:  # the parser was ended, for want of memory as a rule
-        raise DataFileError(source.path, "is a workbook that cannot be parsed; save it anew, or as CSV.") from None
+        raise DataFileError(
+            source.path, "is a workbook that cannot be parsed; save it anew, or as CSV.", code="workbook-refused"
+        ) from None
     except OSError as error:
         problem = f"was not read: workbooks are parsed by {sys.executable!r}, which does not start ({error.strerror}); "
-        raise DataFileError(source.path, problem + "save the sheet as CSV.") from None
+        raise DataFileError(source.path, problem + "save the sheet as CSV.", code="no-parser") from None
     if "missing" in answer:
         problem = f"was not read: workbooks need {answer['missing']}, which this Python does not find; install it, or "
-        raise DataFileError(source.path, problem + "save the sheet as CSV.")
+        raise DataFileError(source.path, problem + "save the sheet as CSV.", code="package-missing")
     if "problem" in answer:
-        raise DataFileError(source.path, answer["problem"])
+        raise DataFileError(source.path, answer["problem"], code="workbook-refused")
     return _Workbook(dict(answer["sheets"]), tuple(answer["hidden"]))
 
 
@@ -155,6 +157,7 @@ def tables(source: Source) -> dict[str, Table]:
             source.path,
             "no sheet has a row that names temperature, frequency, storage and loss modulus, with their units there or "
             f"in the row below; its sheets are {shown}.",
+            code="missing-columns",
         )
     # a sheet of, say, shift factors names two quantities, but no modulus
     whole = {name: one for name, one in found.items() if _MODULI & quantities(one[0][one[1]][1])}
@@ -198,7 +201,7 @@ def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -
             told = f"{name!r} ({celsius(low):z.1f} to {celsius(high):z.1f} °C) and {next_name!r} "
             told += f"({celsius(next_low):z.1f} to {celsius(next_high):z.1f} °C)"
             problem = f"the sheets {told} each hold a DMA table and overlap; keep the one that is meant."
-            raise DataFileError(source.path, problem)
+            raise DataFileError(source.path, problem, code="several-tables")
 
 
 def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
@@ -208,7 +211,11 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
         return parts[0]
     saying = next((part for part in parts if part.deformation is not None), parts[0])
     if any(part.deformation not in (None, saying.deformation) for part in parts):
-        raise DataFileError(source.path, f"the sheets {', '.join(map(repr, names))} differ in E and G; part them.")
+        raise DataFileError(
+            source.path,
+            f"the sheets {', '.join(map(repr, names))} differ in E and G; part them.",
+            code="deformation-contradicts",
+        )
 
     def all_of(column: str) -> Array:
         return np.concatenate([getattr(part, column) for part in parts])
