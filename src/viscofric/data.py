@@ -36,7 +36,7 @@ def whole_numbers(values: object, name: str) -> Integers:
     """Return a read-only copy as whole numbers."""
     column = read_only(values, name)
     if not np.all(np.abs(column) < _LARGEST_WHOLE) or np.any(column != np.rint(column)):
-        raise InputError(f"{name} must hold whole numbers.")
+        raise InputError(f"{name} must hold whole numbers.", code="not-a-whole-number")
     numbers = column.astype(np.int64)
     numbers.flags.writeable = False
     return numbers
@@ -53,9 +53,11 @@ def picked(rows: object, count: int, noun: str) -> Integers:
     if places.dtype == bool and places.shape == (count,):
         return np.flatnonzero(places)
     if places.ndim != 1 or not np.issubdtype(places.dtype, np.integer):
-        raise InputError(f"select needs true or false for each of the {count} {noun}, or their places.")
+        raise InputError(
+            f"select needs true or false for each of the {count} {noun}, or their places.", code="wrong-selection"
+        )
     if places.min() < -count or places.max() >= count:
-        raise InputError(f"select names one beyond the {count} {noun} that there are.")
+        raise InputError(f"select names one beyond the {count} {noun} that there are.", code="wrong-selection")
     return places.astype(np.int64)
 
 

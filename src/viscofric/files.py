@@ -43,9 +43,11 @@ _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 def file_path(path: object) -> Path:
     """Return the name of a file as a path; raise `InputError` where something else is given."""
     if not isinstance(path, (str, os.PathLike)):
-        raise InputError(f"{brief(path)} is not the name of a file, which is text or a pathlib.Path.")
+        raise InputError(
+            f"{brief(path)} is not the name of a file, which is text or a pathlib.Path.", code="not-a-name"
+        )
     if str(path) == "" or "\0" in str(path):
-        raise DataFileError(brief(path), "is not the name of a file.")
+        raise DataFileError(brief(path), "is not the name of a file.", code="not-a-name")
     return Path(path)
 
 
@@ -69,19 +71,19 @@ def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
     try:
         status = file.stat()
         if stat.S_ISDIR(status.st_mode):
-            raise DataFileError(shown, "is a folder, not a data file.")
+            raise DataFileError(shown, "is a folder, not a data file.", code="folder")
         if not stat.S_ISREG(status.st_mode):  # a device or a pipe may never end
-            raise DataFileError(shown, "is a device or a pipe, not a data file.")
+            raise DataFileError(shown, "is a device or a pipe, not a data file.", code="not-a-file")
         if status.st_size > (most or LARGEST_TABLE):
             size, right = math.ceil(status.st_size / 1e6), (most or LARGEST_TABLE) / 1e6
             what = "such a file has" if most else "a table of measurements may have"
             hint = "" if most else "; keep every tenth row, say, or divide it into several files"
-            raise DataFileError(shown, f"holds {size} MB; {what} at most {right:.0f} MB{hint}.")
+            raise DataFileError(shown, f"holds {size} MB; {what} at most {right:.0f} MB{hint}.", code="too-large")
         return file.read_bytes()
     except FileNotFoundError:
-        raise DataFileError(shown, "no such file.") from None
+        raise DataFileError(shown, "no such file.", code="no-such-file") from None
     except OSError as error:
-        raise DataFileError(shown, f"cannot be opened ({error.strerror or error}).") from None
+        raise DataFileError(shown, f"cannot be opened ({error.strerror or error}).", code="not-opened") from None
 
 
 def insist_on_short_text(data: bytes, path: str | PathLike[str]) -> None:
@@ -95,7 +97,7 @@ def insist_on_short_text(data: bytes, path: str | PathLike[str]) -> None:
     if len(data) > LARGEST_TABLE:
         size, right, binary = math.ceil(len(data) / 1e6), LARGEST_TABLE / 1e6, LARGEST_FILE / 1e6
         problem = f"holds {size} MB of text, at most {right:.0f} MB of which are read; save the heights with "
-        raise DataFileError(path, f"{problem}numpy.save, as a file (.npy) of up to {binary:.0f} MB.")
+        raise DataFileError(path, f"{problem}numpy.save, as a file (.npy) of up to {binary:.0f} MB.", code="too-large")
 
 
 def decoded(data: bytes, path: str | PathLike[str]) -> str:
@@ -120,7 +122,7 @@ def decoded(data: bytes, path: str | PathLike[str]) -> str:
         text = data.decode("cp1252", errors="replace")
     # Text has no control characters but tabs and ends of lines; a workbook or an image is full of them.
     if _CONTROL.search(text):
-        raise DataFileError(path, "is a binary file; a text table is wanted (export it as CSV).")
+        raise DataFileError(path, "is a binary file; a text table is needed (export it as CSV).", code="binary")
     return text
 
 
@@ -178,7 +180,7 @@ def saved_array(data: bytes, path: str | PathLike[str]) -> NDArray[np.generic]:
         file.seek(0)
         return np.asarray(np.load(file, allow_pickle=False))
     except (ValueError, OSError, EOFError, MemoryError, RecursionError, SyntaxError) as error:
-        raise DataFileError(path, f"is not an array that NumPy can read ({error}).") from None
+        raise DataFileError(path, f"is not an array that NumPy can read ({error}).", code="damaged") from None
 
 
 def insist_on_size(data: bytes, path: str | PathLike[str]) -> None:
@@ -200,10 +202,12 @@ def insist_on_size(data: bytes, path: str | PathLike[str]) -> None:
             return
     except Exception as error:  # noqa: BLE001 - torn archives and HDF5 raise whatever they meet
         reason = (str(error).splitlines() or [type(error).__name__])[0][:120].rstrip(".")
-        raise DataFileError(path, f"is damaged ({reason}).") from None
+        raise DataFileError(path, f"is damaged ({reason}).", code="damaged") from None
     size, packed = sizes
     if size > LARGEST_UNPACKED or (size > _SMALL and size > LARGEST_RATIO * max(1, packed)):
-        raise DataFileError(path, f"would unpack to {size / 1e6:.0f} MB, far more than its size lets expect.")
+        raise DataFileError(
+            path, f"would unpack to {size / 1e6:.0f} MB, far more than its size suggests.", code="too-large"
+        )
 
 
 def insist_on_true_size(file: Path) -> None:

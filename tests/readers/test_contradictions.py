@@ -8,10 +8,11 @@ import time
 import numpy as np
 import pytest
 
+from readers.refusal import noted, refused
 from readers.samples import mettler, rheocompass, trios, universal_analysis
 from readers.samples.eplexor import raw_tables, save
 from readers.samples.workbook import write as write_workbook
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import InputError
 from viscofric.readers import read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.source import decimal_comma, to_rad_per_second, unit_conversion
@@ -37,8 +38,8 @@ def write(folder, points, header=HEADER, name="sweeps.csv"):
     return path
 
 
-def notes_with(sweeps, words):
-    return [note for note in sweeps.notes if words in note]
+def notes_with(sweeps, code, *names):
+    return noted(sweeps.notes, code, *names)
 
 
 # Thousands
@@ -61,13 +62,13 @@ def test_a_comma_is_decimal_where_it_can_be_nothing_else(cells, comma):
 def test_a_comma_before_three_digits_everywhere_is_refused(tmp_path):
     path = tmp_path / "kilo.tsv"
     path.write_text("T (degC)\tf (Hz)\tE' (kPa)\tE'' (kPa)\n0\t1\t33,468\t1158\n0\t2\t44,215\t1582\n", encoding="utf-8")
-    with pytest.raises(DataFileError, match=r"line 2: '33,468' may be 33\.468 or 33468"):
+    with refused("ambiguous-decimals", 2, "'33,468'", "33.468", "33468"):
         read_dma(path)
 
 
 def test_text_with_commas_beside_numbers_of_a_workbook_is_refused(tmp_path):
     cells = [["T (°C)", "f (Hz)", "E' (MPa)", "E'' (MPa)"], [0.0, 1.0, "1,234", 120.0], [0.0, 2.0, "2,234", 220.0]]
-    with pytest.raises(DataFileError, match=r"sheet 'DMA', line 2: '1,234' may be"):
+    with refused("ambiguous-decimals", 2, "'1,234'"):
         read_dma(write_workbook(tmp_path / "text.xlsx", {"DMA": cells}))
 
 
@@ -91,7 +92,7 @@ def test_exports_of_instruments_do_not_part_thousands_in_silence(tmp_path, kind)
         for row in tables["Exported Data"][2:]:
             row[6] = "1,234"
         path = save(tmp_path / "export.xlsx", tables)
-    with pytest.raises(DataFileError, match="write decimals with a point, and no thousands marks"):
+    with refused("ambiguous-decimals"):
         read_dma(path)
 
 
@@ -106,7 +107,7 @@ def test_swapped_moduli_contradict_the_loss_tangent(tmp_path):
     header = HEADER + ",tan delta"
     assert len(read_dma(write(tmp_path, with_tangent(rows()), header))) == 3
     swapped = [(T, f, loss, storage, tangent) for T, f, storage, loss, tangent in with_tangent(rows())]
-    with pytest.raises(DataFileError, match="tan δ of 18 of 18 points is not loss over storage modulus"):
+    with refused("columns-contradict", None, "18", "18 points"):
         read_dma(write(tmp_path, swapped, header))
 
 
@@ -114,7 +115,7 @@ def test_an_absolute_modulus_of_another_unit_is_refused(tmp_path):
     header = HEADER + ",|E*| (MPa)"
     agreeing = [(*row, math.hypot(row[2], row[3])) for row in rows()]
     assert len(read_dma(write(tmp_path, agreeing, header))) == 3
-    with pytest.raises(DataFileError, match=r"the \|E\*\| of 18 of 18 points"):
+    with refused("columns-contradict", None, "18", "18 points"):
         read_dma(write(tmp_path, [(*row[:4], 10.0 * row[4]) for row in agreeing], header))
 
 
@@ -156,7 +157,7 @@ def test_instruments_that_contradict_themselves_are_refused(tmp_path, kind):
         for row in tables["Exported Data"][2:]:
             row[place] *= 5.0
         path = save(tmp_path / "export.xlsx", tables)
-    with pytest.raises(DataFileError, match="are columns swapped, or is a unit wrong"):
+    with refused("columns-contradict"):
         read_dma(path)
 
 
@@ -169,18 +170,16 @@ AMPLITUDES = np.geomspace(0.1, 30.0, 12)  # %
 def test_a_sweep_of_the_amplitude_is_refused(tmp_path):
     scatter = 1.0 + 0.01 * np.random.default_rng(0).standard_normal(12)
     held = [(25.0, 10.0 * s, 5.0 / (1.0 + a), 1.0 / (1.0 + a), a) for a, s in zip(AMPLITUDES, scatter, strict=True)]
-    with pytest.raises(
-        DataFileError, match=r"at 25\.0 °C the strain amplitude runs from 0\.1 to 30 % at one frequency"
-    ):
+    with refused("amplitude-sweep", None, "25.0 °C", "0.1", "30 %"):
         read_dma(write(tmp_path, held, STRAIN))
     at_three = [(25.0, f, 5.0 / (1.0 + a), 1.0 / (1.0 + a), a) for f in (1.0, 3.0, 10.0) for a in AMPLITUDES]
-    with pytest.raises(DataFileError, match="not an amplitude sweep"):
+    with refused("amplitude-sweep"):
         read_dma(write(tmp_path, at_three, STRAIN))
 
 
 def test_sweeps_run_at_two_amplitudes_are_not_averaged(tmp_path):
     twice = [(*row, amplitude) for amplitude in (0.1, 1.0) for row in rows()]
-    with pytest.raises(DataFileError, match=r"from 0\.1 to 1 %"):
+    with refused("amplitude-sweep", None, "0.1", "1 %"):
         read_dma(write(tmp_path, twice, STRAIN))
 
 
@@ -188,9 +187,9 @@ def test_an_amplitude_that_changes_along_a_sweep_is_told(tmp_path):
     def strained(ratio):
         return read_dma(write(tmp_path, [(*row, 1.0 if row[1] < 1.0 else ratio) for row in rows()], STRAIN))
 
-    assert "at most from 1 to 10 % at 0.0 °C" in notes_with(strained(10.0), "not one within 3 isotherms")[0]
-    assert notes_with(strained(1.3), "not one within") != []
-    assert notes_with(strained(1.15), "not one within") == []
+    assert notes_with(strained(10.0), "amplitudes-differ", "within 3 isotherms", "1 to 10 % at 0.0 °C")
+    assert notes_with(strained(1.3), "amplitudes-differ") != []
+    assert notes_with(strained(1.15), "amplitudes-differ") == []
 
 
 @pytest.mark.parametrize("kind", ["rheocompass", "trios"])
@@ -207,7 +206,7 @@ def test_a_frequency_that_scatters_is_no_sweep(tmp_path, kind):
         head += ["Temperature\tAngular frequency\tStorage modulus\tLoss modulus", "°C\trad/s\tPa\tPa"]
         body = [f"25\t{w:.5g}\t5e5\t1e5" for w in omega]
     path.write_text("\n".join([*head, *body, ""]), encoding="utf-8")
-    with pytest.raises(DataFileError, match=r"is a frequency sweep|holds no frequency sweep"):
+    with refused("no-frequency-sweep"):
         read_dma(path)
 
 
@@ -231,20 +230,20 @@ def test_measured_temperatures_one_kelvin_apart_may_scatter(tmp_path):
 def test_temperatures_that_cannot_be_parted_are_refused(tmp_path):
     spread = np.linspace(20.0, 23.0, 24)  # four sweeps that drift into each other
     points = [(T, FREQUENCIES[n % 6], *moduli(T, FREQUENCIES[n % 6])) for n, T in enumerate(spread)]
-    with pytest.raises(DataFileError, match=r"between 20\.0 and 23\.0 °C, and the temperatures cannot be parted"):
+    with refused("no-isotherms", None, "20.0", "23.0 °C"):
         read_dma(write(tmp_path, points))
 
 
 def test_heating_and_cooling_are_told_with_how_far_they_lie_apart(tmp_path):
     sweeps = read_dma(write(tmp_path, rows() + rows(factor=1.04)[::-1]))
-    assert notes_with(sweeps, "All frequencies at 0.0, 20.0 and 40.0 °C were measured more than once") != []
-    assert notes_with(sweeps, "differ by up to 4 % of their modulus") != []
+    assert notes_with(sweeps, "measured-again", "at 0.0, 20.0 and 40.0 °C") != []
+    assert notes_with(sweeps, "repeats-differ", "4 %") != []
 
 
 def test_a_rubber_that_softens_when_it_cools_is_told(tmp_path):
-    assert notes_with(read_dma(write(tmp_path, rows())), "stiffer") == []
+    assert notes_with(read_dma(write(tmp_path, rows())), "stiffer-when-warmer") == []
     mirrored = [(40.0 - T, *rest) for T, *rest in rows()]
-    assert notes_with(read_dma(write(tmp_path, mirrored)), "stiffer than the next colder one") != []
+    assert notes_with(read_dma(write(tmp_path, mirrored)), "stiffer-when-warmer") != []
 
 
 # Units
@@ -272,7 +271,7 @@ def test_units_of_pressure_are_read_as_laboratories_write_them(unit, pascal):
 
 @pytest.mark.parametrize("unit", ["mpa", "MPA", "kg/cm2", "N"])
 def test_units_that_could_be_two_or_none_are_refused(unit):
-    with pytest.raises(InputError, match="unit"):
+    with pytest.raises(InputError, match=r"^unit = "):
         unit_conversion(unit, "Pa")
 
 
@@ -302,34 +301,34 @@ def test_hertz_and_radians_are_one_rule_for_all_formats(unit, angular, factor):
 
 
 def test_a_frequency_in_reciprocal_seconds_is_asked_for(tmp_path):
-    with pytest.raises(DataFileError, match=r"'frequency \(1/s\)' has the unit '1/s'; it must be 'Hz' or 'rad/s'"):
+    with refused("wrong-unit", None, "'frequency (1/s)'", "'1/s'", "'Hz'", "'rad/s'"):
         read_dma(write(tmp_path, rows(), HEADER.replace("f (Hz)", "frequency (1/s)")))
     for unit in ("s^-1", "s⁻¹"):
         found = read_dma(write(tmp_path, rows(), HEADER.replace("f (Hz)", f"omega ({unit})")))
         assert found.isotherms[0].angular_frequency == pytest.approx(FREQUENCIES, rel=1e-6)  # printed digits
     osc = tmp_path / "sweep.osc"
     osc.write_text("T=20;Mw=1;\nFreq\tG'\tG\"\n1/s\tPa\tPa\n1\t2\t1\n2\t3\t1\n", encoding="utf-8")
-    with pytest.raises(DataFileError, match="'1/s' of the frequency must be 'rad/s' or 'Hz'"):
+    with refused("wrong-unit", None, "'1/s'", "'rad/s'", "'Hz'"):
         read_dma(osc)
 
 
 def test_logarithms_and_liquids_are_told(tmp_path):
     logs = [(T, f, math.log10(1e6 * a), math.log10(1e6 * b)) for T, f, a, b in rows()]
-    assert notes_with(read_dma(write(tmp_path, logs, HEADER.replace("MPa", "Pa"))), "look like logarithms") != []
+    assert notes_with(read_dma(write(tmp_path, logs, HEADER.replace("MPa", "Pa"))), "logarithms") != []
     liquid = [(T, f, a, 20.0 * a) for T, f, a, _ in rows()]
-    assert notes_with(read_dma(write(tmp_path, liquid)), "tan δ are above 20, as of a liquid") != []
+    assert notes_with(read_dma(write(tmp_path, liquid)), "columns-swapped", "20") != []
     plain = read_dma(write(tmp_path, rows()))
-    assert notes_with(plain, "logarithms") == notes_with(plain, "liquid") == []
+    assert notes_with(plain, "logarithms") == notes_with(plain, "columns-swapped") == []
 
 
 def test_a_strain_without_unit_is_told(tmp_path):
     points = [(*row, 0.01) for row in rows()]
     told = read_dma(write(tmp_path, points, HEADER + ",strain"))
-    assert notes_with(told, "'strain' has no unit; it was read as a fraction") != []
+    assert notes_with(told, "strain-without-unit", "'strain'") != []
     assert told.isotherms[0].strain_amplitude == pytest.approx(np.full(6, 0.01), rel=1e-12)
     unread = read_dma(write(tmp_path, points, HEADER + ",strain (mm)"))
     assert unread.isotherms[0].strain_amplitude is None
-    assert notes_with(unread, "strain amplitudes were not read: column 'strain (mm)'") != []
+    assert notes_with(unread, "strain-amplitude-not-read", "'strain (mm)'") != []
 
 
 def test_a_strain_without_unit_in_an_interval_is_told(tmp_path):
@@ -337,13 +336,13 @@ def test_a_strain_without_unit_in_an_interval_is_told(tmp_path):
     path = tmp_path / "export.txt"
     path.write_text(text + "\n", encoding="utf-8")
     sweeps = read_dma(path)
-    assert len(notes_with(sweeps, "strain amplitudes were not read: column 'Shear Strain'")) == 1
+    assert len(notes_with(sweeps, "strain-amplitude-not-read", "'Shear Strain'")) == 1
     assert sweeps.isotherms[0].strain_amplitude is None
 
 
 def test_moduli_beyond_any_number_are_refused(tmp_path):
     points = [(0.0, f, 1.2e308, 1.2e308) for f in FREQUENCIES * 3]
-    with pytest.raises(DataFileError, match=r"line 2 has a modulus of 1\.2e\+308 Pa; nothing is as stiff"):
+    with refused("implausible-modulus", None, "1.2e+308 Pa"):
         read_dma(write(tmp_path, points, HEADER.replace("MPa", "Pa")))
 
 
@@ -353,13 +352,13 @@ def test_moduli_beyond_any_number_are_refused(tmp_path):
 def test_a_master_curve_is_checked_as_sweeps_are(tmp_path):
     points = [(f, f, *moduli(20.0, f)) for f in FREQUENCIES]
     header = "f (Hz),omega (rad/s),E' (MPa),E'' (MPa)"
-    with pytest.raises(DataFileError, match="contradict each other"):
+    with refused("columns-contradict", 2):
         read_master_curve(write(tmp_path, points, header), 293.15)
     agreeing = [(f, 2 * math.pi * w, *rest) for f, w, *rest in points]
     found = read_master_curve(write(tmp_path, agreeing, header), 293.15)
     assert found.angular_frequency == pytest.approx(2 * math.pi * np.array(FREQUENCIES), rel=1e-5)  # printed digits
     bare = [row[1:] for row in agreeing]
-    with pytest.raises(DataFileError, match="column 'omega' has no unit"):
+    with refused("no-unit", None, "'omega'"):
         read_master_curve(write(tmp_path, bare, "omega,E' (MPa),E'' (MPa)"), 293.15)
 
 

@@ -8,7 +8,8 @@ import time
 import numpy as np
 import pytest
 
-from viscofric.errors import DataFileError, InputError
+from readers.refusal import noted, refused
+from viscofric.notes import codes
 from viscofric.readers import read_dma
 from viscofric.readers.dma.isotherms import isothermal_sweeps, traced_sweeps
 from viscofric.readers.dma.readings import Readings
@@ -40,8 +41,8 @@ def programme(temperatures, scatter=0.05):
     return celsius, np.tile(FREQUENCIES, len(temperatures))
 
 
-def notes_with(sweeps, words):
-    return [note for note in sweeps.notes if words in note]
+def notes_with(sweeps, code, *names):
+    return noted(sweeps.notes, code, *names)
 
 
 def test_points_recorded_while_heating_are_left_out_and_named():
@@ -53,10 +54,8 @@ def test_points_recorded_while_heating_are_left_out_and_named():
     # the means of the held temperatures; the wiggle's mean is below 0.01 K
     assert sweeps.temperatures - 273.15 == pytest.approx([20.0, 30.0, 40.0], abs=0.02)
     assert [len(one) for one in sweeps.isotherms] == [9, 9, 9]
-    told = notes_with(sweeps, "moving between two isotherms")
-    assert len(told) == 1
-    assert told[0].startswith("10 points left out")
-    assert "lines 12, 13, 14 and 7 more" in told[0]
+    assert len(notes_with(sweeps, "temperature-moving")) == 1
+    assert notes_with(sweeps, "temperature-moving", "10 points", "lines 12, 13, 14 and 7 more")
 
 
 def test_every_reading_is_in_one_isotherm_or_left_out():
@@ -82,7 +81,7 @@ def test_heating_that_was_recorded_finely_is_told_from_holding(step):
     # a point or two of the heating beside a held temperature may count to it
     assert sweeps.temperatures - 273.15 == pytest.approx([20.0, 30.0, 40.0], abs=0.1)
     assert [len(one) for one in sweeps.isotherms] == [9, 9, 9]
-    assert len(notes_with(sweeps, "moving between two isotherms")) == 1
+    assert len(notes_with(sweeps, "temperature-moving")) == 1
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -92,7 +91,7 @@ def test_heating_that_was_recorded_finely_is_told_from_holding(step):
 def test_a_noisy_ramp_is_not_taken_for_isotherms(seed, noise, rate, count):
     celsius = np.arange(0.0, 30.0, rate)
     celsius += noise * np.random.default_rng(seed).standard_normal(len(celsius))
-    with pytest.raises(DataFileError, match="not a temperature ramp"):
+    with refused("temperature-ramp"):
         isothermal_sweeps([readings(celsius, np.resize(FREQUENCIES[:count], len(celsius)))])
 
 
@@ -100,19 +99,18 @@ def test_single_points_between_steps_are_left_out_and_named():
     celsius, hertz = programme([20.0, 30.0])
     sweeps = isothermal_sweeps([readings(np.insert(celsius, 9, [23.0, 26.0]), np.insert(hertz, 9, [1.0, 1.0]))])
     assert len(sweeps) == 2
-    assert notes_with(sweeps, "2 points left out: they belong to no isotherm") != []
-    assert "lines 12 and 13" in notes_with(sweeps, "belong")[0]
+    assert notes_with(sweeps, "points-left-out", "2 points", "lines 12 and 13")
 
 
 @pytest.mark.parametrize("rate", [0.05, 0.2, 0.5, 0.95])
 def test_a_continuous_ramp_is_refused_at_any_rate(rate):
     celsius = np.arange(0.0, 30.0, rate)
-    with pytest.raises(DataFileError, match="not a temperature ramp"):
+    with refused("temperature-ramp"):
         isothermal_sweeps([readings(celsius, np.resize(FREQUENCIES, len(celsius)))])
 
 
 def test_a_temperature_sweep_at_one_frequency_is_refused():
-    with pytest.raises(DataFileError, match="each of the 10 temperatures has one frequency"):
+    with refused("temperature-sweep", None, "10 temperatures"):
         isothermal_sweeps([readings(np.arange(0.0, 50.0, 5.0), np.ones(10))])
 
 
@@ -122,7 +120,7 @@ def test_steps_of_the_programme_hold_a_settling_temperature_together():
     step = np.repeat([1, 2], 9)
     sweeps = isothermal_sweeps([readings(celsius, np.tile(FREQUENCIES, 2), step=step)])
     assert [len(one) for one in sweeps.isotherms] == [9, 9]
-    assert notes_with(sweeps, "ranges over up to 1.8 K within the isotherms at 20.3 and 30.3 °C") != []
+    assert notes_with(sweeps, "temperature-range", "1.8 K", "20.3 and 30.3 °C") != []
 
 
 def test_isotherms_of_several_files_are_not_joined_by_their_drift():
@@ -130,7 +128,7 @@ def test_isotherms_of_several_files_are_not_joined_by_their_drift():
     files = [readings(start + np.linspace(0.0, 2.5, 9), FREQUENCIES, source=f"{start}.txt") for start in (20.0, 23.0)]
     sweeps = isothermal_sweeps(files)
     assert sweeps.temperatures - 273.15 == pytest.approx([21.25, 24.25])
-    assert notes_with(sweeps, "ranges over up to 2.5 K") != []
+    assert notes_with(sweeps, "temperature-range", "2.5 K") != []
 
 
 def test_one_temperature_in_two_files_is_one_isotherm():
@@ -142,9 +140,9 @@ def test_one_temperature_in_two_files_is_one_isotherm():
 
 def test_a_steady_drift_is_told_and_scatter_is_not():
     drifting = isothermal_sweeps([readings(20.0 + np.linspace(0.0, 0.8, 9), FREQUENCIES)])
-    assert notes_with(drifting, "drifts steadily, by up to 0.8 K, within the isotherm at 20.4 °C") != []
+    assert notes_with(drifting, "temperature-drifts", "0.8 K", "20.4 °C") != []
     scattering = isothermal_sweeps([readings(20.0 + 0.4 * np.cos(np.pi * np.arange(9)), FREQUENCIES)])
-    assert notes_with(scattering, "emperature") == []
+    assert not codes(scattering.notes) & {"temperature-range", "temperature-drifts"}
 
 
 def test_an_outlier_is_named_and_kept_and_its_neighbours_are_not_blamed():
@@ -153,9 +151,8 @@ def test_an_outlier_is_named_and_kept_and_its_neighbours_are_not_blamed():
     storage = 1e6 * hertz**0.2 * np.exp(0.01 * rng.standard_normal(27))
     storage[13] *= 1.4
     sweeps = isothermal_sweeps([readings(celsius, hertz, storage, 0.1 * 1e6 * hertz**0.2)])
-    told = notes_with(sweeps, "far off its neighbours")
-    assert len(told) == 1
-    assert told[0].startswith("The storage modulus at 30.0 °C, 1 Hz (line 16)")
+    assert len(notes_with(sweeps, "outlying-modulus")) == 1
+    assert notes_with(sweeps, "outlying-modulus", "storage modulus at 30.0 °C, 1 Hz (line 16)")
     assert len(sweeps.isotherms[1]) == 9
 
 
@@ -165,7 +162,7 @@ def test_noise_alone_makes_no_outlier(seed):
     rng = np.random.default_rng(seed)
     # 3 % noise, more than instruments have; eight standard deviations occur in none of 90 points
     noisy = 1e6 * hertz**0.2 * np.exp(0.03 * rng.standard_normal((2, 90)))
-    assert notes_with(isothermal_sweeps([readings(celsius, hertz, *noisy)]), "neighbours") == []
+    assert notes_with(isothermal_sweeps([readings(celsius, hertz, *noisy)]), "outlying-modulus") == []
 
 
 def test_a_glass_transition_is_no_outlier():
@@ -174,7 +171,7 @@ def test_a_glass_transition_is_no_outlier():
     E = 1e6 + 1e9 * z / (1 + z)  # Cole-Cole, three decades in modulus
     celsius = np.repeat([0.0, 10.0, 20.0], 10)
     found = isothermal_sweeps([readings(celsius, np.tile(hertz, 3), E.real.ravel(), E.imag.ravel())])
-    assert notes_with(found, "neighbours") == []
+    assert notes_with(found, "outlying-modulus") == []
 
 
 def test_points_without_a_value_or_below_zero_are_left_out_and_grouped():
@@ -184,32 +181,32 @@ def test_points_without_a_value_or_below_zero_are_left_out_and_grouped():
     loss[5], loss[[10, 12]] = np.nan, -3.0
     sweeps = isothermal_sweeps([readings(celsius, hertz, storage, loss)])
     assert sum(map(len, sweeps.isotherms)) == 12
-    assert notes_with(sweeps, "Line 8 left out: a value is missing in it.") != []
-    assert notes_with(sweeps, "3 points left out: their storage moduli are not above zero (lines 4, 5 and 6;") != []
-    assert notes_with(sweeps, "2 points left out: their loss moduli are not above zero (lines 13 and 15;") != []
+    assert notes_with(sweeps, "points-left-out", "Line 8", "missing") != []
+    assert notes_with(sweeps, "points-left-out", "3 points", "storage moduli", "lines 4, 5 and 6;") != []
+    assert notes_with(sweeps, "points-left-out", "2 points", "loss moduli", "lines 13 and 15;") != []
 
 
 @pytest.mark.parametrize("column", ["storage", "loss"])
 def test_if_most_is_missing_nothing_is_read(column):
     bad = np.full(9, np.nan)
     bad[:4] = 1e6
-    with pytest.raises(DataFileError, match=r"5 of 9 points cannot be used: a value is missing in each \(lines 7"):
+    with refused("points-unusable", None, "5", "9 points", "7"):
         isothermal_sweeps([readings(np.full(9, 20.0), FREQUENCIES, **{column: bad})])
 
 
 def test_mostly_negative_storage_moduli_are_refused():
     bad = np.full(9, -1e6)
     bad[:4] = 1e6
-    with pytest.raises(DataFileError, match="5 of 9 points cannot be used: their storage moduli are not above zero"):
+    with refused("points-unusable", None, "5", "9 points"):
         isothermal_sweeps([readings(np.full(9, 20.0), FREQUENCIES, bad)])
 
 
 def test_strain_amplitudes_that_differ_between_isotherms_are_told():
     celsius, hertz = programme([20.0, 30.0, 40.0])
     same, differing = np.full(27, 1e-3), np.repeat([1e-3, 2e-3, 5e-3], 9)
-    assert notes_with(isothermal_sweeps([readings(celsius, hertz, strain_amplitude=same)]), "Payne") == []
+    assert notes_with(isothermal_sweeps([readings(celsius, hertz, strain_amplitude=same)]), "amplitudes-differ") == []
     sweeps = isothermal_sweeps([readings(celsius, hertz, strain_amplitude=differing)])
-    assert "from 0.1 % at 20.0 °C to 0.5 % at 40.0 °C" in notes_with(sweeps, "Payne")[0]
+    assert "from 0.1 % at 20.0 °C to 0.5 % at 40.0 °C" in notes_with(sweeps, "amplitudes-differ")[0]
     assert sweeps.isotherms[2].strain_amplitude == pytest.approx(np.full(9, 5e-3))
 
 
@@ -217,20 +214,20 @@ def test_repeated_readings_that_disagree_are_told():
     hertz = np.array([1.0, 2.0, 2.0, 3.0])
     near, far = np.array([1.0, 2.0, 2.02, 3.0]), np.array([1.0, 2.0, 2.4, 3.0])
     agreeing, differing = (isothermal_sweeps([readings(np.full(4, 20.0), hertz, 1e6 * E)]) for E in (near, far))
-    assert notes_with(agreeing, "differ") == []
+    assert notes_with(agreeing, "repeats-differ") == []
     # |E*| of 2.0 and 2.4 MPa with nearly equal loss: 18 % of their mean
-    assert notes_with(differing, "Repeated readings differ by up to 18 % of their modulus at 20.0 °C.") != []
+    assert notes_with(differing, "repeats-differ", "18 %", "20.0 °C") != []
 
 
 def test_files_that_contradict_each_other_are_refused():
     one = readings(np.full(9, 20.0), FREQUENCIES, source="a.txt", said_by="the heading E'")
     other = readings(np.full(9, 30.0), FREQUENCIES, source="b.txt", deformation="shear", said_by="the heading G'")
-    with pytest.raises(DataFileError, match=r"b\.txt: says shear \(the heading G'\), but a\.txt says tension"):
+    with refused("deformation-contradicts", None, "b.txt", "a.txt"):
         isothermal_sweeps([one, other])
     silent = readings(np.full(9, 30.0), FREQUENCIES, source="c.txt", deformation=None)
     told = isothermal_sweeps([one, silent])
     assert told.deformation == "tension"
-    assert notes_with(told, "c.txt: does not say whether the moduli are tensile or shear; taken as tension") != []
+    assert notes_with(told, "deformation-not-said", "c.txt", "tension") != []
 
 
 def test_notes_that_files_share_stand_once():
@@ -239,9 +236,9 @@ def test_notes_that_files_share_stand_once():
 
 
 def test_nothing_at_all_is_refused():
-    with pytest.raises(InputError, match="at least one file"):
+    with refused("no-file"):
         isothermal_sweeps([])
-    with pytest.raises(DataFileError, match="holds no point"):
+    with refused("no-points"):
         isothermal_sweeps([readings([], [])])
 
 
@@ -250,15 +247,16 @@ def test_a_soft_noisy_sample_keeps_what_can_be_used(real_data):
     sweeps = read_dma(files)
     assert sweeps.deformation == "shear"
     assert len(sweeps) == 14
-    assert notes_with(sweeps, "11 points left out: their storage moduli are not above zero") != []
-    assert notes_with(sweeps, "23 points left out: their loss moduli are not above zero") != []
+    assert notes_with(sweeps, "points-left-out", "11 points", "storage moduli") != []
+    assert notes_with(sweeps, "points-left-out", "23 points", "loss moduli") != []
     assert len(sweeps.notes) < 12
 
 
 def test_strain_amplitudes_that_differ_by_a_third_are_told():
     celsius, hertz = programme([20.0, 30.0])
     differing = np.repeat([1e-3, 1.3e-3], 9)
-    assert notes_with(isothermal_sweeps([readings(celsius, hertz, strain_amplitude=differing)]), "Payne") != []
+    sweeps = isothermal_sweeps([readings(celsius, hertz, strain_amplitude=differing)])
+    assert notes_with(sweeps, "amplitudes-differ") != []
 
 
 def test_a_step_for_every_point_takes_no_time():

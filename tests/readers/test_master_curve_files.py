@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from readers.refusal import refused
 from readers.samples.workbook import write as write_workbook
 from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
@@ -42,7 +43,7 @@ def test_shear_moduli_become_tensile_ones(tmp_path):
     path = write(tmp_path, "ω (rad/s),G' (MPa),G'' (MPa)", *ROWS)
     assert read_master_curve(path, 298.15).storage_modulus[0] == pytest.approx(15e6)  # 2(1 + 0.5) G
     assert read_master_curve(path, 298.15, poisson_ratio=0.4).storage_modulus[0] == pytest.approx(14e6)
-    with pytest.raises(DataFileError, match="says shear"):
+    with refused("deformation-contradicts"):
         read_master_curve(path, 298.15, "tension")
 
 
@@ -58,10 +59,10 @@ def test_a_workbook_and_a_unit_that_is_given(tmp_path):
     path = write_workbook(tmp_path / "master.xlsx", {"25 C": cells})
     curve = read_master_curve(path, "25 degC", modulus_unit="MPa")
     assert curve.storage_modulus == pytest.approx([5e6, 6e6, 9e6])
-    with pytest.raises(DataFileError, match="has no unit"):
+    with refused("no-unit"):
         read_master_curve(path, "25 degC")
     two = write_workbook(tmp_path / "two.xlsx", {"A": cells, "B": cells})
-    with pytest.raises(DataFileError, match="the sheets 'A', 'B' each hold a table"):
+    with refused("several-tables", None, "'A'", "'B'"):
         read_master_curve(two, "25 degC", modulus_unit="MPa")
 
 
@@ -96,9 +97,9 @@ def test_reduced_frequencies_count_before_measured_ones(tmp_path):
     )
 
 
-@pytest.mark.parametrize(("row", "says"), [("1,0,1", "line 5: the storage modulus"), ("1,5,", "line 5: the loss mod")])
-def test_a_value_that_is_missing_or_not_above_zero_is_refused(tmp_path, row, says):
-    with pytest.raises(DataFileError, match=says):
+@pytest.mark.parametrize(("row", "refusal"), [("1,0,1", ("not-positive", 5)), ("1,5,", ("not-positive", 5))])
+def test_a_value_that_is_missing_or_not_above_zero_is_refused(tmp_path, row, refusal):
+    with refused(*refusal):
         read_master_curve(write(tmp_path, "f (Hz),E' (MPa),E'' (MPa)", *ROWS, row), 298.15)
 
 
@@ -107,7 +108,7 @@ def test_arguments_that_make_no_sense_are_refused(tmp_path):
     for wrong in ({"deformation": "bending"}, {"poisson_ratio": 0.6}, {"modulus_unit": "mm"}):
         with pytest.raises(InputError):
             read_master_curve(path, 298.15, **wrong)
-    with pytest.raises(InputError, match="reference"):
+    with pytest.raises(InputError, match=r"^reference = "):
         read_master_curve(path, "cold")
 
 

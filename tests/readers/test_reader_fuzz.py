@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import random
-from importlib import import_module
-from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -46,8 +44,6 @@ def warm():
     from viscofric.units import registry
 
     registry()
-    if find_spec("tadatakit"):
-        import_module("tadatakit.classes")
 
 
 def read_or_refuse(tmp_path, suffix, data):

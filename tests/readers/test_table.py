@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
+from readers.refusal import refused
 from viscofric import files
-from viscofric.errors import DataFileError
 from viscofric.readers import read_dma
 from viscofric.readers.table import read_table
 
@@ -30,7 +30,7 @@ def write(tmp_path, *lines, encoding="utf-8"):
     ],
 )
 def test_points_and_commas_in_one_file_are_refused(tmp_path, rows, line, cell):
-    with pytest.raises(DataFileError, match=rf"line {line}: '{cell}' .* has a point, but other numbers .* a comma"):
+    with refused("mixed-decimals", line, repr(cell)):
         read_dma(write(tmp_path, HEADER, *rows))
 
 
@@ -59,13 +59,13 @@ def test_primes_of_the_windows_code_page_are_read(tmp_path):
 
 
 def test_a_monstrous_cell_is_refused(tmp_path):
-    with pytest.raises(DataFileError, match="line 2: the row cannot be split into cells") as caught:
+    with refused("row-length", 2) as caught:
         read_dma(write(tmp_path, HEADER, "2" * 140_000 + ";1;5;0.5"))
     assert len(str(caught.value)) < 500
 
 
 def test_a_name_that_no_file_can_have_is_refused():
-    with pytest.raises(DataFileError, match="is not the name of a file"):
+    with refused("not-a-name"):
         read_dma("sweeps\0.csv")
 
 
@@ -74,11 +74,11 @@ def test_a_name_that_no_file_can_have_is_refused():
 def test_devices_and_pipes_are_refused(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     for path in ("/dev/zero", tmp_path / "pipe"):
-        with pytest.raises(DataFileError, match="is a device or a pipe"):
+        with refused("not-a-file"):
             read_dma(path)
 
 
 def test_a_file_too_large_for_measurements_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "LARGEST_TABLE", 10)
-    with pytest.raises(DataFileError, match="a table of measurements may have at most"):
+    with refused("too-large"):
         read_dma(write(tmp_path, HEADER, "20;1;5;0.5"))

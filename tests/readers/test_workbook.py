@@ -10,6 +10,7 @@ import zipfile
 
 import pytest
 
+from readers.refusal import noted, refused
 from readers.samples.workbook import HEADER, one_sheet, rows, write
 from viscofric.errors import DataFileError
 from viscofric.readers import read_dma
@@ -90,10 +91,10 @@ def test_numbers_may_be_text_with_a_decimal_comma_beside_true_numbers(tmp_path):
 
 def test_a_wrong_cell_is_named_by_sheet_and_row(tmp_path):
     path = write(tmp_path / "a.xlsx", {"DMA": [[], HEADER, *POINTS, [20, 20, "five", 0.5]]})
-    with pytest.raises(DataFileError, match=r"a\.xlsx, sheet 'DMA', line 5: 'five' in column"):
+    with refused("not-a-number", 5, "'five'"):
         read_dma(path)
     left_out = write(tmp_path / "b.xlsx", {"DMA": [HEADER, *POINTS, [20, 20, 7, -0.5]]})
-    assert any(note.startswith("Sheet 'DMA', row 4 left out") for note in read_dma(left_out).notes)
+    assert noted(read_dma(left_out).notes, "points-left-out", "Sheet 'DMA', row 4")
 
 
 def test_sheets_of_several_temperatures_are_joined_and_others_refused(tmp_path):
@@ -101,9 +102,9 @@ def test_sheets_of_several_temperatures_are_joined_and_others_refused(tmp_path):
     apart = write(tmp_path / "a.xlsx", {"20": [HEADER, *POINTS], "30": [HEADER, *warm], "shift": [["T (°C)", "aT"]]})
     sweeps = read_dma(apart)
     assert sweeps.temperatures - 273.15 == pytest.approx([20.0, 30.0])
-    assert any("The sheets '20', '30' were taken for temperatures" in note for note in sweeps.notes)
+    assert noted(sweeps.notes, "sheets-as-temperatures", "'20', '30'")
     twice = write(tmp_path / "b.xlsx", {"A": [HEADER, *POINTS, *warm], "B": [HEADER, *warm]})
-    with pytest.raises(DataFileError, match=r"'A' \(20.0 to 30.0 °C\) and 'B' \(30.0 to 30.0 °C\).* overlap"):
+    with refused("several-tables", None, "'A' (20.0 to 30.0 °C)", "'B' (30.0 to 30.0 °C)"):
         read_dma(twice)
 
 
@@ -111,11 +112,11 @@ def test_the_name_of_a_sheet_may_tell_the_temperature(tmp_path):
     sheets = {f"{T} °C": [HEADER[1:], [1, 5 - T / 20, 0.5], [2, 6 - T / 20, 0.6]] for T in (-10, 20)}
     sweeps = read_dma(write(tmp_path / "a.xlsx", sheets))
     assert sweeps.temperatures - 273.15 == pytest.approx([-10.0, 20.0])
-    assert any("taken from the sheet's name" in note for note in sweeps.notes)
+    assert noted(sweeps.notes, "temperature-from-name", "sheet's")
 
 
 def test_a_workbook_without_moduli_is_refused_with_its_sheets(tmp_path):
-    with pytest.raises(DataFileError, match=r"no sheet has a row that names .* its sheets are 'A', 'B'"):
+    with refused("missing-columns", None, "'A'", "'B'"):
         read_dma(write(tmp_path / "a.xlsx", {"A": [["x"]], "B": []}))
 
 
@@ -145,7 +146,7 @@ def test_a_cell_in_the_last_corner_does_not_take_the_memory_of_all(tmp_path):
         return data.replace(b"</sheetData>", b'<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>')
 
     path = changed(write(tmp_path / "far.xlsx", {"DMA": rows()}), "xl/worksheets/sheet1.xml", far)
-    with pytest.raises(DataFileError, match=r"sheets of 1.72e\+10 cells"):
+    with refused("too-large", None, "1.72e+10 cells"):
         read_dma(path)
 
 
@@ -156,7 +157,7 @@ def test_a_cell_far_off_is_refused_though_its_name_is_hidden(tmp_path):
         return data.replace(b"</sheetData>", cell)
 
     path = changed(write(tmp_path / "far.xlsx", {"DMA": rows()}), "xl/worksheets/sheet1.xml", far)
-    with pytest.raises(DataFileError, match=r"far\.xlsx: "):
+    with pytest.raises(DataFileError, check=lambda error: error.code in ("too-large", "damaged")):
         read_dma(path)
 
 
@@ -164,7 +165,7 @@ def test_an_archive_that_unpacks_to_gigabytes_is_refused(tmp_path):
     path = write(tmp_path / "bomb.xlsx", {"DMA": rows()})
     changed(path, "xl/worksheets/sheet1.xml", lambda data: data + b" " * 60_000_000)
     assert path.stat().st_size < 200_000
-    with pytest.raises(DataFileError, match="would unpack to 60 MB"):
+    with refused("too-large", None, "60 MB"):
         read_dma(path)
 
 
@@ -173,7 +174,7 @@ def test_a_parser_that_does_not_end_is_ended(tmp_path, monkeypatch):
     endless.write_text("import time\ntime.sleep(60)\n", encoding="utf-8")
     monkeypatch.setattr(workbook, "_PARSER", endless)
     monkeypatch.setattr(workbook, "LONGEST_PARSE", 0.2)
-    with pytest.raises(DataFileError, match="takes longer than 0 s to parse"):
+    with refused("too-slow"):
         workbook.sheets(opened(one_sheet(tmp_path)))
 
 
@@ -181,7 +182,7 @@ def test_a_parser_that_dies_is_an_error_like_any_other(tmp_path, monkeypatch):
     dying = tmp_path / "dying.py"
     dying.write_text("import os\nos.abort()\n", encoding="utf-8")
     monkeypatch.setattr(workbook, "_PARSER", dying)
-    with pytest.raises(DataFileError, match="is a workbook that cannot be parsed"):
+    with refused("damaged"):
         workbook.sheets(opened(one_sheet(tmp_path)))
     assert workbook.sheet_names(opened(one_sheet(tmp_path))) == ()
 
@@ -190,7 +191,7 @@ def test_a_parser_that_dies_is_an_error_like_any_other(tmp_path, monkeypatch):
 def test_what_only_begins_like_a_workbook_is_refused(tmp_path, start):
     path = tmp_path / "junk.xls"
     path.write_bytes(start + bytes(1000))
-    with pytest.raises(DataFileError, match="damaged"):
+    with refused("damaged"):
         read_dma(path)
 
 
@@ -198,7 +199,7 @@ def test_a_protected_workbook_and_other_archives_are_refused(tmp_path):
     path = tmp_path / "archive.zip"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("readme.txt", "no workbook")
-    with pytest.raises(DataFileError, match="is a damaged or protected workbook"):
+    with refused("damaged"):
         read_dma(path)
 
 
@@ -211,7 +212,7 @@ def test_real_workbooks_of_the_old_kind_are_opened(real_data):
 
 def test_a_truth_value_is_no_number(tmp_path):
     path = write(tmp_path / "a.xlsx", {"DMA": [HEADER, *POINTS, [20, 20, True, 0.5]]})
-    with pytest.raises(DataFileError, match=r"'TRUE' in column .* is not a finite number"):
+    with refused("not-a-number", 4, "'TRUE'"):
         read_dma(path)
 
 
@@ -227,8 +228,7 @@ def test_a_hidden_sheet_with_moduli_is_told(tmp_path):
                 sheet.write_row(number, 0, row)
             if name != "DMA":
                 sheet.hide()
-    notes = [note for note in read_dma(path).notes if "hidden" in note]
-    assert notes == ["The sheet 'old' is hidden in the workbook; it was read all the same."]
+    assert noted(read_dma(path).notes, "hidden-sheet", "'old'")
 
 
 def test_long_texts_are_cut_before_they_take_memory(tmp_path):
@@ -254,7 +254,7 @@ def test_more_cells_than_any_measurement_are_refused(monkeypatch, tmp_path):
 def test_a_python_that_does_not_start_is_told(tmp_path, monkeypatch, python):
     path = one_sheet(tmp_path)
     monkeypatch.setattr(sys, "executable", python)
-    with pytest.raises(DataFileError, match=r"which does not start .* save the sheet as CSV"):
+    with refused("no-parser"):
         read_dma(path)
 
 
@@ -262,7 +262,7 @@ def test_a_missing_package_is_not_blamed_on_the_file(tmp_path, monkeypatch):
     path = one_sheet(tmp_path)
     monkeypatch.setattr(workbook, "_PARSER", tmp_path / "parser.py")
     (tmp_path / "parser.py").write_text('print(\'{"missing": "python-calamine"}\')', encoding="utf-8")
-    with pytest.raises(DataFileError, match="workbooks need python-calamine, which this Python does not find"):
+    with refused("package-missing"):
         read_dma(path)
     monkeypatch.setitem(sys.modules, "python_calamine", None)
     with pytest.raises(ImportError):

@@ -1,4 +1,4 @@
-"""One file as every format sees it: its bytes, its text if it is text, and what the user said of it."""
+"""The content of one file for all formats, and numbers and units as instruments and people print them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Source:
 
 
 def _marked(data: bytes) -> bytes:
-    """Return bytes that are UTF-16 without its mark with it: every second byte of the first ones is zero."""
+    """Add the missing byte-order mark to UTF-16, in which every second byte of the first ones is zero."""
     first, second = data[:200:2], data[1:200:2]
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return data
@@ -54,16 +54,16 @@ def _marked(data: bytes) -> bytes:
 
 COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
 _LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
-#: What a unit multiplies by at most, so that a damaged number shows before that.
+#: Above the factor of any unit, so that a damaged number overflows in the reader already.
 LARGEST_FACTOR = 1e12
-#: Hz and rad/s of one row, both printed with two digits or so, agree within this (relative).
+#: Relative agreement of Hz and rad/s in one row, both printed with about two digits.
 PRINTED_FREQUENCY = 0.05
 
 _PRESSURE = re.compile(r"([kKMG])[pP]a")
 _PREFIXES = {"m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6}
 
 
-#: What a strain amplitude is multiplied by to become a fraction.
+#: Unit of a strain amplitude -> factor to a fraction.
 STRAIN_FACTORS = {"%": 0.01, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0, "µm/µm": 1.0}
 
 
@@ -79,9 +79,9 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
     if commas and all(_LIKE_THOUSANDS.fullmatch(cell) for cell, _ in commas):
         cell, row = commas[0]
         as_decimal, as_thousands = cell.replace(",", "."), cell.replace(",", "")
-        problem = f"{cell!r} may be {as_decimal} or {as_thousands}, since every comma stands before three digits; "
+        problem = f"{cell!r} may be {as_decimal} or {as_thousands}, since every comma precedes three digits; "
         raise DataFileError(
-            path, problem + "write decimals with a point, and no thousands marks.", row, code="ambiguous-decimals"
+            path, problem + "write decimals with a point, without thousands separators.", row, code="ambiguous-decimals"
         )
     return bool(commas)
 

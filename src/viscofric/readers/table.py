@@ -27,16 +27,16 @@ if TYPE_CHECKING:
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>°?[CKF]|deg[CFK]|[mkM]?Hz|rad/s|[kMG]?Pa|m?N|[mc]?m/s|1/s)$")
-#: How instruments and people print that there is no number.
+#: Printed by instruments and people in place of a number.
 MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n/a", "#n/a", "n.a.", "null", "none", "*"})
 
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 _IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
-# How instruments write the units of temperature that pint would take for coulomb, farad or nothing at all.
+# Units of temperature as printed by instruments, which pint would read as coulomb, farad or nothing.
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
 
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
-#: A longer heading is no heading; its unit is not looked for.
+#: A longer heading is not parsed.
 _LONGEST_HEADING = 200
 
 
@@ -71,14 +71,14 @@ class Table:
         return ", ".join(repr(column.heading) for column in self.columns)
 
     def numbers(self, column: int) -> Array:
-        """Return a column as printed, every cell a finite number, or raise `DataFileError`."""
+        """Return a column as printed, finite numbers only, or raise `DataFileError`."""
         heading = self.columns[column].heading
         return np.array(
             [self._number(row[column], heading, int(line)) for row, line in zip(self.rows, self.lines, strict=True)]
         )
 
     def numbers_or_missing(self, column: int) -> Array:
-        """Return a column as printed, NaN where a cell is empty or says that there is no number."""
+        """Return a column as printed, NaN for a missing number."""
         heading = self.columns[column].heading
         return np.array(
             [
@@ -96,8 +96,9 @@ class Table:
         if self.decimal_comma and "." in text:
             raise DataFileError(
                 self.path,
-                f"{text!r} in column {heading!r} has a point, but other numbers of the file have a comma, so that "
-                "decimals cannot be told from thousands; write all decimals in one way and no thousands marks.",
+                f"{text!r} in column {heading!r} has a point, but other numbers of the file have a comma, so "
+                "that decimals and thousands cannot be distinguished; write all decimals in one way, without thousands "
+                "separators.",
                 line,
                 code="mixed-decimals",
             )
@@ -140,7 +141,7 @@ class Table:
             ) from None
 
     def unused(self, used: Collection[int]) -> list[Column]:
-        """Return the columns that are not among those whose places are given, but for nameless ones."""
+        """Return the columns with a name at all other places."""
         return [column for place, column in enumerate(self.columns) if place not in used and column.name]
 
     def find(self, names: frozenset[str], what: str) -> int | None:
@@ -178,7 +179,7 @@ def read_table(path: str | PathLike[str]) -> Table:
 
 
 def table_of_text(shown: str, text: str) -> Table:
-    """Read a table as `read_table` does, from text that is at hand; `shown` names the file in errors."""
+    """Read a table as `read_table` does, from its text; `shown` names the file in errors."""
     lines = text_lines(text)
     if lines and _FOR_EXCEL.fullmatch(lines[0][1]):
         del lines[0]
@@ -188,7 +189,7 @@ def table_of_text(shown: str, text: str) -> Table:
     delimiter = max("\t;,", key=header.count)
     if delimiter not in header:
         raise DataFileError(
-            shown, "the header has no columns separated by commas, semicolons or tabs.", first, code="missing-columns"
+            shown, "the header has no columns separated by commas, semicolons or tabs.", first, code="no-columns"
         )
     columns = tuple(heading(cell) for cell in split_cells(shown, first, header, delimiter))
     rows = [(number, split_cells(shown, number, line, delimiter)) for number, line in lines[1:]]
@@ -222,7 +223,7 @@ def make_table(
         rows.append(tuple(cells))
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")
-    # a remark may hold any comma; a pure number, such as a coefficient of friction, has no unit
+    # a remark may contain any comma; a pure number, such as a coefficient of friction, has no unit
     measured = [
         place
         for place, column in enumerate(columns)
@@ -243,7 +244,7 @@ def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
 
 
 def heading(text: str) -> Column:
-    """Part a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``."""
+    """Split a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``."""
     text = text.strip()
     if len(text) > _LONGEST_HEADING:
         return Column(text, text, "")

@@ -87,9 +87,9 @@ def read_topography(
         said = f"heights lie up to {extent:.3g} m apart, more than scans of surfaces have: check their unit"
         notes.append(Note("implausible-heights", said))
     try:
-        found = Topography(heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.told, *notes))
+        found = Topography(heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.origin, *notes))
     except InputError as error:
         raise DataFileError(path, str(error)) from None
     if found.missing == found.heights.size:
-        raise DataFileError(path, "holds no height at all: all of its points are without a reading.")
+        raise DataFileError(path, "holds no height at all: all of its points are without a reading.", code="no-points")
     return found

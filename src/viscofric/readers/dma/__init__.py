@@ -1,1 +1,1 @@
-"""Frequency sweeps of dynamic mechanical analysers and rheometers: formats told by content, points made isotherms."""
+"""Frequency sweeps of dynamic mechanical analysers and rheometers: formats recognised by content, points sorted."""

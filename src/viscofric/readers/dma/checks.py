@@ -1,4 +1,4 @@
-"""Points that can be used, and notes on those left out: missing values, moduli and frequencies not above zero."""
+"""Checks of values as printed: usable points, agreement of tan δ and |E*| with E' and E'', plausible units."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
         if a temperature is not above absolute zero, or a modulus far above that of any solid.
     """
     if not len(points):
-        raise DataFileError(source, "holds no point of a frequency sweep.", code="no-points")
+        raise DataFileError(source, "contains no point of a frequency sweep.", code="no-points")
     columns = (points.temperature, points.angular_frequency, points.storage_modulus, points.loss_modulus)
     keep = np.all([np.isfinite(column) for column in columns], axis=0)
     notes: list[Note] = []
@@ -43,7 +43,7 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
     moduli = np.fmax(points.storage_modulus, points.loss_modulus)
     stiff = np.flatnonzero(keep & (moduli > LARGEST_MODULUS))
     if stiff.size:
-        problem = f"{points.places[stiff[0]]} has a modulus of {moduli[stiff[0]]:.4g} Pa; nothing is as stiff, "
+        problem = f"{points.places[stiff[0]]} has a modulus of {moduli[stiff[0]]:.4g} Pa; no material is as stiff, "
         raise DataFileError(source, problem + "so the number or its unit is wrong.", code="implausible-modulus")
     for name, plural, values, unit in (
         ("frequency", "frequencies", points.angular_frequency / (2 * math.pi), "Hz"),
@@ -51,8 +51,8 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
         ("loss modulus", "loss moduli", points.loss_modulus, "Pa"),
     ):
         bad = keep & (values <= 0.0)
-        told = (f"its {name} is not above zero", f"their {plural} are not above zero")
-        _leave_out(points, source, bad, notes, told, (values, unit), most=name != "loss modulus")
+        why = (f"its {name} is not above zero", f"their {plural} are not above zero")
+        _leave_out(points, source, bad, notes, why, (values, unit), most=name != "loss modulus")
         keep &= ~bad
     if not keep.any():
         raise DataFileError(source, "no row has a loss modulus above zero.", code="points-unusable")
@@ -64,7 +64,7 @@ def _leave_out(
     source: str,
     bad: Mask,
     notes: list[Note],
-    told: tuple[str, str],
+    why: tuple[str, str],
     values: tuple[Array, str] | None,
     *,
     most: bool = True,
@@ -76,20 +76,20 @@ def _leave_out(
     named = points.named(rows.tolist())
     if most and 2 * len(rows) > len(points):
         raise DataFileError(
-            source, f"{len(rows)} of {len(points)} points cannot be used: {told[1]} ({named}).", code="points-unusable"
+            source, f"{len(rows)} of {len(points)} points cannot be used: {why[1]} ({named}).", code="points-unusable"
         )
     first = int(rows[0])
     if len(rows) > 1:
-        notes.append(Note("points-left-out", f"{len(rows)} points left out: {told[1]} ({named}{_span(points, rows)})."))
+        notes.append(Note("points-left-out", f"{len(rows)} points left out: {why[1]} ({named}{_span(points, rows)})."))
     elif values is None:
-        notes.append(Note("points-left-out", f"{_capital(named)} left out: {told[0]}."))
+        notes.append(Note("points-left-out", f"{_capital(named)} left out: {why[0]}."))
     else:
         hertz = points.angular_frequency[first] / (2 * math.pi)
         where = f"{celsius(points.temperature[first]):z.1f} °C, {hertz:.4g} Hz"
         notes.append(
             Note(
                 "points-left-out",
-                f"{_capital(named)} left out: {told[0]} ({values[0][first]:.4g} {values[1]} at {where}).",
+                f"{_capital(named)} left out: {why[0]} ({values[0][first]:.4g} {values[1]} at {where}).",
             )
         )
 
@@ -108,7 +108,7 @@ def _capital(text: str) -> str:
     return text[0].upper() + text[1:] if text.startswith(("line ", "row ", "point ", "sheet ")) else text
 
 
-#: Both printed with two digits or so agree within this (relative),
+#: Relative agreement of numbers printed with about two digits,
 PRINTED = 0.05
 #: and a small tan δ within the last of its two decimals.
 LAST_DECIMAL = 0.01
@@ -128,17 +128,17 @@ def insist_on_agreement(
     ):
         if printed is None:
             continue
-        told = printed[used]
-        known = told > 0.0
-        apart = np.abs(told[known] - follows[known]) > PRINTED * follows[known] + slack
-        if 2 * np.count_nonzero(apart) > apart.size:
-            first = int(np.argmax(apart))
-            problem = f"the {name} of {np.count_nonzero(apart)} of {apart.size} points is not {formula}, first "
-            problem += f"{told[known][first]:.4g} where they give {follows[known][first]:.4g}; are columns swapped, or "
+        values = printed[used]
+        known = values > 0.0
+        wrong = np.abs(values[known] - follows[known]) > PRINTED * follows[known] + slack
+        if 2 * np.count_nonzero(wrong) > wrong.size:
+            first = int(np.argmax(wrong))
+            problem = f"the {name} of {np.count_nonzero(wrong)} of {wrong.size} points is not {formula}, first "
+            problem += f"{values[known][first]:.4g} instead of {follows[known][first]:.4g}; are columns swapped, or "
             raise DataFileError(path, problem + "is a unit wrong?", code="columns-contradict")
 
 
-#: Sweeps of a rubber, printed in kelvin, lie within this.
+#: Range of sweeps of rubber in kelvin.
 LIKE_KELVIN = (200.0, 400.0)
 #: No rubber is swept below this many kelvin.
 COLDEST = 150.0
@@ -150,7 +150,7 @@ def doubts(table: Table, places: dict[str, int], temperature: Array, storage_mod
     """Return notes on values, K and Pa, that suggest a wrong unit in a heading; nothing is changed."""
     notes = _of_temperature(table, places["temperature"], temperature) if "temperature" in places else []
     solid = (storage_modulus >= PLAUSIBLE_MODULUS[0]) & (storage_modulus <= PLAUSIBLE_MODULUS[1])
-    # what is not above zero is noise of the instrument, told elsewhere
+    # values not above zero are noise of the instrument, reported elsewhere
     outside = ~solid & (storage_modulus > 0.0)
     if np.any(outside):
         row = int(np.argmax(outside))
@@ -158,7 +158,7 @@ def doubts(table: Table, places: dict[str, int], temperature: Array, storage_mod
         notes.append(
             Note(
                 "implausible-modulus",
-                f"A storage modulus of {storage_modulus[row]:.3g} Pa (line {table.lines[row]}) is not one of a solid; "
+                f"No solid has a storage modulus of {storage_modulus[row]:.3g} Pa (line {table.lines[row]}); "
                 f"the unit in column {table.columns[place].heading!r} is probably wrong.",
             )
         )
@@ -176,10 +176,16 @@ def _of_temperature(table: Table, place: int, temperature: Array) -> list[str]:
     in_kelvin = np.allclose(temperature[known], printed, rtol=1e-9, atol=0.0)
     if in_celsius and low >= LIKE_KELVIN[0] and high <= LIKE_KELVIN[1]:
         return [
-            Note("implausible-temperature", f"{span} and look like kelvin; they were read as °C, as the heading says.")
+            Note(
+                "implausible-temperature",
+                f"{span} and look like kelvin; they were read in °C, the unit of the heading.",
+            )
         ]
     if in_kelvin and high < COLDEST:
         return [
-            Note("implausible-temperature", f"{span} and look like °C; they were read as kelvin, as the heading says.")
+            Note(
+                "implausible-temperature",
+                f"{span} and look like °C; they were read in kelvin, the unit of the heading.",
+            )
         ]
     return []

@@ -1,4 +1,4 @@
-"""Which points belong to one isotherm: by measured temperature, and by the steps of the instrument's programme."""
+"""The points of each isotherm, by measured temperature and by the steps of the instrument's programme."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ ISOTHERM_GAP = 1.0  # K
 SAME_TEMPERATURE = 0.7  # K
 #: A step of the programme whose temperature ranges no further than this is one isotherm, settling included.
 ONE_STEP = 2.0  # K
-#: A group without gaps wider than this is not one temperature but a ramp.
+#: A wider group without gaps is not one temperature but a ramp.
 WIDEST_ISOTHERM = 5.0  # K
-#: The temperature of a sample that is held moves by less than one of these from one point to the next, that of a
-#: sample that is heated by more; which of them parts the two depends on how often points were recorded.
+#: Largest change from point to point at a held temperature; a heated sample changes by more.  Which value separates
+#: the two depends on how often points were recorded.
 HELD = (0.3, 0.15, 0.08, 0.04, 0.02)  # K
-#: A sample is held where at least so many frequencies follow each other at one temperature.
+#: Least number of successive frequencies at a held temperature.
 SHORTEST_HOLD = 3
-#: Temperatures that are held lie further apart than they wander, by this factor: those of a noisy ramp do not.
+#: Held temperatures differ by this factor more than they vary; those of a noisy ramp do not.
 APART = 3.0
-#: At a held temperature there are more points by this factor than elsewhere, within so many kelvin on either side.
+#: Density of points at a held temperature over that elsewhere, within so many kelvin on either side.
 CROWDED, NEAR = 2.0, 0.25  # 1, K
 #: Each isotherm of a programme has at least this share of the frequencies of all.
 SWEPT = 0.8
-#: So many temperatures with one frequency each are a temperature sweep.
+#: Least number of temperatures, with one frequency each, of a temperature sweep.
 TEMPERATURE_SWEEP = 5
 
 
@@ -68,7 +68,7 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
         notes.append(
             Note(
                 "temperature-moving",
-                f"{what} temperature was moving between two isotherms ({points.named(sorted(moving))}).",
+                f"{what} temperature was changing between two isotherms ({points.named(sorted(moving))}).",
             )
         )
     merged = _merged(points, groups)
@@ -79,7 +79,7 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
 
 
 def _blocks(points: Points, keep: Indices) -> list[Indices]:
-    """Part the points by file and, where the file tells it, by step."""
+    """Separate the points by file and, if known, by step."""
     keys = np.stack([points.file[keep], np.where(points.has_step[keep], points.step[keep], 0)], axis=1)
     _, which = np.unique(keys, axis=0, return_inverse=True)
     which = np.ravel(which)
@@ -88,7 +88,7 @@ def _blocks(points: Points, keep: Indices) -> list[Indices]:
 
 
 def _by_gaps(points: Points, block: Indices) -> list[Indices]:
-    """Part points where neighbours in temperature differ by more than a gap."""
+    """Separate points at gaps between neighbours in temperature."""
     kelvin = points.temperature[block]
     if points.has_step[block[0]] and np.ptp(kelvin) <= ONE_STEP:
         return [block]
@@ -98,9 +98,9 @@ def _by_gaps(points: Points, block: Indices) -> list[Indices]:
 
 
 def _by_repeats(points: Points, group: Indices) -> list[Indices]:
-    """Part points at the widest gaps in temperature where each part then has all frequencies: programmes step by 1 K.
+    """Separate points at the widest gaps in temperature if each part then has all frequencies: programmes step by 1 K.
 
-    Sweeps repeated at one temperature leave no such gaps and stay together.
+    Repeated sweeps at one temperature have no such gaps and stay together.
     """
     order = group[np.argsort(points.temperature[group], kind="stable")]
     kelvin = points.temperature[order]
@@ -116,23 +116,25 @@ def _by_repeats(points: Points, group: Indices) -> list[Indices]:
 
 
 def _insist_on_one_temperature(points: Points, groups: list[Indices], source: str) -> None:
-    """Refuse isotherms most of whose frequencies were measured at temperatures too far apart to be averaged."""
+    """Refuse isotherms with most frequencies measured at temperatures too different to be averaged."""
     for group in groups:
         order = group[np.argsort(points.angular_frequency[group], kind="stable")]
         cuts = np.flatnonzero(np.diff(np.round(np.log(points.angular_frequency[order]), 2))) + 1
         spans = np.array([np.ptp(points.temperature[same]) for same in np.split(order, cuts)])
         if 2 * np.count_nonzero(spans > ISOTHERM_GAP) > spans.size:
             low, high = (f"{celsius(float(f(points.temperature[group]))):z.1f}" for f in (np.min, np.max))
-            problem = f"each frequency was measured several times between {low} and {high} °C, and the temperatures "
+            problem = (
+                f"each frequency was measured several times between {low} and {high} °C, so that the temperatures "
+            )
             raise DataFileError(
                 source,
-                problem + "cannot be parted into isotherms; give them as a column of steps.",
+                problem + "cannot be grouped into isotherms; add a column of steps.",
                 code="no-isotherms",
             )
 
 
 def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
-    """Return the stretches of a heated sample's points in which its temperature was held."""
+    """Return the runs of a heated sample's points at a held temperature."""
     for step in HELD:
         held = _stretches(points, group, step)
         if len(held) < 2 or not _lie_apart(points, held):
@@ -143,14 +145,14 @@ def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
     low, high = float(kelvin.min()), float(kelvin.max())
     raise DataFileError(
         source,
-        f"the temperatures from {celsius(low):z.1f} to {celsius(high):z.1f} °C run on without a gap of "
-        f"{ISOTHERM_GAP:g} K; isothermal sweeps are wanted, not a temperature ramp.",
+        f"the temperatures run continuously from {celsius(low):z.1f} to {celsius(high):z.1f} °C, without a gap of "
+        f"{ISOTHERM_GAP:g} K; isothermal sweeps are needed, not a temperature ramp.",
         code="temperature-ramp",
     )
 
 
 def _stretches(points: Points, group: Indices, step: float) -> list[Indices]:
-    """Return runs of points that follow each other by less than a step, those at one temperature joined."""
+    """Return runs of points with smaller steps between neighbours, those at one temperature joined."""
     runs = np.split(group, np.flatnonzero(np.abs(np.diff(points.temperature[group])) > step) + 1)
     held: list[Indices] = []
     for run in runs:
@@ -164,7 +166,7 @@ def _stretches(points: Points, group: Indices, step: float) -> list[Indices]:
 
 
 def _lie_apart(points: Points, held: list[Indices]) -> bool:
-    """Return whether temperatures lie much further apart than each wanders while it is held."""
+    """Return whether temperatures differ much more than each varies while it is held."""
     wander = [float(np.ptp(points.temperature[run])) for run in held]
     between = [abs(_mean(points, run) - _mean(points, after)) for run, after in pairwise(held)]
     return max(wander) <= ONE_STEP and all(
@@ -173,7 +175,7 @@ def _lie_apart(points: Points, held: list[Indices]) -> bool:
 
 
 def _are_crowded(points: Points, group: Indices, held: list[Indices]) -> bool:
-    """Return whether points crowd at the held temperatures; along a ramp they lie as close everywhere."""
+    """Return whether points accumulate at the held temperatures; along a ramp their density is uniform."""
     kelvin = points.temperature[group]
     near = [int(np.sum(np.abs(kelvin - _mean(points, run)) <= NEAR)) for run in held]
     rest = max(len(group) - sum(len(run) for run in held), 0)
@@ -215,7 +217,7 @@ def _insist_on_several(points: Points, groups: list[Indices], source: str) -> li
     """Leave out groups of one or two frequencies beside isotherms with several; refuse a temperature sweep."""
     counts = [len(_printed_frequencies(points, group)) for group in groups]
     if len(groups) >= TEMPERATURE_SWEEP and max(counts) == 1:
-        problem = f"each of the {len(groups)} temperatures has one frequency; frequency sweeps are wanted, not a "
+        problem = f"each of the {len(groups)} temperatures has one frequency; frequency sweeps are needed, not a "
         raise DataFileError(source, problem + "temperature sweep.", code="temperature-sweep")
     # one frequency beside three, two beside six
     needed = min(3, 1 + max(counts) // 3)

@@ -1,4 +1,4 @@
-"""Isotherms out of the points that a format's reader hands on: grouped, sorted, averaged, and told where doubtful."""
+"""Isotherms from the points of files: grouped, sorted and averaged, with notes on what is doubtful."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from viscofric.readers.dma.readings import Points, Readings
 
 
-#: Frequencies closer than this (relative) are the same one, printed or measured twice.
+#: Frequencies closer than this (relative) are the same, printed or measured twice.
 SAME_FREQUENCY = 1e-4
-#: Repeated readings that differ by more than this are told.
+#: Repeated readings that differ by more than this get a note.
 REPEATS_DIFFER = 0.02
 
 
@@ -46,7 +46,7 @@ class TracedSweeps:
 
     @property
     def left_out(self) -> Indices:
-        """Rows of `points` that are in no isotherm; the notes of the sweeps say why."""
+        """Rows of `points` that are in no isotherm; the notes of the sweeps give the reasons."""
         used = np.concatenate([one.rows for one in self.isotherms])
         return np.setdiff1d(np.arange(len(self.points)), used)
 
@@ -109,14 +109,14 @@ def _names(readings: Sequence[Readings]) -> str:
 def _on_formats(readings: Sequence[Readings]) -> list[Note]:
     formats = list(dict.fromkeys(one.format for one in readings))
     if len(formats) == 1:
-        what = "The file was" if len(readings) == 1 else f"All {len(readings)} files were"
-        return [Note("format", f"{what} taken for: {formats[0]}.")]
+        what = "Read" if len(readings) == 1 else f"All {len(readings)} files were read"
+        return [Note("format", f"{what} as {formats[0]}.")]
     taken = [(name, [one for one in readings if one.format == name]) for name in formats]
-    return [Note("format", "; ".join(f"{_names(some)} taken for: {name}" for name, some in taken) + ".")]
+    return [Note("format", "; ".join(f"{_names(some)} read as {name}" for name, some in taken) + ".")]
 
 
 def _own_notes(readings: Sequence[Readings]) -> list[Note]:
-    """Return what the readers noted; a note that several files share stands once."""
+    """Return the notes of the readers; a note that several files share appears once."""
     if len(readings) == 1:
         return list(map(note_of, readings[0].notes))
     shared: dict[Note, list[Readings]] = {}
@@ -127,17 +127,17 @@ def _own_notes(readings: Sequence[Readings]) -> list[Note]:
 
 
 def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[Note]]:
-    """Decide between tension and shear: what the files say, else what the caller says."""
+    """Decide between tension and shear: by the files, else by the caller."""
     if asked not in (None, "tension", "shear"):
         raise InputError(f"deformation = {asked!r}: must be 'tension' or 'shear'.", code="wrong-choice")
     said = [one for one in readings if one.deformation is not None]
     if not said:
         if asked is not None:
-            note = f"The moduli are taken as measured in {asked}, as asked; the file does not say it."
+            note = f"The moduli were read as measured in {asked}, as requested; the file does not state it."
             return asked, [Note("deformation-given", note)]
         note = Note(
             "deformation-unknown",
-            "The file does not say whether its moduli are tensile or shear; shown as tensile until that is known.",
+            "The file does not state whether its moduli are tensile or shear; shown as tensile until this is known.",
         )
         return "tension", [note]
     kind = said[0].deformation or "tension"
@@ -145,21 +145,21 @@ def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tup
     other = next((one for one in said if one.deformation != kind), None)
     if other is not None:
         other_by = f" ({other.said_by})" if other.said_by else ""
-        problem = f"says {other.deformation}{other_by}, but {said[0].source} says {kind}{by}; read them apart."
+        problem = f"states {other.deformation}{other_by}, but {said[0].source} states {kind}{by}; read them separately."
         raise DataFileError(other.source, problem, code="deformation-contradicts")
     if asked not in (None, kind):
         raise DataFileError(
             said[0].source,
-            f"the header says {kind}{by}, but deformation={asked!r} was asked.",
+            f"the header states {kind}{by}, but deformation={asked!r} was requested.",
             code="deformation-contradicts",
         )
-    notes = [Note("deformation", f"The file's header says that the moduli were measured in {kind}{by}.")]
+    notes = [Note("deformation", f"The file's header states that the moduli were measured in {kind}{by}.")]
     silent = [one for one in readings if one.deformation is None]
     if silent:
         notes.append(
             Note(
                 "deformation-not-said",
-                f"{_names(silent)}: does not say whether the moduli are tensile or shear; taken as {kind}.",
+                f"{_names(silent)}: no statement whether the moduli are tensile or shear; read as {kind}.",
             )
         )
     return kind, notes
@@ -187,7 +187,7 @@ def _isotherm(points: Points, rows: Indices) -> Sorted:
 
 
 def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: int) -> list[Note]:
-    """Tell what was sorted and averaged."""
+    """Return notes on sorting and averaging."""
     notes = []
     unsorted = [one for one in sweeps if np.any(np.diff(points.angular_frequency[one.rows]) < 0)]
     averaged = [one for one in sweeps if len(one.rows) > len(one.origins)]
@@ -205,7 +205,7 @@ def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: in
             notes.append(
                 Note(
                     "measured-again",
-                    f"All frequencies {at(again)} were measured more than once, as in sweeps run again.",
+                    f"All frequencies {at(again)} were measured more than once, as in repeated sweeps.",
                 )
             )
         worst, kelvin = max(_disagreement(points, one) for one in averaged)
@@ -222,7 +222,7 @@ def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: in
 
 
 def _disagreement(points: Points, one: Sorted) -> tuple[float, float]:
-    """Return by how much repeated readings of |E*| differ at most (relative), and the temperature, K."""
+    """Return the largest relative difference of repeated readings of |E*|, and the temperature, K."""
     size = np.hypot(points.storage_modulus, points.loss_modulus)
     worst = max(float(np.ptp(size[rows]) / np.mean(size[rows])) for rows in one.origins)
     return worst, one.isotherm.temperature

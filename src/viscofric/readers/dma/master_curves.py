@@ -1,4 +1,4 @@
-"""Master curves that a user or the software of an instrument has made, from a text table, a workbook or RepTate."""
+"""Finished master curves, from a text table, a workbook or RepTate."""
 
 from __future__ import annotations
 
@@ -50,9 +50,9 @@ def read_master_curve(
         Text table or workbook with (reduced) frequency, storage and loss modulus and their units, as for `read_dma`,
         such as the ``master_curve.csv`` that ``viscofric material fit`` writes, or a .tts file of RepTate.
     reference : float, str or quantity
-        Temperature that the curve holds for, K if a plain number.
+        Reference temperature of the curve, K if a plain number.
     deformation : {"tension", "shear"}, optional
-        What the moduli are, where the file does not say it.
+        Kind of the moduli, if the file does not state it.
     poisson_ratio : float
         ν of E = 2(1+ν)G, for moduli in shear.
     modulus_unit : str, optional
@@ -67,8 +67,8 @@ def read_master_curve(
     Raises
     ------
     DataFileError
-        If the file cannot be read, columns contradict each other, a value is missing or not above zero, nobody says
-        whether the moduli are tensile or shear, or the file states another reference temperature.
+        If the file cannot be read, columns contradict each other, a value is missing or not above zero, tension or
+        shear is not stated, or the file states another reference temperature.
     InputError
         If an argument is wrong.
 
@@ -112,7 +112,7 @@ def _table(source: Source) -> Table:
         raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
     tables = workbook.tables(source)
     if len(tables) > 1:
-        problem = f"the sheets {', '.join(map(repr, tables))} each hold a table with moduli; keep one of them."
+        problem = f"the sheets {', '.join(map(repr, tables))} each contain a table with moduli; keep one of them."
         raise DataFileError(source.path, problem, code="several-tables")
     return next(iter(tables.values()))
 
@@ -159,7 +159,7 @@ def _stated_reference(source: Source) -> float:
 
 def _insist_on_reference(source: Source, stated: float, reference: float) -> None:
     if np.isfinite(stated) and abs(stated - reference) > _SAME_REFERENCE:
-        problem = f"its first line gives the reference temperature {celsius(stated):.4g} °C, not "
+        problem = f"states the reference temperature {celsius(stated):.4g} °C, not "
         raise DataFileError(source.path, f"{problem}{celsius(reference):.4g} °C.", code="other-reference")
 
 
@@ -172,10 +172,12 @@ def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> 
 
 
 def _kind(source: Source, said: Deformation | None, asked: Deformation | None) -> Deformation:
-    """Return what the moduli are; nothing is assumed."""
+    """Return the kind of the moduli; nothing is assumed."""
     if said is not None and asked not in (None, said):
         raise DataFileError(
-            source.path, f"the file says {said}, but deformation={asked!r} was asked.", code="deformation-contradicts"
+            source.path,
+            f"the file states {said}, but deformation={asked!r} was requested.",
+            code="deformation-contradicts",
         )
     kind = said or asked
     if kind is None:

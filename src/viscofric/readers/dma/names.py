@@ -1,4 +1,4 @@
-"""What the columns of DMA tables are called, in the languages that instruments and laboratories print."""
+"""Words in files: names of columns in several languages, and what implies tension or shear."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from viscofric.data import Deformation
 
-    #: What the moduli are and what in the file says so; (None, "") where nothing does.
+    #: Kind of the moduli and the words of the file that state it, or (None, "").
     Said = tuple[Deformation | None, str]
 
 
@@ -25,7 +25,7 @@ TEMPERATURE = frozenset(
     | {"temperatur", "probentemperatur", "messtemperatur", "température", "temperatura", "temperatuur", "teplota"}
     | {"lämpötila", "hőmérséklet", "température échantillon", "температура", "温度", "온도"}
 )
-#: What the programme asked for, taken only where no measured temperature is printed.
+#: Of the programme, read only without a measured temperature.
 SET_TEMPERATURE = frozenset(
     {"set temperature", "set temp.", "programme temperature", "program temperature", "nominal temperature"}
     | {"solltemperatur", "température de consigne", "temperatura programada", "temperatura impostata"}
@@ -83,7 +83,7 @@ STRAIN_AMPLITUDE = frozenset(
 )
 STEP = frozenset({"set", "step", "segment", "interval", "sweep", "schritt", "abschnitt", "intervalle", "étape", "paso"})
 
-#: What each column may hold, by the word that errors use for it.
+#: Name of a quantity in errors -> names of its columns.
 QUANTITIES = {
     "temperature": TEMPERATURE,
     "set temperature": SET_TEMPERATURE,
@@ -99,7 +99,7 @@ QUANTITIES = {
     "step": STEP,
 }
 
-# "foam_-25C", "T 25 °C": a number and its unit, set apart from other letters and digits.
+# "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.
 _TEMPERATURE_IN_NAME = re.compile(
     r"(?:(?P<mark>^|[\s_=(,;])(?P<sign>[+−-]?)|(?P<dash>-))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     r"(?P<unit>°C|degC|deg_C|C|K)(?![^\W_])"
@@ -129,10 +129,10 @@ def temperature_in_name(name: str) -> float | None:
     return kelvin if kelvin > 0.0 else None
 
 
-#: What remains to do where nothing decides: the end of a sentence.
+#: The problem if nothing decides between tension and shear.
 NOT_SAID = Note(
     "no-deformation",
-    "does not say whether it was measured in tension or in shear, a factor of 3 in the modulus; give ",
+    "does not state whether it was measured in tension or in shear, a factor of 3 in the modulus; give ",
     remedy=setting("material.deformation", "Measured in", "'tension' or 'shear'") + ".",
 )
 
@@ -141,8 +141,8 @@ _SHEAR = re.compile(rf"\|?g['*\s]|g-|gstor|gloss|.*(\bg['*]|{_SHEAR_WORDS})")
 _TENSION = re.compile(r"\|?e['*\s]|e-|estor|eloss|.*(\be['*]|tensi|young|zug|traction|tracción|trazione|tração)")
 _SHEARED = re.compile(_SHEAR_WORDS)
 
-# Instruments give every modulus the same name, so that the tool which held the sample decides between E and G.  Plates
-# shear in rotation; where they compress, in axial oscillation, a force stands beside the moduli, or a word says so.
+# Instruments give every modulus the same name, so the sample holder decides between E and G.  Plates shear in rotation;
+# if they compress, in axial oscillation, there is a column of force, or a word for it.
 _PLATES = re.compile(
     r"parallel[ -]?plat|plates?[ /–-]+plates?\b|platte[ /–-]+platte|plan[ /–-]+plan\b|(plaques|plateaux) parall"
     r"|(placas|pratos) paralel|piatti paralleli|\bPP ?-?\d",
@@ -156,7 +156,7 @@ _STRETCHING = re.compile(
     r"|compress|kompression|cantilever|\bbend|flexion|\b(zug|biege|druck)",
     re.IGNORECASE,
 )
-#: Lines and sheets beside a table in which an instrument or a person names the tool, by their label.
+#: Labels of lines and sheets, outside the table, that name the sample holder.
 _TOOL_LABEL = re.compile(
     r"g[eé]om[eé]tr|clamp|fixture|einspannung|probenhalter|\btool\b|\bmode\b|deformation"
     r"|(measuring|measurement) (system|cell|device|body)|mess(system|zelle|körper|geometrie)"
@@ -173,7 +173,7 @@ _FORCE = re.compile(
 
 
 def deformation_of(name: str) -> Deformation | None:
-    """Return whether a modulus of this name is tensile or shear, None if the name does not say it."""
+    """Return whether a modulus of this name is tensile or shear, None if the name does not state it."""
     lower = re.sub(r"[’′‘`´]", "'", name).lower() + " "
     if _SHEAR.match(lower):
         return "shear"
@@ -198,7 +198,7 @@ def tool_says(texts: Iterable[tuple[str, str]], *, axial: bool = False) -> Said:
 
 
 def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
-    """Return label and value of those rows of cells that name a tool: ``Geometry``, or ``# Clamp: film tension``."""
+    """Return label and value of those rows of cells that name a sample holder: ``# Clamp: film tension``."""
     found = []
     for row in rows:
         cells = [cell.strip().lstrip("#").strip() for cell in row if cell.strip()]
@@ -210,10 +210,10 @@ def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
 
 
 def said_by_columns(moduli: Iterable[str], columns: Iterable[str], tools: Iterable[tuple[str, str]] = ()) -> Said:
-    """Decide between E and G by headings and tools.
+    """Decide between E and G by headings and sample holder.
 
-    The headings of the moduli come first, then the tool (see `tools_in`), then a column of shear strain, stress or
-    rate, then a torque without a force.  `columns` are the headings of all columns that hold numbers.
+    The headings of the moduli come first, then the sample holder (see `tools_in`), then a column of shear strain,
+    stress or rate, then a torque without a force.  `columns` are the headings of all columns that hold numbers.
     """
     for heading in moduli:
         kind = deformation_of(heading)

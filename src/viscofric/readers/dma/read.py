@@ -1,4 +1,4 @@
-"""Frequency sweeps of a dynamic mechanical analyser from any file that is known, recognised by its content."""
+"""Frequency sweeps of a dynamic mechanical analyser from any known format, recognised by content."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Format(Protocol):
         """Return the points of the file, or raise `DataFileError`."""
 
 
-#: Tried in this order: workbooks and delimited tables come last, since exports of instruments are such too.
+#: In this order: workbooks and delimited tables come last, since exports of instruments may have these forms.
 FORMATS: tuple[Format, ...] = (
     universal_analysis,
     trios_json,
@@ -69,10 +69,10 @@ def format_of(source: Source) -> Format:
     if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
         raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.", code="empty")
     if source.text is None:
-        what = "is a binary file of no known kind"
+        what = "is a binary file of an unknown format"
     else:
-        what = "has no columns that name a modulus and a frequency"
-    raise DataFileError(source.path, f"{what}; what can be read: {known()}.", code="unknown-format")
+        what = "has no columns named as a modulus and a frequency"
+    raise DataFileError(source.path, f"{what}. Supported formats: {known()}.", code="unknown-format")
 
 
 def known() -> str:
@@ -89,7 +89,7 @@ def read_dma(
 ) -> IsothermalSweeps:
     """Read frequency sweeps at several temperatures from files of a dynamic mechanical analyser or a rheometer.
 
-    The format is told by the content, never by the name: exports of instruments, Excel workbooks, and text tables
+    The format is recognised by the content, never by the name: exports of instruments, Excel workbooks, and text tables
     with a header that names temperature, frequency (``f (Hz)``) or angular frequency (``omega (rad/s)``), storage
     and loss modulus, each with its unit in the same row or the row below; rows in any order.
 
@@ -98,27 +98,25 @@ def read_dma(
     *paths : str or path, or a list of them
         One or many files of one specimen; units may differ between them, the kind of deformation may not.
     deformation : {"tension", "shear"}, optional
-        What the moduli are, where the files do not say it: by headings (E' or G'), by the tool that held the sample,
-        or by a torque.
+        Kind of the moduli, if the files do not state it by headings (E' or G'), by the sample holder or by a torque.
     temperature : float, str or quantity, or a list with one (or None) per file, optional
-        Of files that hold none, K if a plain number.  Without it the temperature in a file's name
-        (``foam_-25C.csv``) is taken, with a note.
+        For files without temperatures, K if a plain number.  The default is the temperature in the file's name
+        (``foam_-25C.csv``), with a note.
     modulus_unit : str, optional
-        Of files that do not name it: ``"MPa"``.
+        For files without the unit of their moduli, such as ``"MPa"``.
 
     Returns
     -------
     IsothermalSweeps
-        In SI units; `format` says what the files were taken for.  Its notes name every point left out (a value
-        missing or not above zero, recorded while the temperature was moving), averaged or reordered, and what is
-        doubtful.
+        In SI units; `format` is the recognised format.  The notes name every point left out (a value missing or not
+        above zero, recorded while the temperature was changing), averaged or reordered, and everything doubtful.
 
     Raises
     ------
     DataFileError
         If a file cannot be read or is not recognised, a column or unit is missing or wrong, a cell is no number,
-        most storage moduli or frequencies are not above zero, files contradict each other or are given twice, nobody
-        says whether the moduli are tensile or shear, or the temperatures form a ramp, not isotherms.
+        most storage moduli or frequencies are not above zero, files contradict each other or are given twice, tension
+        or shear is not stated, or the temperatures form a ramp, not isotherms.
     InputError
         If no file is given, or an argument is wrong.
 
@@ -160,7 +158,7 @@ def trace_dma(
     readings = [_read(source) for source in sources]
     if modulus_unit is not None and not any(one.unit_is_asked for one in readings):
         raise InputError(
-            f"modulus_unit = {modulus_unit!r}: the files name the units of their moduli; leave it out.",
+            f"modulus_unit = {modulus_unit!r}: the files state the units of their moduli; leave it out.",
             code="unit-not-needed",
         )
     return traced_sweeps(readings, deformation)
@@ -175,7 +173,7 @@ def _files(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]])
         try:
             files += [str(one) for one in path]
         except TypeError:
-            raise InputError(f"{path!r} is not the name of a file, nor a list of such.", code="not-a-name") from None
+            raise InputError(f"{path!r} is not the name of a file or a list of names.", code="not-a-name") from None
     if not files:
         raise InputError("read_dma needs at least one file.", code="no-file")
     return files
@@ -210,12 +208,12 @@ def _bytes(path: str) -> bytes:
 
 
 def _insist_on_different(sources: Sequence[Source]) -> None:
-    """Refuse readings that would count twice."""
+    """Refuse files that would count twice."""
     seen: dict[object, Source] = {}
     for source in sources:
         for key, problem in (
             (Path(source.path).resolve(), "is given twice; name each file once."),
-            (source.data, "holds the same as {}; give one of them only."),
+            (source.data, "has the same content as {}; give only one of them."),
         ):
             if key in seen:
                 raise DataFileError(source.path, problem.format(seen[key].path), code="given-twice")
@@ -223,13 +221,13 @@ def _insist_on_different(sources: Sequence[Source]) -> None:
 
 
 def _read(source: Source) -> Readings:
-    """Read one file, and see that what the user said of it was wanted."""
+    """Read one file, and refuse a temperature that it does not need."""
     readings = format_of(source).read(source)
-    told = source.temperature
-    if told is not None and not np.all(np.isclose(readings.temperature, told, rtol=0.0, atol=1e-9)):
+    given = source.temperature
+    if given is not None and not np.all(np.isclose(readings.temperature, given, rtol=0.0, atol=1e-9)):
         raise DataFileError(
             source.path,
-            f"holds temperatures itself ({readings.format}); leave out temperature.",
+            f"contains temperatures ({readings.format}); leave out temperature.",
             code="temperature-not-needed",
         )
     return readings

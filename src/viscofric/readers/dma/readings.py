@@ -1,4 +1,4 @@
-"""What a reader of one DMA format hands on: the points of a file in SI units, not yet sorted into isotherms."""
+"""The output of a format's reader: points of files in SI units, not yet sorted into isotherms."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viscofric.data import Deformation, Isotherm
 
 
-#: What to do with a master curve where sweeps are read, and with sweeps where a master curve is.
+#: What to do with a master curve in place of sweeps, and with sweeps in place of a master curve.
 AS_MASTER_CURVE = Remedy(
     "; use read_master_curve with its reference temperature.",
     run_file="; name it as master_curve, with its reference_temperature.",
@@ -59,7 +59,7 @@ class Readings:
         return len(self.temperature)
 
 
-#: So many are named where many share a note.
+#: Number of places named in one note.
 _SHOWN = 3
 
 
@@ -84,11 +84,11 @@ class Points:
         """Return the places of points, the first few of many: ``"lines 18, 20, 31 and 9 more"``."""
         places = [self.places[index] for index in indices]
         shown, more = places[:_SHOWN], max(0, len(places) - _SHOWN)
-        parted = [re.fullmatch(r"(?P<before>.*?)(?P<what>line|row|point) (?P<number>\d+)", place) for place in shown]
-        alike = {(one["before"], one["what"]) for one in parted if one}
-        if len(places) > 1 and len(alike) == 1 and all(parted):
+        parts = [re.fullmatch(r"(?P<before>.*?)(?P<what>line|row|point) (?P<number>\d+)", place) for place in shown]
+        alike = {(one["before"], one["what"]) for one in parts if one}
+        if len(places) > 1 and len(alike) == 1 and all(parts):
             before, what = alike.pop()
-            shown = [one["number"] for one in parted if one]
+            shown = [one["number"] for one in parts if one]
             return f"{before}{what}s {listed(shown, more)}"
         return listed(shown, more)
 
@@ -103,7 +103,7 @@ class Sorted:
 
 
 def joined(readings: Sequence[Readings]) -> Points:
-    """Put the points of all files in one row."""
+    """Join the points of all files."""
     several = len(readings) > 1
     counts = [len(one) for one in readings]
     places = [

@@ -1,4 +1,4 @@
-"""Notes on sweeps that are usable but doubtful: drifting temperature, outliers, what no rubber does."""
+"""Notes on doubtful isotherms: drifting temperature, outliers, strain amplitudes, curves unlike those of rubber."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
 def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
     wide, drifting, furthest, fastest = [], [], 0.0, 0.0
     for one in sweeps:
-        # of several files, each has its own course of temperature
+        # each of several files has its own course of temperature
         spans = [
             points.temperature[one.rows[points.file[one.rows] == file]] for file in np.unique(points.file[one.rows])
         ]
@@ -98,9 +98,9 @@ def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
         hertz = isotherm.angular_frequency[place] / (2 * math.pi)
         where = f"{celsius(isotherm.temperature):z.1f} °C, {hertz:.4g} Hz"
         if len(found) == 1:
-            told = f"The {name} modulus at {where} ({points.named(rows)}) lies far off its neighbours; it was kept."
+            told = f"The {name} modulus at {where} ({points.named(rows)}) is far from its neighbours; it was kept."
         else:
-            told = f"{len(found)} {name} moduli lie far off their neighbours, the first at {where}; they were kept "
+            told = f"{len(found)} {name} moduli are far from their neighbours, the first at {where}; they were kept "
             told += f"({points.named(rows)})."
         notes.append(Note("outlying-modulus", told))
     return notes
@@ -158,7 +158,7 @@ def _residuals(x: Array, y: Array) -> Array:
 
 
 def _on_sense(sweeps: Sequence[Sorted]) -> list[Note]:
-    """Tell what no rubber does: it grows softer when it cools, or dissipates far more than it stores."""
+    """Return notes on what rubber never does: softening on cooling, or dissipating far more than it stores."""
     notes = []
     storage = np.concatenate([one.isotherm.storage_modulus for one in sweeps])
     loss = np.concatenate([one.isotherm.loss_modulus for one in sweeps])
@@ -188,7 +188,7 @@ def _on_sense(sweeps: Sequence[Sorted]) -> list[Note]:
     return notes
 
 
-#: Strain amplitudes of isotherms that differ by more than this factor are told.
+#: Strain amplitudes of isotherms that differ by more than this factor get a note.
 AMPLITUDES_DIFFER = 1.2
 #: A frequency that is held scatters by less than this as it is measured; no sweep has as many points,
 HELD_FREQUENCY = 0.05
@@ -214,7 +214,7 @@ def insist_on_one_amplitude(points: Points, rows: Indices, source: str) -> None:
         f"{at([kelvin])} the strain amplitude runs from {span} at one frequency ({points.named(swept)}); frequency "
     )
     raise DataFileError(
-        source, problem + "sweeps at one amplitude are wanted, not an amplitude sweep.", code="amplitude-sweep"
+        source, problem + "sweeps at one amplitude are needed, not an amplitude sweep.", code="amplitude-sweep"
     )
 
 
@@ -230,7 +230,9 @@ def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:
             known.append((amplitude[amplitude > 0.0], one.isotherm.temperature))
     if not known:
         return []
-    falls = "the modulus of a filled rubber falls with amplitude (Payne effect), which superposition would take for "
+    falls = (
+        "the modulus of a filled rubber falls with amplitude (Payne effect), which superposition would take for one of "
+    )
     notes = []
     (least, at_least), (most, at_most) = (f((float(np.median(one)), T) for one, T in known) for f in (min, max))
     if most > AMPLITUDES_DIFFER * least:

@@ -1,1 +1,1 @@
-"""Traction runs of tribometers: formats told by content, readings with signed speeds and forces."""
+"""Traction runs of tribometers: formats recognised by content, readings with signed speeds and forces."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 NAME = "a delimited text table with one reading per row"
 
-#: What a table must hold: names that are understood, and the SI unit.
+#: Required columns: known names, and the SI unit.
 COLUMNS = {
     "disc speed": (frozenset({"disc speed", "disk speed", "u disc", "u disk"}), "m/s"),
     "ball speed": (frozenset({"ball speed", "u ball"}), "m/s"),
@@ -26,7 +26,7 @@ COLUMNS = {
     "load": (frozenset({"load", "ball load", "normal load", "normal force"}), "N"),
     "temperature": (frozenset({"T", "temp", "temp.", "temperature"}), "K"),
 }
-#: What it may hold besides, empty where it is not known.
+#: Optional columns; cells may be empty.
 OPTIONAL = {
     "zero force": (frozenset({"zero force", "zero traction force"}), "N"),
     "time": (frozenset({"t", "time", "step time"}), "s"),
@@ -95,7 +95,7 @@ def _columns(table: Table) -> dict[str, int]:
 
 
 def _unused(table: Table, places: dict[str, int]) -> tuple[str, ...]:
-    """Name the columns that are not read; refuse numbered forces and speeds, which are readings of their own."""
+    """Return a note on unread columns; refuse numbered forces and speeds, which are separate readings."""
     known = [names for names, _ in OPTIONAL.values()] + [REPLICATE, STEP]
     others = [place for names in known if (place := table.find(names, min(names))) is not None]
     unused = table.unused([*places.values(), *others])

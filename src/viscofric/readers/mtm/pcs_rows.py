@@ -1,4 +1,4 @@
-"""All rows of an export as columns of numbers in SI units, with their places in the file."""
+"""The rows of a PCS export as columns in SI units, and notes on what they contain and what disagrees."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Rows:
         return np.stack([self.columns[name] for name in names])
 
     def at(self, place: int) -> str:
-        """Say where a row stands, as the beginning of a sentence."""
+        """Return the place of a row, as the beginning of a sentence."""
         return at(self.export.steps[self.step[place]], int(self.row[place]))
 
     def insist(self, good: np.ndarray[tuple[int, ...], np.dtype[np.bool_]], problem: str) -> None:
@@ -59,7 +59,7 @@ class Rows:
 
 
 def rows_of(export: Export) -> Rows:
-    """Turn the cells of an export into numbers, or raise `DataFileError` for the first that is none."""
+    """Convert the cells of an export to numbers, or raise `DataFileError` for the first that is none."""
     blocks = [(place, step, block) for place, step in enumerate(export.steps) for block in step.blocks if block.rows]
     empty = np.empty(0)
 
@@ -97,15 +97,15 @@ def _column(export: Export, step: Step, block: Block, name: str) -> Array:
 
 
 _ABORTED = re.compile(r"abort|stopped|terminat|interrupt|suspend|fail|error|incomplete", re.IGNORECASE)
-#: More than the rounding of printed forces (N) and coefficients of friction.
+#: Above the rounding of printed forces (N) and coefficients of friction.
 _FORCE_AGREES = 2e-3
 _COEFFICIENT_AGREES = 1e-4
-#: More than that of printed speeds, m/s and relative.
+#: Above that of printed speeds, m/s and relative.
 _SPEED_AGREES, _SPEEDS_AGREE = 5e-5, 1e-3
 
 
 def notes(rows: Rows, row: Integers, signal: Integers, load: Array) -> Iterator[str]:
-    """Say what an export holds and what is doubtful about it, one sentence each."""
+    """Yield notes on the contents of an export and on what is doubtful."""
     yield from _contents(rows.export, np.unique(rows.step[row]))
     yield from _kinds_of_rows(row, signal)
     yield from _disagreements(rows, load)
@@ -113,24 +113,24 @@ def notes(rows: Rows, row: Integers, signal: Integers, load: Array) -> Iterator[
 
 
 def _contents(export: Export, used: Integers) -> Iterator[str]:
-    told = [
-        f"{what} {export.told[key]!r}"
+    found = [
+        f"{what} {export.header[key]!r}"
         for key, what in (
             ("profile description", "profile"),
             ("lubricant name", "lubricant"),
             ("test started", "test started"),
             ("comments", "comments"),
         )
-        if export.told.get(key)
+        if export.header.get(key)
     ]
-    yield Note("format", f"A text export of PCS Instruments' MTM or ETM{''.join(f'; {one}' for one in told)}.")
+    yield Note("format", f"A text export of PCS Instruments' MTM or ETM{''.join(f'; {one}' for one in found)}.")
     without = [step for place, step in enumerate(export.steps) if place not in set(used.tolist())]
     if without:
         kinds = Counter(step.word("step type") or "of no named type" for step in without)
         listed = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common(8))
         yield Note(
             "steps-without-traction",
-            f"{len(without)} of {len(export.steps)} steps hold no traction readings and are passed over: {listed}.",
+            f"{len(without)} of {len(export.steps)} steps hold no traction readings and are skipped: {listed}.",
         )
 
 
@@ -141,7 +141,7 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
     if pairs:
         yield (
             Note(
-                "doubtful-rows",
+                "both-forces",
                 f"{pairs} rows hold TF1 and TF2, each a reading of its own with the ball and disc speeds of its "
                 "number; "
                 "their time is that of the row.",
@@ -150,7 +150,7 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
     if np.any((signal >= 2) & (signal < len(SIGNALS))):
         yield (
             Note(
-                "doubtful-rows",
+                "reversal-assumed",
                 "In TF3 and TF4 disc and ball are assumed to run backwards, and forces to be those of the force cell; "
                 "no sample has shown it.",
             )
@@ -158,8 +158,8 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
     if single:
         yield (
             Note(
-                "doubtful-rows",
-                f"{single} rows hold only a Traction Force and are one reading each; the export does not say whether "
+                "zero-assumed",
+                f"{single} rows hold only a Traction Force and are one reading each; the export does not state whether "
                 "the "
                 "zero traction force is still in it, and it is assumed to be.",
             )
@@ -180,7 +180,7 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
     if off.any():
         yield (
             Note(
-                "doubtful-rows",
+                "force-contradicts",
                 f"In {int(off.sum())} rows the printed Traction Force is not half of TF1 - TF2, the first being "
                 f"{rows.at(int(np.argmax(off))).removesuffix(': ')}; readings are those of TF1 and TF2.",
             )
@@ -191,7 +191,7 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
     if off.any():
         yield (
             Note(
-                "doubtful-rows",
+                "coefficient-contradicts",
                 f"In {int(off.sum())} rows the printed Traction Coeff is not the Traction Force over the load, the "
                 "first "
                 f"being {rows.at(int(np.argmax(off))).removesuffix(': ')}.",
@@ -205,7 +205,7 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
     if off.any():
         yield (
             Note(
-                "doubtful-rows",
+                "sliding-speed-contradicts",
                 f"In {int(off.sum())} rows the printed Sliding Speed is not the difference of disc and ball speed, the "
                 f"first being {rows.at(int(np.argmax(off))).removesuffix(': ')}; readings are those of disc and ball.",
             )
@@ -215,12 +215,12 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
 def _unfinished(export: Export) -> Iterator[str]:
     if export.cut:
         yield Note("cut-short", f"The last row of the file ({export.cut}) is cut short and left out.")
-    planned, completed = (export.told.get(f"number of steps {what}", "") for what in ("in profile", "completed"))
+    planned, completed = (export.header.get(f"number of steps {what}", "") for what in ("in profile", "completed"))
     if completed.isdecimal() and planned.isdecimal() and planned != completed:
         yield Note("steps-missing", f"{completed} of the {planned} steps of the profile were completed.")
     if completed.isdecimal() and completed.lstrip("0") != str(len(export.steps)):
-        yield Note("steps-missing", f"The file tells of {completed} completed steps, but holds {len(export.steps)}.")
+        yield Note("steps-missing", f"The file states {completed} completed steps, but contains {len(export.steps)}.")
     for remark in export.remarks:
         if _ABORTED.search(remark) and "completed normally" not in remark:
-            yield Note("aborted", f"The file says {remark[:120]!r}.")
+            yield Note("aborted", f"The file contains the remark {remark[:120]!r}.")
             break

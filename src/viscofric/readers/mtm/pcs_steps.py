@@ -1,4 +1,4 @@
-"""Text exports of PCS Instruments' MTM and ETM taken apart: steps, what is said of each, and their tables of cells."""
+"""Text exports of PCS Instruments' MTM and ETM: their steps, header lines, times and tables of cells."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 _START = re.compile(r"\s*Step\s+(\d{1,6})\s+started\s+at\b(.*)", re.IGNORECASE)
 NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*", re.ASCII)
-#: No force, speed, temperature or time of a tribometer is larger, in the units that it prints.
+#: Above every force, speed, temperature or time of a tribometer, in printed units.
 LARGEST = 1e9
 _NUMBERED = tuple(f"{what} {place}" for what in ("ball speed", "disc speed") for place in (1, 2, 3, 4))
-#: Column that is looked for -> the SI unit.
+#: Column -> SI unit.
 UNITS = {
     "step time": "s",
     "pot rtd temp": "K",
@@ -39,7 +39,7 @@ _SPEED_UNITS = ("rolling speed", "sliding speed")
 
 @dataclass(frozen=True)
 class Place:
-    """Where a table holds a column: its place, heading, and what turns its numbers into SI units."""
+    """A column of a table: its place, its heading, and the conversion to SI units."""
 
     place: int
     heading: str
@@ -49,7 +49,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Layout:
-    """The columns of a table: how many there are, and where those are that are looked for."""
+    """The number of columns of a table, and the known ones by name."""
 
     width: int
     places: dict[str, Place]
@@ -67,17 +67,17 @@ class Block:
 
 @dataclass(eq=False)
 class Step:
-    """One step: number and start as printed, what the lines before its table say (with their lines), its tables."""
+    """One step: number and start as printed, its header (label, value, line by key) and its tables."""
 
     number: int
     started: str
     line: int
-    told: dict[str, tuple[str, str, int]] = field(default_factory=dict)
+    header: dict[str, tuple[str, str, int]] = field(default_factory=dict)
     blocks: list[Block] = field(default_factory=list)
 
     def word(self, key: str) -> str:
-        """Return what a line says, empty if there is none."""
-        return self.told[key][1] if key in self.told else ""
+        """Return the value of a header line, or an empty text."""
+        return self.header[key][1] if key in self.header else ""
 
     @property
     def rows(self) -> int:
@@ -87,10 +87,10 @@ class Step:
 
 @dataclass(eq=False)
 class Export:
-    """One export: what stands before the first step, the steps, remarks between them and the row that is cut off."""
+    """One export: its header, its steps, remarks between them, and the place of a last row that is cut off."""
 
     path: str
-    told: dict[str, str] = field(default_factory=dict)
+    header: dict[str, str] = field(default_factory=dict)
     steps: list[Step] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
     cut: str = ""
@@ -98,7 +98,7 @@ class Export:
 
 
 def parse(path: str, text: str) -> Export:
-    """Take an export apart, or raise `DataFileError`."""
+    """Return the parts of an export, or raise `DataFileError`."""
     export = Export(path)
     layouts: dict[str, Layout | None] = {}
     lines = text.splitlines()
@@ -111,9 +111,9 @@ def parse(path: str, text: str) -> Export:
             continue
         cells = line.split("\t")
         if not export.steps:
-            export.told[_key(cells[0])] = next((cell.strip() for cell in cells[1:] if cell.strip()), "")
+            export.header[_key(cells[0])] = next((cell.strip() for cell in cells[1:] if cell.strip()), "")
             if line.lower().startswith("test started at"):
-                export.told["test started"] = line[len("test started at") :].strip()
+                export.header["test started"] = line[len("test started at") :].strip()
             continue
         step = export.steps[-1]
         if len(cells) > 2 and line.lstrip()[:1].isalpha():
@@ -123,7 +123,7 @@ def parse(path: str, text: str) -> Export:
             if layout is not None:
                 _begin(step, layout)
                 continue
-        if not _is_told(path, step, number, cells):
+        if not _is_header_line(path, step, number, cells):
             _take_row(export, step, number, cells, last=number == len(lines))
     _insist_on_width(export)
     comma = any("," in cell for _, row, _ in _all_rows(export) for cell in row)
@@ -132,12 +132,12 @@ def parse(path: str, text: str) -> Export:
 
 
 def at(step: Step, row: int) -> str:
-    """Say where a row stands, as the beginning of a sentence; it is counted from 1 within its step."""
+    """Return the place of a row, counted from 1 within its step, as the beginning of a sentence."""
     return f"step {step.number}, row {row}: "
 
 
 def number_of(export: Export, cell: str, where: str, line: int) -> float | None:
-    """Return a cell as a number, None if it is empty or says that there is none, or raise `DataFileError`."""
+    """Return a cell as a number, None if it is missing, or raise `DataFileError`."""
     if not NUMBER.fullmatch(cell):
         if cell.strip().lower() in MISSING:
             return None
@@ -153,7 +153,10 @@ def number_of(export: Export, cell: str, where: str, line: int) -> float | None:
     elif export.decimal_comma and "." in cell:
         problem = f"{where} holds {cell.strip()!r} with a point, but other numbers of the file have a comma; "
         raise DataFileError(
-            export.path, problem + "write all decimals in one way and no thousands marks.", line, code="mixed-decimals"
+            export.path,
+            problem + "write all decimals in one way, without thousands separators.",
+            line,
+            code="mixed-decimals",
         )
     value = float(cell)
     if abs(value) > LARGEST:
@@ -170,24 +173,24 @@ def _key(cell: str) -> str:
     return " ".join(cell.strip().rstrip(":").lower().split())
 
 
-def _is_told(path: str, step: Step, line: int, cells: list[str]) -> bool:
-    """Take a line that says something of the step: ``Step type``, zero force, track radius."""
+def _is_header_line(path: str, step: Step, line: int, cells: list[str]) -> bool:
+    """Store a header line of the step (``Step type``, zero force, track radius), and return whether it is one."""
     named = len(cells) > 1 and cells[0].lstrip()[:1].isalpha()
     key = heading(cells[0]).name.lower() if named else ""
     if key != "step type" and not key.startswith(("zero traction force", "disc track radius", "disk track radius")):
         return False
-    if key == "step type" and (step.blocks or key in step.told):
+    if key == "step type" and (step.blocks or key in step.header):
         problem = f"step {step.number}: a second step type; is the line 'Step … started at' before it missing?"
         raise DataFileError(path, problem, line, code="step-type-twice")
-    step.told[key.replace("disk", "disc").split(" used for")[0]] = (cells[0], cells[1].strip(), line)
+    step.header[key.replace("disk", "disc").split(" used for")[0]] = (cells[0], cells[1].strip(), line)
     if key == "step type":
         for name, value in zip(cells[2::2], cells[3::2], strict=False):
-            step.told[_key(name)] = (name, value.strip(), line)
+            step.header[_key(name)] = (name, value.strip(), line)
     return True
 
 
 def _layout(path: str, step: Step, line: int, cells: list[str]) -> Layout | None:
-    """Find the columns in a row of headings; None if it is none."""
+    """Return the columns of a row of headings, None for another row."""
     found: dict[str, tuple[int, str, str]] = {}
     for place, cell in enumerate(cells):
         column = heading(cell)
@@ -214,13 +217,13 @@ def _layout(path: str, step: Step, line: int, cells: list[str]) -> Layout | None
 
 
 def _begin(step: Step, layout: Layout) -> None:
-    """Begin a table, or go on with the last one if its headings are repeated."""
+    """Begin a table, or continue the last one if its headings are repeated."""
     if not step.blocks or step.blocks[-1].layout is not layout:
         step.blocks.append(Block(layout, step.rows + 1))
 
 
 def _take_row(export: Export, step: Step, number: int, cells: list[str], *, last: bool) -> None:
-    """Take a row of cells, or a remark."""
+    """Store a row of cells, or a remark."""
     if not step.blocks or (len(cells) == 1 and not NUMBER.fullmatch(cells[0])):
         export.remarks.append("\t".join(cells).strip())
         return
@@ -237,7 +240,7 @@ def _take_row(export: Export, step: Step, number: int, cells: list[str], *, last
 
 
 def _insist_on_width(export: Export) -> None:
-    """Fill rows whose empty last cells were left out all alike, and refuse those that are cut short."""
+    """Refuse rows that are cut short; empty last cells may be missing in all rows alike."""
     for step in export.steps:
         for block in step.blocks:
             widths = [len(row) for row in block.rows]

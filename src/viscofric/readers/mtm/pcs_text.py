@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 NAME = "a text export of PCS Instruments' MTM or ETM"
 
 _SIGNATURE = re.compile(r"(?:\A|[\r\n])[ \t]*Step[ \t]+\d+[ \t]+started[ \t]+at\b", re.IGNORECASE)
-#: Two thermometers of one pot that are further apart do not both sit where they should.
+#: With a larger difference, not both thermometers of a pot are in their places.
 _THERMOMETERS_AGREE = 10.0  # K
-#: Slip over speed above which its sense is beyond doubt.
+#: Slip over speed above which its sign is certain.
 _CLEAR_SLIP = 0.01
 
 
@@ -58,7 +58,9 @@ def read(source: Source, thermometer: Thermometer) -> TractionReadings:
     force = np.concatenate([rows.stacked(*SIGNALS), [rows.columns["traction force"]]])[signal, row]
     sense, sensed = _sense_of_force(force, disc, ball, row, signal)
     time, began, timed = _times(rows, row)
-    zero, radius = (_told(export, *what) for what in (("zero traction force", "N"), ("disc track radius", "m")))
+    zero, radius = (
+        _header_values(export, *what) for what in (("zero traction force", "N"), ("disc track radius", "m"))
+    )
     number, numbering = _step_numbers(export)
     own = rows.step[row]
     return TractionReadings(
@@ -94,7 +96,7 @@ def _load(rows: Rows) -> tuple[Array, tuple[str, ...]]:
 
 
 def _readings(rows: Rows, load: Array) -> tuple[Integers, Integers, tuple[str, ...]]:
-    """Find the readings: row, and place of the signal (4 is that of rows which have the traction force only)."""
+    """Return row and signal number of each reading (4: rows with only the traction force), and notes."""
     signals = rows.stacked(*SIGNALS)
     there = ~np.isnan(signals)
     single = ~there.any(axis=0) & ~np.isnan(rows.columns["traction force"])
@@ -106,7 +108,7 @@ def _readings(rows: Rows, load: Array) -> tuple[Integers, Integers, tuple[str, .
     for some, what in ((~forced, "hold no traction force"), (forced & ~loaded, "were taken without load")):
         if some.any():
             first = rows.at(int(np.argmax(some))).removesuffix(": ")
-            out.append(f"{int(some.sum())} rows {what} and are left out; the first is {first}.")
+            out.append(Note("rows-left-out", f"{int(some.sum())} rows {what} and are left out; the first is {first}."))
     row, signal = np.nonzero((there & loaded).T)
     return row, signal, tuple(out)
 
@@ -134,9 +136,9 @@ def _speeds(rows: Rows, row: Integers, signal: Integers) -> tuple[Array, Array]:
 def _temperature(rows: Rows, row: Integers, thermometer: Thermometer) -> tuple[Array, tuple[str, ...]]:
     """Return the temperature of each reading, K."""
     own, other = (rows.columns[f"{name} rtd temp"][row] for name in (thermometer, _OTHER[thermometer]))
-    told = []
+    remarks = []
     if np.isnan(own).all() and not np.isnan(other).all():
-        told.append(
+        remarks.append(
             Note(
                 "thermometer-missing",
                 f"The {thermometer} RTD was not recorded; temperatures are those of the {_OTHER[thermometer]} RTD.",
@@ -152,16 +154,16 @@ def _temperature(rows: Rows, row: Integers, thermometer: Thermometer) -> tuple[A
                 f"average, but the {_OTHER[thermometer]} RTD reads {celsius(float(np.nanmean(other))):z.1f} °C"
             )
             choice = Remedy(f"; thermometer={_OTHER[thermometer]!r} takes that one.", ".", page=".")
-            told.append(Note("thermometers-differ", words, remedy=choice))
+            remarks.append(Note("thermometers-differ", words, remedy=choice))
         else:
-            told.append(Note("thermometer", f"Temperatures are those of the {thermometer} RTD."))
+            remarks.append(Note("thermometer", f"Temperatures are those of the {thermometer} RTD."))
     lacking = np.flatnonzero(np.isnan(own))
     if lacking.size:
         rows.refuse(int(row[lacking[0]]), "there is a traction force, but no temperature.")
     cold = np.flatnonzero(own <= 0.0)
     if cold.size:
         rows.refuse(int(row[cold[0]]), "the temperature must be above absolute zero.")
-    return own, tuple(told)
+    return own, tuple(remarks)
 
 
 _OTHER: dict[Thermometer, Thermometer] = {"lube": "pot", "pot": "lube"}
@@ -180,13 +182,13 @@ def _sense_of_force(
         agrees = float(np.median((force[first] - force[first + 1]) * np.sign(slip[first] - slip[first + 1]))) >= 0.0
         if agrees:
             return 1.0, ()
-        note = Note("force-signs-turned", "Forces are positive where the ball is faster; their signs are turned round.")
+        note = Note("force-signs-turned", "Forces are positive where the ball is faster; their signs are reversed.")
         return -1.0, (note,)
     alone = (signal == 4) & (np.abs(slip) > clear)
     if alone.any() and float(np.median(force[alone] * np.sign(slip[alone]))) < 0.0:
         note = Note(
             "force-signs-kept",
-            "Most forces point against the slip of the disc on the ball; their signs are kept as they are printed.",
+            "Most forces point against the slip of the disc on the ball; their signs are kept as printed.",
         )
         return 1.0, (note,)
     return 1.0, ()
@@ -213,7 +215,7 @@ def _times(rows: Rows, row: Integers) -> tuple[Array, datetime | None, tuple[str
         return (
             time,
             None,
-            ("There is no step time, so that it is not known when readings were taken.",),
+            (Note("no-time", "There is no step time, so the times of the readings are unknown."),),
         )
     first = float(np.nanmin(time))
     note = Note(
@@ -223,13 +225,13 @@ def _times(rows: Rows, row: Integers) -> tuple[Array, datetime | None, tuple[str
     return time - first, began, (note,) if undated else ()
 
 
-def _told(export: Export, key: str, unit: str) -> Array:
-    """Return what is said before the table of each step, NaN where it is not."""
+def _header_values(export: Export, key: str, unit: str) -> Array:
+    """Return a header value of each step, NaN without it."""
     values = np.full(len(export.steps), np.nan)
     for place, step in enumerate(export.steps):
-        if key not in step.told:
+        if key not in step.header:
             continue
-        printed, cell, line = step.told[key]
+        printed, cell, line = step.header[key]
         value = number_of(export, cell, f"step {step.number}: {key!r}", line)
         if value is None:
             continue

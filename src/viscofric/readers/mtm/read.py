@@ -1,4 +1,4 @@
-"""Traction runs from any files that are known, recognised by their content and put together."""
+"""Traction runs from any known formats, recognised by content and joined."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:
     if pcs_text.recognises(source):
         return pcs_text.read(source, thermometer)
     if source.text is None:
-        what = f"what can be read: {pcs_text.NAME} and {delimited.NAME}"
-        raise DataFileError(source.path, f"is a binary file of no known kind; {what}.", code="unknown-format")
+        what = f"Supported formats: {pcs_text.NAME} and {delimited.NAME}"
+        raise DataFileError(source.path, f"is a binary file of an unknown format. {what}.", code="unknown-format")
     return delimited.read(source)
 
 
 def format_name(source: Source) -> str:
-    """Return what a file is taken for, in words."""
+    """Return the format of a file in words."""
     return pcs_text.NAME if pcs_text.recognises(source) else delimited.NAME
 
 
@@ -48,7 +48,7 @@ _MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature"
 def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> TractionRuns:
     """Read signed traction readings from one or several files of a tribometer (MTM, ETM or your own tables).
 
-    The format is told by the content, never by the name: text exports of PCS Instruments' MTM and ETM, and text
+    The format is recognised by the content, never by the name: text exports of PCS Instruments' MTM and ETM, and text
     tables with a header that names disc speed, ball speed, temperature, load and traction force, each with its
     unit, and optionally replicate and step (whole numbers), zero force, time and track radius, in any order.
 
@@ -57,8 +57,8 @@ def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> 
     *paths : str or path
         The files; those of several temperatures or repetitions become one set of runs.
     thermometer : {"lube", "pot"}
-        Which of an export's thermometers tells the temperature: that in the lubricant, nearer to the contact, or
-        that of the pot.  Where a file has only one of them, that one is taken, with a note.
+        Which of an export's thermometers to use: that in the lubricant, nearer to the contact, or that of the pot.
+        If a file has only one of them, that one is used, with a note.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> 
     check_choice(thermometer, "thermometer", "lube", "pot")
     if isinstance(paths[0], (list, tuple)):
         raise InputError(
-            "read_mtm takes the files one after the other, read_mtm(*paths), not in a list.", code="files-in-a-list"
+            "read_mtm takes the files as separate arguments, read_mtm(*paths), not in a list.", code="files-in-a-list"
         )
     files = [str(file_path(path)) for path in paths]
     for place, path in enumerate(files):
@@ -119,7 +119,7 @@ def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> 
             if part.same_as(other):
                 raise DataFileError(
                     part.source,
-                    f"holds the same readings as {other.source}; give one of them only.",
+                    f"contains the same readings as {other.source}; give only one of them.",
                     code="given-twice",
                 )
     return _together(parts)
@@ -132,12 +132,12 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
     replicate, numbering = _replicates(parts, columns, step)
     friction = columns["traction_force"] / columns["load"]
     several = len(parts) > 1
-    told = [note_of(note).at(Path(part.source).name if several else "") for part in parts for note in part.notes]
+    own = [note_of(note).at(Path(part.source).name if several else "") for part in parts for note in part.notes]
     return TractionRuns(
         **columns,
         replicate=replicate,
         source=", ".join(part.source for part in parts),
-        notes=(*short_notes((*told, *numbering, *timing)), *notes_on_friction(friction)),
+        notes=(*short_notes((*own, *numbering, *timing)), *notes_on_friction(friction)),
         zero_force=_optional(parts, "zero_force"),
         time=time,
         step=step,
@@ -147,7 +147,7 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
 
 
 def _optional(parts: Sequence[TractionReadings], name: str) -> Array | None:
-    """Join a column that not every file has; NaN where it is not there."""
+    """Join a column, NaN for files without it; None if no file has it."""
     columns = [getattr(part, name) for part in parts]
     if all(column is None for column in columns):
         return None
@@ -163,7 +163,7 @@ def _times(parts: Sequence[TractionReadings]) -> tuple[Array | None, tuple[str, 
     starts = [part.began for part in parts]
     known = [start for start in starts if start is not None]
     if len(known) < len(starts):
-        note = "The date of some files is not known, so that time begins anew with each file."
+        note = "The date of some files is not known, so that time starts again with each file."
         return time, (Note("date-unknown", note),)
     later = [(start - min(known)).total_seconds() for start in known]
     return time + np.repeat(later, [len(part) for part in parts]), ()
@@ -193,7 +193,7 @@ def _steps(parts: Sequence[TractionReadings]) -> tuple[Integers | None, tuple[Tr
 def _replicates(
     parts: Sequence[TractionReadings], columns: dict[str, Array], step: Integers | None
 ) -> tuple[Integers, tuple[str, ...]]:
-    """Take the files' replicate numbers, or number the passes over equal conditions in their order."""
+    """Return the files' replicate numbers, or number the passes over equal conditions in their order."""
     known = [part.replicate for part in parts if part.replicate is not None]
     if len(known) == len(parts):
         return _counted_on(parts, columns)
@@ -245,14 +245,14 @@ def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) ->
     conditions = np.column_stack([_nominal(columns), sense])
     numbers: list[Integers] = []
     taken: set[tuple[int, ...]] = set()
-    told = []
+    notes = []
     for part, here in zip(parts, np.split(conditions, np.cumsum([len(part) for part in parts])[:-1]), strict=True):
         own = np.asarray(part.replicate)
         held = _held(here, own)
         if not taken.isdisjoint(held):
             own = own - own.min() + max(int(number.max()) for number in numbers) + 1
             held = _held(here, own)
-            told.append(
+            notes.append(
                 Note(
                     "replicates-renumbered",
                     f"{Path(part.source).name}: conditions of an earlier file are measured again under the same "
@@ -262,7 +262,7 @@ def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) ->
             )
         taken |= held
         numbers.append(own)
-    return np.concatenate(numbers), tuple(told)
+    return np.concatenate(numbers), tuple(notes)
 
 
 def _held(conditions: Integers, replicate: Integers) -> set[tuple[int, ...]]:

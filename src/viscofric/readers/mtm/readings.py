@@ -1,4 +1,4 @@
-"""What a reader of one format hands on: the traction readings of a file in SI units, not yet put with others."""
+"""The output of a format's reader: traction readings of one file in SI units."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Heights of surfaces from files: our own tables and grids, and what the package SurfaceTopography reads."""
+"""Heights of surfaces from files: our own tables and grids, and the formats of the package SurfaceTopography."""

@@ -1,4 +1,4 @@
-"""Files of profilometers, microscopes and scanners, by way of the package SurfaceTopography (an extra)."""
+"""Files of profilometers, microscopes and scanners, read by the package SurfaceTopography (an extra)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: The package takes what a file says of itself at its word, so that a crafted one may never end or ask for any memory.
+#: The package trusts the header of a file, so that reading a crafted one may never end or need any memory.
 LONGEST_READ = 120.0  # s; 190 MB take 10 s
 LARGEST_MEMORY = 6_000_000_000  # bytes
 _APART = LimitedProcess(LONGEST_READ, LARGEST_MEMORY, needed=__name__)
@@ -34,7 +34,7 @@ _BY_PACKAGE = (
     "is neither a table of numbers nor a NumPy array; the formats of instruments are read by the package "
     "SurfaceTopography, but {why}."
 )
-#: Elevations of the globe without any header: whatever has the size of a square would pass for them.
+#: Elevations of the globe without a header: any file of a square's size would be recognised as such.
 _BY_SIZE = ("hgt",)
 #: Of workbooks that a Mitutoyo SurfTest writes, of one line scan each.
 _CONTENTS, _LONGEST_CONTENTS = "xl/workbook.xml", 1_000_000  # bytes
@@ -74,7 +74,7 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
 
 
 def load_package() -> None:
-    """Import the package, if it can be; `read_here` says so if not."""
+    """Import the package if possible; else `read_here` raises."""
     with warnings.catch_warnings(), contextlib.suppress(Exception):
         warnings.simplefilter("ignore")
         import_module("SurfaceTopography")
@@ -98,7 +98,7 @@ def read_here(source: Source, asked: Asked) -> Scan:
         except CannotDetectFileFormat:
             raise DataFileError(
                 source.path,
-                "is in none of the formats that are known for heights of a surface.",
+                "has no known format for heights of a surface.",
                 code="unknown-format",
             ) from None
         except Exception as error:  # noqa: BLE001 - a damaged file makes the package raise whatever it meets
@@ -109,7 +109,7 @@ def read_here(source: Source, asked: Asked) -> Scan:
 
 
 def _insist_on_small_workbook(source: Source) -> None:
-    """Refuse workbooks but those of the one tester whose sheets the package reads, which holds them whole."""
+    """Refuse workbooks except those of the one tester that the package reads, which holds sheets in memory."""
     if not is_workbook(source) or _CONTENTS.encode() not in source.data:
         return
     try:
@@ -131,64 +131,62 @@ def _insist_on_small_workbook(source: Source) -> None:
 
 def _scan(source: Source, reader: Any, asked: Asked) -> Scan:
     if reader.format() in _BY_SIZE:
-        raise DataFileError(
-            source.path, "is in none of the formats that are known for heights of a surface.", code="unknown-format"
-        )
+        raise DataFileError(source.path, "has no known format for heights of a surface.", code="unknown-format")
     channel = _channel(source, reader, asked.channel)
     given: dict[str, Any] = {}
     if channel.unit is None:
         if not asked.unit:
             raise DataFileError(
-                source.path, "does not say the unit of its heights; give unit='um', for instance.", code="no-unit"
+                source.path, "does not state the unit of its heights; give unit='um', for instance.", code="no-unit"
             )
         given["unit"] = asked.unit
     elif asked.unit:
         raise DataFileError(
             source.path,
-            f"says that its heights are in {channel.unit!r}; leave unit = {asked.unit!r} out.",
+            f"states that its heights are in {channel.unit!r}; leave unit = {asked.unit!r} out.",
             code="unit-not-needed",
         )
     factor, _ = conversion(str(channel.unit or asked.unit), "m", "unit")
     if channel.physical_sizes is None:
         if asked.spacing is None:
             raise DataFileError(
-                source.path, "does not say how far its points lie apart; give spacing='5 um'.", code="no-spacing"
+                source.path, "does not state the spacing of its points; give spacing='5 um'.", code="no-spacing"
             )
         points = channel.nb_grid_pts
         given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, asked.spacing, strict=False))
     elif asked.spacing is not None:
         raise DataFileError(
-            source.path, "says how far its points lie apart; leave the spacing out.", code="spacing-not-needed"
+            source.path, "states the spacing of its points; leave the spacing out.", code="spacing-not-needed"
         )
     measured = channel.topography(**given)
-    told = f"read from {name_of(source)} ({reader.name()}), channel {channel.name!r}"
+    origin = f"read from {name_of(source)} ({reader.name()}), channel {channel.name!r}"
     heights = factor * np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), math.nan)
     if asked.missing is not None:
         heights[np.isclose(heights, factor * asked.missing, rtol=1e-12, atol=0.0)] = math.nan
     if measured.dim == 1:
-        return _line(source, measured, heights, factor, told)
+        return _line(source, measured, heights, factor, origin)
     steps = tuple(factor * float(step) for step in measured.pixel_size)
-    return Scan(heights, (steps[0], steps[1]), told, periodic=bool(measured.is_periodic))
+    return Scan(heights, (steps[0], steps[1]), origin, periodic=bool(measured.is_periodic))
 
 
-def _line(source: Source, measured: Any, heights: Array, factor: float, told: str) -> Scan:
+def _line(source: Source, measured: Any, heights: Array, factor: float, origin: str) -> Scan:
     from dataclasses import replace
 
     from viscofric.readers.topography.scan import scan_of_points
 
     if measured.is_uniform:
         step = factor * float(measured.pixel_size[0])
-        return Scan(heights[:, None], (step, step), told, periodic=bool(measured.is_periodic))
+        return Scan(heights[:, None], (step, step), origin, periodic=bool(measured.is_periodic))
     x = factor * np.asarray(measured.positions(), dtype=float)
     found = scan_of_points(source, np.stack([x, heights], axis=1), Asked(), list(range(len(x))))
-    return replace(found, told=told)
+    return replace(found, origin=origin)
 
 
 def _channel(source: Source, reader: Any, wanted: str | int | None) -> Any:
     heights = [one for one in reader.channels if one.is_height_channel] or list(reader.channels)
     names = ", ".join(repr(one.name) for one in heights)
     if not heights:
-        raise DataFileError(source.path, "holds no heights.", code="not-heights")
+        raise DataFileError(source.path, "contains no heights.", code="not-heights")
     if wanted is None:
         default = reader.default_channel
         return default if any(default is one for one in heights) else heights[0]
@@ -197,6 +195,6 @@ def _channel(source: Source, reader: Any, wanted: str | int | None) -> Any:
     found = [one for one in heights if one.name == wanted]
     if not found:
         raise DataFileError(
-            source.path, f"holds no channel {wanted!r} of heights; it holds {names}.", code="no-channel"
+            source.path, f"has no channel {wanted!r} of heights; its channels are {names}.", code="no-channel"
         )
     return found[0]

@@ -1,4 +1,4 @@
-"""One file of heights, in whatever format its content tells."""
+"""One file of heights, whose format is recognised by its content."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def read_scan(path: object, asked: Asked) -> Scan:
         if plain and asked.channel not in (None, 0):
             raise DataFileError(
                 file,
-                f"holds one field of heights, without a name; leave channel = {asked.channel!r} out.",
+                f"contains one field of heights, without a name; leave channel = {asked.channel!r} out.",
                 code="no-channel",
             )
         if source.data.startswith(NUMPY):
@@ -45,5 +45,5 @@ def read_scan(path: object, asked: Asked) -> Scan:
         return read_text_table(source, asked) if plain else read_with_package(source, asked)
     except DataFileError:
         raise
-    except InputError as error:  # a unit that the file names, and that is none
+    except InputError as error:  # the file's unit is not one of length
         raise DataFileError(file, error.note) from None

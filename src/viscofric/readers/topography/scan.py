@@ -1,4 +1,4 @@
-"""What a file of heights holds, before anyone has prepared it."""
+"""The content of a file of heights before any preparation, and points x, y, z put on their grid."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Scan:
 
     heights: Array  # (nx, ny), m, NaN without a reading; (nx, 1) for a line scan
     spacing: tuple[float, float]  # along x and y, m
-    told: str  # "read from scan.sur (Digital Surf SUR), channel 'Height'"
+    origin: str  # "read from scan.sur (Digital Surf SUR), channel 'Height'"
     periodic: bool = False  # as the file states
     notes: tuple[str, ...] = ()  # further steps applied to the readings
 
@@ -61,7 +61,7 @@ def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]
     """
     if asked.spacing is not None:
         raise DataFileError(
-            source.path, "holds the positions of its points; leave the spacing out.", code="spacing-not-needed"
+            source.path, "contains the positions of its points; leave the spacing out.", code="spacing-not-needed"
         )
     bad = np.flatnonzero(~np.all(np.isfinite(points[:, :-1]), axis=1))
     if bad.size:
@@ -75,32 +75,32 @@ def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]
         points = points.copy()
         points[points[:, -1] == asked.missing, -1] = math.nan
     if len(points) < 2:
-        raise DataFileError(source.path, "holds one point only; a line or a grid of them is wanted.", code="no-points")
+        raise DataFileError(source.path, "contains one point only; a line or a grid is needed.", code="no-points")
     return _line(source, points) if points.shape[1] == 2 else _grid(source, points)
 
 
 def _line(source: Source, points: Array) -> Scan:
     x, z = points[np.argsort(points[:, 0], kind="stable")].T
-    told = f"read from {name_of(source)} (line scan)"
+    origin = f"read from {name_of(source)} (line scan)"
     steps = np.diff(x)
     if not np.all(steps > 0.0):
         raise DataFileError(
             source.path,
-            f"two points lie at the same position, x = {x[:-1][steps <= 0.0][0]:.6g} m.",
+            f"two points have the same position, x = {x[:-1][steps <= 0.0][0]:.6g} m.",
             code="same-position",
         )
     mean = float(np.ptp(x)) / (len(x) - 1)
     if float(np.abs(x - x[0] - mean * np.arange(len(x))).max()) <= _EVEN * mean:
-        return Scan(z[:, None], (mean, mean), told)
-    # As fine as the points lie where they are densest for the most part: nothing is lost.
+        return Scan(z[:, None], (mean, mean), origin)
+    # The lower quartile of the distances: nearly nothing is lost where points are dense.
     step = float(np.quantile(steps, 0.25))
     count = int(np.ptp(x) / step) + 1
     if count > 100 * len(x):
-        raise DataFileError(source.path, "its positions are too uneven to be put onto a grid.", code="no-grid")
+        raise DataFileError(source.path, "its positions are too uneven for a grid.", code="no-grid")
     even = x[0] + (np.ptp(x) / (count - 1)) * np.arange(count)
     heights = np.interp(even, x, z)
     note = f"{len(x)} uneven positions interpolated linearly onto {count} even ones"
-    return Scan(heights[:, None], (float(np.ptp(x)) / (count - 1),) * 2, told, notes=(note,))
+    return Scan(heights[:, None], (float(np.ptp(x)) / (count - 1),) * 2, origin, notes=(note,))
 
 
 def _grid(source: Source, points: Array) -> Scan:
@@ -108,7 +108,7 @@ def _grid(source: Source, points: Array) -> Scan:
     if nx * ny > len(points) / _LEAST_FILLED:
         raise DataFileError(
             source.path,
-            f"its {len(points)} points are no grid: their x and y would make one of {nx} × {ny}; a matrix of heights "
+            f"its {len(points)} points form no grid: their x and y would need one of {nx} × {ny}; a matrix of heights "
             "needs spacing='5 um', for instance.",
             code="no-grid",
         )
@@ -120,13 +120,13 @@ def _grid(source: Source, points: Array) -> Scan:
         where = np.argwhere(taken > 1)[0]
         raise DataFileError(
             source.path,
-            f"two points lie at the same position, column {where[0]}, row {where[1]}.",
+            f"two points have the same position, column {where[0]}, row {where[1]}.",
             code="same-position",
         )
-    told = f"read from {name_of(source)} (x, y, z)"
+    origin = f"read from {name_of(source)} (x, y, z)"
     if nx == 1:
-        return Scan(heights.T, (dy, dy), told, notes=("a line along y, taken as one along x",))
-    return Scan(heights, (dx, dy if ny > 1 else dx), told)
+        return Scan(heights.T, (dy, dy), origin, notes=("a line along y, read as one along x",))
+    return Scan(heights, (dx, dy if ny > 1 else dx), origin)
 
 
 def _rows(source: Source, positions: Array, axis: str) -> tuple[Integers, float, int]:
@@ -150,6 +150,6 @@ def _rows(source: Source, positions: Array, axis: str) -> tuple[Integers, float,
     rows -= rows.min()
     if float(np.abs(found - np.rint(found)).max()) > _SAME:
         raise DataFileError(
-            source.path, f"the {axis} of its points are not evenly spaced; a grid of points is wanted.", code="no-grid"
+            source.path, f"the {axis} of its points are not evenly spaced; a grid of points is needed.", code="no-grid"
         )
     return rows.astype(np.int64), step, int(rows.max()) + 1

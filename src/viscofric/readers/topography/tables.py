@@ -26,7 +26,7 @@ NUMPY = b"\x93NUMPY"
 _BLANKS = re.compile(r"\s+")
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _UNIT = re.compile(r"[(\[]\s*([^()\[\]]+?)\s*[)\]]|_(nm|um|µm|mm|m)$|/\s*(\S+)$")
-#: "# Width: 10.0 µm", as Gwyddion and others write above a matrix whose lines follow one another along y.
+#: "# Width: 10.0 µm", as Gwyddion and others write above a matrix with lines along y.
 _REMARK = re.compile(r"#\s*(Width|Height|Value units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
 _POINT_NAMES = (("x", "z"), ("x", "height"), ("x", "y", "z"), ("x", "y", "height"))
 
@@ -41,7 +41,7 @@ class _Text(NamedTuple):
 
 
 def is_table(text: str | None) -> bool:
-    """Tell whether a text looks like a table of numbers, under remarks and at most one row of headings."""
+    """Return whether a text is a table of numbers, under remarks and at most one row of headings."""
     if text is None:
         return False
     lines = [line.strip() for line in text.splitlines()[:200] if line.strip() and not line.lstrip().startswith("#")]
@@ -56,7 +56,7 @@ def read_array(source: Source, asked: Asked) -> Scan:
     """Read a .npy file: a matrix or a row of heights, whose spacing must be given."""
     array = saved_array(source.data, source.path)
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size < 2:
-        problem = f"holds an array of shape {array.shape} of {array.dtype}; a row or a matrix of heights is wanted."
+        problem = f"holds an array of shape {array.shape} of {array.dtype}; a row or a matrix of heights is needed."
         raise DataFileError(source.path, problem, code="not-heights")
     return _matrix(source, np.asarray(array, dtype=float), asked, {}, "NumPy array")
 
@@ -72,38 +72,38 @@ def read_text_table(source: Source, asked: Asked) -> Scan:
     if asked.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
         factor, _ = conversion(asked.unit or "m", "m", "unit")
         found = scan_of_points(source, factor * table.rows, asked, table.lines)
-        return found if asked.unit else replace(found, notes=(*found.notes, "positions and heights taken to be in m"))
+        return found if asked.unit else replace(found, notes=(*found.notes, "positions and heights assumed to be in m"))
     return _matrix(source, table.rows, asked, table.remarks, "text matrix")
 
 
 def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str], kind: str) -> Scan:
-    told_unit = remarks.get("value units", "")
-    if asked.unit and told_unit:
+    stated_unit = remarks.get("value units", "")
+    if asked.unit and stated_unit:
         raise DataFileError(
             source.path,
-            f"says that its heights are in {told_unit!r}; leave unit = {asked.unit!r} out.",
+            f"states that its heights are in {stated_unit!r}; leave unit = {asked.unit!r} out.",
             code="unit-not-needed",
         )
-    factor, _ = conversion(asked.unit or told_unit or "m", "m", "unit")
+    factor, _ = conversion(asked.unit or stated_unit or "m", "m", "unit")
     table = np.where(table == asked.missing, math.nan, table) if asked.missing is not None else table
     heights = np.atleast_2d(table.T).T if min(np.shape(table)) > 1 or table.ndim == 1 else table.reshape(-1, 1)
-    # Remarks of this kind stand above an image, whose lines follow one another along y.
+    # Such remarks precede an image, whose lines follow one another along y.
     if (asked.lines == "y" or "width" in remarks) and heights.shape[1] > 1:
         heights = heights.T
     spacing = asked.spacing
     if "width" in remarks:
         if spacing is not None:
-            raise DataFileError(source.path, "says how wide it is; leave the spacing out.", code="spacing-not-needed")
+            raise DataFileError(source.path, "states its width; leave the spacing out.", code="spacing-not-needed")
         width = _length(source.path, remarks["width"])
         height = _length(source.path, remarks["height"]) if "height" in remarks else width
         spacing = (width / heights.shape[0], height / heights.shape[1])
     if spacing is None:
         raise DataFileError(
             source.path,
-            "does not say how far its points lie apart; give spacing='5 um', for instance.",
+            "does not state the spacing of its points; give spacing='5 um', for instance.",
             code="no-spacing",
         )
-    notes = () if asked.unit or told_unit else ("heights taken to be in m",)
+    notes = () if asked.unit or stated_unit else ("heights assumed to be in m",)
     return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=notes)
 
 
@@ -141,18 +141,20 @@ def _units(source: Source, headings: tuple[str, ...], asked: Asked) -> Array:
     factors = []
     for cell in headings:
         match = _UNIT.search(cell.strip().strip('"'))
-        told = next((part for part in match.groups() if part), "") if match else ""
-        if told and asked.unit:
+        stated = next((part for part in match.groups() if part), "") if match else ""
+        if stated and asked.unit:
             raise DataFileError(
-                source.path, f"column {cell!r} says its unit; leave unit = {asked.unit!r} out.", code="unit-not-needed"
+                source.path,
+                f"column {cell!r} states its unit; leave unit = {asked.unit!r} out.",
+                code="unit-not-needed",
             )
-        if not told and not asked.unit:
+        if not stated and not asked.unit:
             raise DataFileError(
                 source.path,
                 f"column {cell!r} has no unit; write it as '{cell} (um)', or give unit='um'.",
                 code="no-unit",
             )
-        factors.append(conversion(told or asked.unit, "m", f"unit of column {cell!r}")[0])
+        factors.append(conversion(stated or asked.unit, "m", f"unit of column {cell!r}")[0])
     return np.array(factors)
 
 
@@ -174,7 +176,7 @@ def _parsed(path: str, text: str) -> _Text:
         else:
             found.append((number, cells))
     if not found:
-        raise DataFileError(path, "holds no heights.", code="no-points")
+        raise DataFileError(path, "contains no heights.", code="no-points")
     if all(len(cells) > 1 and not cells[-1] for _, cells in found):  # delimiters that close each row
         found = [(number, cells[:-1]) for number, cells in found]
     wanted = len(headings) or len(found[0][1])
@@ -211,7 +213,7 @@ def read_heights(path: str | Path, unit: str = "m") -> Array:
     Parameters
     ----------
     path : str or Path
-        Text with one line for each position along x and numbers parted by commas, semicolons, tabs or blanks (lines
+        Text with one line for each position along x and numbers separated by commas, semicolons, tabs or blanks (lines
         that begin with # are comments), or an .npy file with a one- or two-dimensional array.
     unit : str
         Of the heights.
@@ -248,7 +250,7 @@ def checked_heights(heights: Array, path: object) -> Array:
     if largest > HIGHEST:
         raise DataFileError(
             path,
-            f"holds heights of up to {largest:.3g} m, which no surface has; check their unit.",
+            f"holds heights of up to {largest:.3g} m, impossible for a surface; check their unit.",
             code="implausible-height",
         )
     return heights
@@ -259,7 +261,7 @@ def _numpy(data: bytes, path: str | Path) -> Array:
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size == 0:
         raise DataFileError(
             path,
-            f"holds an array of shape {array.shape} of {array.dtype}; a table of heights is wanted.",
+            f"holds an array of shape {array.shape} of {array.dtype}; a table of heights is needed.",
             code="not-heights",
         )
     return np.atleast_2d(np.asarray(array, dtype=float).T).T
@@ -281,5 +283,5 @@ def _text(text: str, path: str | Path) -> Array:
             raise DataFileError(path, problem, number, code="row-length")
         rows.append(row)
     if not rows:
-        raise DataFileError(path, "holds no heights.", code="no-points")
+        raise DataFileError(path, "contains no heights.", code="no-points")
     return np.array(rows)

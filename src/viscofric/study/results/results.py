@@ -285,7 +285,7 @@ def provenance() -> dict[str, str]:
     """Return what else is needed to repeat a study: versions and time."""
     software = {
         "Python": platform.python_version(),
-        **{name: version(name) for name in ("numpy", "scipy", "xarray", "python-calamine", "tadatakit")},
+        **{name: version(name) for name in ("numpy", "scipy", "xarray", "python-calamine")},
     }
     return {
         "viscofric_version": version("viscofric"),

@@ -1,4 +1,4 @@
-"""Netzsch (Gabo) Eplexor workbooks, .xls or .xlsx: frequency sweeps as measured, and master curves taken apart.
+"""Netzsch (Gabo) Eplexor workbooks, .xls or .xlsx: sweeps as measured, and master curves split into isotherms.
 
 Sheet 'Exported Data' holds names, units and rows; 'Data header' the programme; 'Shiftlist', in a master curve,
 the shifts that `eplexor_master` undoes.
@@ -42,12 +42,12 @@ DATA = "Exported Data"
 _MISSING = ("", "---")
 #: All rows of a master curve carry one temperature, digit by digit; measured ones scatter.
 _SAME_TEMPERATURE = 1e-9  # K
-#: No instrument sweeps further than this; a master curve does.
+#: Frequency range beyond that of any instrument; a master curve has it.
 _WIDEST_SWEEP = 1e6
 
 _AMPLITUDE_NOTE = Note(
     "amplitude-assumed",
-    "Strain dyn is taken for the amplitude of the strain (half of peak to peak); the file does not say it.",
+    "Strain dyn was read as the strain amplitude (half of peak to peak); the file does not state it.",
 )
 
 
@@ -194,12 +194,12 @@ def _passed_over(sheet: _Sheet, complete: Mask) -> list[Note]:
         return []
     shown = ", ".join(missing[:3]) + (f" and {len(missing) - 3} more" if len(missing) > 3 else "")
     return [
-        Note("points-left-out", f"Left out for want of a temperature, frequency or modulus in sheet {DATA!r}: {shown}.")
+        Note("points-left-out", f"Left out, without a temperature, frequency or modulus, in sheet {DATA!r}: {shown}.")
     ]
 
 
 def _is_master(temperature: Array, frequency: Array, shifts: ShiftList | None, programmed: Array | None) -> bool:
-    """Say whether one temperature stands for all rows, and their frequencies go beyond a sweep."""
+    """Return whether all rows have one temperature, and their frequencies exceed a sweep."""
     if np.ptp(temperature) > _SAME_TEMPERATURE:
         return False
     if shifts is not None:
@@ -222,8 +222,8 @@ def _isotherms(
     if shifts is None or programmed is None:
         raise DataFileError(
             path,
-            f"is a master curve at {celsius(float(temperature[0])):z.1f} °C without the {lacking} that would take it "
-            f"apart into isotherms; {AS_IT_IS}.",
+            f"is a master curve at {celsius(float(temperature[0])):z.1f} °C without the {lacking}, which is needed to "
+            f"split it into isotherms; {AS_IT_IS}.",
             code="master-curve-inseparable",
         )
     usable = time if time is not None and np.all(np.isfinite(time)) else None
@@ -234,7 +234,7 @@ def _taken_apart(shifts: ShiftList, step: Indices) -> list[Note]:
     found = np.unique(step)
     still = shifts.measured_reference
     at = "" if still is None else f" at {celsius(still):z.1f} °C"
-    apart = f"they were taken apart into {found.size} isotherms by the sheet 'Shiftlist' (measured f = f / 10^shift)"
+    apart = f"they were split into {found.size} isotherms by the sheet 'Shiftlist' (measured f = f / 10^shift)"
     notes = [Note("master-curve-taken-apart", f"The rows are a master curve{at}; {apart}.")]
     absent = np.sort(np.delete(shifts.temperatures, found)) - CELSIUS_ZERO
     if absent.size:
@@ -242,7 +242,7 @@ def _taken_apart(shifts: ShiftList, step: Indices) -> list[Note]:
         notes.append(
             Note(
                 "temperatures-without-rows",
-                f"The sheet 'Shiftlist' also names {listed} °C, of which the workbook holds no rows.",
+                f"The sheet 'Shiftlist' also names {listed} °C, for which the workbook has no rows.",
             )
         )
     return notes

@@ -1,4 +1,4 @@
-"""The shift list of a Netzsch Eplexor workbook, by which `eplexor_rows` takes a master curve apart again.
+"""The shift list of a Netzsch Eplexor workbook, and the split of its master curve into isotherms by that list.
 
 The software joins isotherms by hand or by fit, writes the shifts into the sheet 'Shiftlist', multiplies every
 frequency by ``10**shift``, puts the temperature of the isotherm without shift into all rows and sorts them by
@@ -35,7 +35,7 @@ SAME_TEMPERATURE = 0.5  # K
 #: Beyond this α is no number that a computer holds.
 LARGEST_SHIFT = 300.0  # decades
 
-#: What remains to do with a master curve that cannot be taken apart.
+#: What to do with a master curve that cannot be split.
 AS_IT_IS = "save its columns of f and the moduli as CSV and read that with read_master_curve"
 
 _NUMBER = r"([+-]?\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?)"
@@ -77,7 +77,7 @@ def shift_list(tables: Mapping[str, Rows], path: str) -> ShiftList | None:
             wlf = _constants(words)
         elif label.startswith("Temp"):
             in_table = True
-            factor, offset = _unit_beside(label)
+            factor, offset = _unit_of_label(label)
         elif in_table and label:
             temperature, shift = _pair(row, place, path)
             numbers.append((_above_zero(factor * temperature + offset, place, path), shift))
@@ -97,7 +97,7 @@ def _pair(row: Sequence[Any], place: int, path: str) -> tuple[float, float]:
     return float(cells[0]), float(cells[1])
 
 
-def _unit_beside(label: str) -> tuple[float, float]:
+def _unit_of_label(label: str) -> tuple[float, float]:
     """Return factor and offset to kelvin by the unit in "Temp. [K]"; °C where there is none."""
     match = re.search(r"[\[(]\s*°?\s*([CKF])\s*[\])]", label, re.IGNORECASE)
     return conversion({"C": "degC", "K": "K", "F": "degF"}[match[1].upper()] if match else "degC", "K")
@@ -118,8 +118,8 @@ def insist_on_sense(shifts: ShiftList, reference: float, path: str) -> None:
     """
     still = shifts.measured_reference
     if still is not None and abs(still - reference) > SAME_TEMPERATURE:
-        told = f"{celsius(still):z.1f} °C, but the rows are of {celsius(reference):z.1f} °C"
-        problem = f"the isotherm without shift in sheet {SHIFT_LIST!r} is of {told}; is the list in another unit?"
+        both = f"{celsius(still):z.1f} °C, but the rows are at {celsius(reference):z.1f} °C"
+        problem = f"the isotherm without shift in sheet {SHIFT_LIST!r} is at {both}; is the list in another unit?"
         raise DataFileError(path, problem, code="shift-list-contradicts")
     about = shifts.temperatures - shifts.temperatures.mean()
     if about @ shifts.log10_shifts > 0.0:
@@ -147,9 +147,9 @@ def _constants(words: str) -> tuple[float, float] | None:
 
 HEADER = "Data header"
 
-#: Programmed frequencies are printed to six digits; false ones lie some thousandths of a decade off.
+#: Programmed frequencies are printed to six digits; false ones differ by some thousandths of a decade.
 SAME_FREQUENCY = 1e-3  # decades
-#: A sweep has tens of frequencies, a list tens of temperatures; a damaged file may claim any number.
+#: A sweep has tens of frequencies, a list tens of temperatures; a damaged file may have any number.
 MOST_FREQUENCIES = 1000
 MOST_CANDIDATES = 5_000_000
 
@@ -209,7 +209,7 @@ def isotherm_of_each_row(
         raise DataFileError(
             path,
             f"{places[first]}: no shift of the list takes {frequency[first]:.6g} Hz back to a frequency of the "
-            f"programme, so that the master curve cannot be taken apart; {AS_IT_IS}.",
+            f"programme, so that the master curve cannot be split; {AS_IT_IS}.",
             code="master-curve-inseparable",
         )
     chosen: Indices = np.argmax(fits, axis=1)
@@ -228,10 +228,10 @@ def _insist_on_one_row_each(chosen: Indices, place: Indices, fits: Mask, path: s
     doubtful = fits.sum(axis=1) > 1
     _, which, count = np.unique(np.stack([chosen, place]), axis=1, return_inverse=True, return_counts=True)
     if lost.any() or np.any(doubtful & (count[np.ravel(which)] > 1)):
-        problem = f"the shifts in sheet {SHIFT_LIST!r} lie whole steps of the frequency programme apart, so that the "
+        problem = f"the shifts in sheet {SHIFT_LIST!r} differ by whole steps of the frequency programme, so that the "
         raise DataFileError(
             path,
-            problem + f"rows of the master curve cannot be told apart; {AS_IT_IS}.",
+            problem + f"rows of the master curve cannot be assigned; {AS_IT_IS}.",
             code="master-curve-inseparable",
         )
 
@@ -249,7 +249,7 @@ def _next_in_time(
     if time is None or not np.any(near):
         raise DataFileError(
             path,
-            f"{places[row]} could belong to several isotherms, and no column 'Time' tells which; {AS_IT_IS}.",
+            f"{places[row]} could belong to several isotherms, and there is no column 'Time' to decide; {AS_IT_IS}.",
             code="master-curve-inseparable",
         )
     distance = np.where(near, np.abs(time - time[row]), np.inf)

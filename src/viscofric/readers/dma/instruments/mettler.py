@@ -46,7 +46,7 @@ class _Block:
 
 
 def recognises(source: Source) -> bool:
-    """Return whether names such as Index, Ts and f stand above units in brackets."""
+    """Return whether names such as Index, Ts and f precede units in brackets."""
     if source.text is None:
         return False
     first = [line for line in source.text[:5000].splitlines()[:_FIRST_LINES] if line.strip()]
@@ -98,7 +98,7 @@ def read(source: Source) -> Readings:
         notes.append(
             Note(
                 "strain-unknown",
-                "The amplitude x is a displacement and the sample's length is not told, so the strain is unknown.",
+                "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown.",
             )
         )
     return Readings(
@@ -118,7 +118,7 @@ def read(source: Source) -> Readings:
 
 
 def _blocks(source: Source) -> list[_Block]:
-    """Split the text into blocks; what stands below a table (the method's name) is no row of numbers."""
+    """Split the text into blocks; lines below a table (the method's name) are not rows of numbers."""
     blocks: list[_Block] = []
     step, previous = -1, -1
     lines = iter(enumerate((source.text or "").splitlines(), start=1))
@@ -157,7 +157,7 @@ def _blocks(source: Source) -> list[_Block]:
 def _cells(line: str, block: _Block, path: str, number: int) -> list[str]:
     cells = line.split()
     if len(cells) != len(block.names) and len(line.rstrip()) == block.ends[-1]:
-        # A cell is blank: the columns end where their names end.
+        # A cell is blank: columns end with their names.
         cells = [line[start:end].strip() for start, end in zip([0, *block.ends], block.ends, strict=False)]
     if len(cells) != len(block.names):
         problem = f"the row has {len(cells)} cells where the header names {len(block.names)} columns."

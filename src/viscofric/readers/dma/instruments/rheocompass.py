@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 NAME = "Anton Paar RheoCompass text"
 
-#: Frequencies of one interval that differ by less (relative) are one frequency held, as measured: no sweep.
+#: Relative range of a frequency that is held, as measured.
 _SAME_FREQUENCY = 0.05
 
 
@@ -80,7 +80,7 @@ def read(source: Source) -> Readings:
     if others:
         what = "1 interval that is no frequency sweep was"
         what = what if others == 1 else f"{others} intervals that are no frequency sweeps were"
-        notes.insert(0, Note("no-frequency-sweep", f"{what} passed over."))
+        notes.insert(0, Note("no-frequency-sweep", f"{what} skipped."))
     moduli = [interval.columns[interval.places["storage modulus"]] for interval in sweeps]
     columns = [column for interval in sweeps for column in interval.columns[1:]]
     deformation, said_by = said_by_columns(moduli, columns, tools_in(head(source)))
@@ -107,7 +107,7 @@ def _needed(interval: Interval) -> list[int]:
 
 
 def _complete(interval: Interval) -> Rows:
-    """Return the points with all that is needed; without torque, say, the instrument leaves the moduli empty."""
+    """Return the complete points; without torque, for instance, the instrument leaves the moduli empty."""
     return [(line, row) for line, row in interval.rows if all(row[place] for place in _needed(interval))]
 
 
@@ -132,7 +132,7 @@ def _table(source: Source, interval: Interval, rows: Rows, frequency: Array, dec
     elif source.temperature is not None:
         temperature = np.full(frequency.shape, source.temperature)
     else:
-        problem = "the interval has no column of temperatures; export it, or give temperature= of all points."
+        problem = "the interval has no column of temperatures; export it, or give temperature= for all points."
         raise DataFileError(path, problem, interval.line, code="no-temperature")
     for values, what, bound in ((frequency, "frequency", "zero"), (temperature, "temperature", "absolute zero")):
         if np.any(values <= 0.0):
@@ -142,9 +142,9 @@ def _table(source: Source, interval: Interval, rows: Rows, frequency: Array, dec
     amplitude = np.full(frequency.shape, np.nan)
     place = interval.places.get("strain amplitude")
     if place is not None and interval.units[place] in STRAIN_FACTORS:
-        told = [index for index, (_, row) in enumerate(rows) if row[place]]
-        numbers = _column(path, interval, "strain amplitude", [rows[index] for index in told], decimals)
-        amplitude[told] = np.abs(numbers) * STRAIN_FACTORS[interval.units[place]]
+        known = [index for index, (_, row) in enumerate(rows) if row[place]]
+        numbers = _column(path, interval, "strain amplitude", [rows[index] for index in known], decimals)
+        amplitude[known] = np.abs(numbers) * STRAIN_FACTORS[interval.units[place]]
     return np.array([temperature, frequency, storage, loss, amplitude])
 
 
@@ -164,7 +164,7 @@ def _doubts(interval: Interval) -> list[Note]:
     if strain is not None and interval.units[strain] not in STRAIN_FACTORS:
         notes.append(
             Note(
-                "interval-doubtful",
+                "strain-amplitude-not-read",
                 f"The strain amplitudes were not read: column {interval.columns[strain]!r} has no unit such as '%'.",
             )
         )

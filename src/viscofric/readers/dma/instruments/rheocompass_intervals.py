@@ -30,13 +30,13 @@ _INTERVAL = re.compile(
     r'"?[^\t;,:"\r\n]{3,60}:"?(?P=mark)',
     re.MULTILINE,
 )
-#: What RheoCompass calls the strain, beside the names that all formats share.
+#: RheoCompass's names of the strain, besides those of all formats.
 _STRAIN = frozenset(
     {"shear strain", "scherdeformation", "déformation de cisaillement", "deformação de cisalhamento"}
     | {"déformation en cisaillement", "deformación de cizalla", "deformación de corte", "deformazione di taglio"}
 )
 _SWEEP = ("storage modulus", "loss modulus")
-#: Between the names of the columns and the first point stand qualifiers and units.
+#: Rows of qualifiers and units between the names of the columns and the first point.
 _ROWS_BEFORE_POINTS = 3
 #: Of the number of an interval, and of its points.
 _MOST_DIGITS = 6
@@ -144,7 +144,7 @@ def _interval(path: str, cells: list[list[str]], start: int, named: int) -> Inte
     )
     if units_at is None:
         raise DataFileError(
-            path, "a row of units in brackets must stand below the names of the columns.", named + 1, code="no-unit"
+            path, "a row of units in brackets must follow the names of the columns.", named + 1, code="no-unit"
         )
     rows, invalid = [], []
     for place in range(units_at + 1, len(cells)):
@@ -197,8 +197,8 @@ class Decimals:
             return cls(".", ",")
         raise DataFileError(
             path,
-            f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals cannot be "
-            "told from thousands; export all decimals in one way.",
+            f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals and "
+            "thousands cannot be distinguished; export all decimals in one way.",
             points[0][1],
             code="mixed-decimals",
         )

@@ -1,4 +1,4 @@
-"""Steps of a TA Instruments file, whichever layout they stand in: their signals, and which are frequency sweeps."""
+"""Steps of a TA Instruments file: its tables as text, their signals as numbers, and which are frequency sweeps."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ ROLES = {
     "oscillation force": re.compile(r"oscillation force"),
 }
 
-#: Steps that change the amplitude are no frequency sweeps even where they do so at several frequencies.
+#: Steps that vary the amplitude are not frequency sweeps, even at several frequencies.
 _AMPLITUDE = re.compile(r"amplitude|(strain|stress|force|displacement) sweep", re.IGNORECASE)
-#: Measured frequencies of one set frequency differ by less than this (relative); no sweep is as narrow.
+#: Relative range of the measured values of one set frequency; every sweep is wider.
 _SAME_FREQUENCY = 0.05
 
 
@@ -65,7 +65,7 @@ class Step:
 
     @property
     def has_moduli(self) -> bool:
-        """Whether E' and E'' (or tan δ) stand beside a frequency."""
+        """Whether there are E' and E'' (or tan δ) and a frequency."""
         return (
             self.frequency is not None
             and "storage modulus" in self.signals

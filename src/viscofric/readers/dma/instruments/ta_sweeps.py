@@ -51,7 +51,9 @@ def readings_of(
     sweeps = [(number, step) for number, step in enumerate(steps, start=1) if step.is_frequency_sweep]
     if not sweeps:
         raise DataFileError(
-            source.path, f"holds no frequency sweep of an oscillation; {_told(steps)}.", code="no-frequency-sweep"
+            source.path,
+            f"contains no frequency sweep of an oscillation; {_contents(steps)}.",
+            code="no-frequency-sweep",
         )
     notes = [*notes, *_passed_over(steps)]
     with np.errstate(all="ignore"):  # what overflows is no modulus and is left out
@@ -59,8 +61,8 @@ def readings_of(
     left_out = [place for part in parts for place in part.left_out]
     if left_out:
         points = "1 point was" if len(left_out) == 1 else f"{len(left_out)} points were"
-        want = "for want of a temperature, modulus or frequency that is a number (the frequency above zero)"
-        notes.append(Note("points-left-out", f"{points} left out {want}: {_listed(left_out)}."))
+        want = "without a number for temperature, modulus or frequency (above zero)"
+        notes.append(Note("points-left-out", f"{points} left out, {want}: {_listed(left_out)}."))
     places = tuple(place for part in parts for place in part.places)
     if not places:
         raise DataFileError(
@@ -93,8 +95,8 @@ def readings_of(
     )
 
 
-def _told(steps: Sequence[Step]) -> str:
-    """Say what there is instead of a frequency sweep."""
+def _contents(steps: Sequence[Step]) -> str:
+    """Return what there is instead of a frequency sweep."""
     if not steps:
         return "it has no steps with data"
     names = [repr(step.name) for step in steps]
@@ -110,13 +112,10 @@ def _passed_over(steps: Sequence[Step]) -> list[str]:
     others = [repr(step.name) for step in steps if not step.is_frequency_sweep]
     if not others:
         return []
-    count = "1 step was" if len(others) == 1 else f"{len(others)} steps were"
-    return [
-        Note(
-            "no-frequency-sweep",
-            f"{count} passed over as no frequency sweep{'' if len(others) == 1 else 's'}: {_listed(others)}.",
-        )
-    ]
+    what = "1 step that is not a frequency sweep was"
+    if len(others) > 1:
+        what = f"{len(others)} steps that are not frequency sweeps were"
+    return [Note("no-frequency-sweep", f"{what} skipped: {_listed(others)}.")]
 
 
 def _listed(names: Sequence[str], most: int = 6) -> str:
@@ -135,7 +134,7 @@ def _points(source: Source, step: Step, notes: list[str]) -> _Points:
     else:
         loss = storage * step.signals["tan delta"].values
         notes.append(
-            Note("loss-computed", "The file holds no loss modulus; it was taken as the storage modulus times tan δ.")
+            Note("loss-computed", "The file has no loss modulus; it was computed as storage modulus times tan δ.")
         )
     good = (
         np.isfinite(temperature) & np.isfinite(frequency) & np.isfinite(storage) & np.isfinite(loss) & (frequency > 0)
@@ -153,7 +152,7 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
     signal = step.signals.get("temperature")
     if signal is not None:
         if source.temperature is not None:
-            problem = f"column {signal.heading!r} holds the temperatures; leave out temperature for this file."
+            problem = f"column {signal.heading!r} contains the temperatures; leave out temperature for this file."
             raise DataFileError(source.path, problem, code="temperature-not-needed")
         factor, offset = _conversion(source, step, signal, "K", "°C")
         return factor * signal.values + offset
@@ -179,7 +178,7 @@ def _modulus(source: Source, step: Step, role: str, notes: list[str]) -> Array:
         notes.append(
             Note(
                 "modulus-unit-given",
-                f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked.",
+                f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as requested.",
             )
         )
         return unit_conversion(source.modulus_unit, "Pa", "modulus_unit")[0] * signal.values

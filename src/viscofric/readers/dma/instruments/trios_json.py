@@ -1,18 +1,13 @@
 """JSON exports of TA Instruments TRIOS (schema ``TRIOSJSONExportSchema``): original or processed results of all steps.
 
-The vendor's own reader, tadatakit, does the work where it can.  It insists on every part that the schema requires
-and on a header for every cell, so that files of other versions of TRIOS, or such as were edited, fail in it; their
-stated structure is then read directly.
-
-No genuine file with a frequency sweep was at hand: the reader was tried on the vendor's sample of a strain sweep and
-on files written after it.
+No genuine frequency sweep was available: the reader was tested on the vendor's sample of a strain sweep and on files
+written after it.
 """
 
 from __future__ import annotations
 
 import json
 import math
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -35,10 +30,8 @@ NAME = "TA Instruments TRIOS JSON"
 #: Sections of the results, in the order in which they are preferred: as measured first.
 _SECTIONS = ("Original", "Raw", "Processed")
 _STEP_ID = "Results Step Id"
-#: tadatakit makes an object of every row, some 0.2 ms each; longer files are read directly, to the same effect.
-_MOST_ROWS = 10_000
-_HEAD = 20000  # characters that tell the layout
-#: Names of the classification of results that nobody has changed.
+_HEAD = 20000  # characters that show the layout
+#: Names of the classification of unmodified results.
 _AS_MEASURED = frozenset({"Unmodified", ""})
 
 
@@ -66,21 +59,20 @@ def read(source: Source) -> Readings:
     try:
         document = parse_json(source.text or "")
     except json.JSONDecodeError as error:
-        problem = f"is not whole JSON ({error.msg}); the file may have been cut short."
+        problem = f"is incomplete JSON ({error.msg}); the file may have been cut short."
         raise DataFileError(source.path, problem, error.lineno, code="damaged") from None
     except ValueError as error:  # nested too deeply, or with numbers of thousands of digits
-        raise DataFileError(source.path, f"is no JSON of an instrument ({error}).", code="damaged") from None
+        raise DataFileError(source.path, f"is not JSON of an instrument ({error}).", code="damaged") from None
     held = _part(document, "Results")
     name = next((one for one in _SECTIONS if _part(_part(held, one), "ColumnHeaders")), None)
     if name is None:
         raise DataFileError(
-            source.path, f"has no results under any of {', '.join(_SECTIONS)}; export them with them.", code="no-points"
+            source.path,
+            f"has no results under any of {', '.join(_SECTIONS)}; export the file with results.",
+            code="no-points",
         )
     section = held[name]
-    results = _as_stated(section)
-    if len(results.step_ids) <= _MOST_ROWS:
-        results = _by_vendor(document, name) or results
-    steps = _steps(results, f"{name.lower()} results")
+    steps = _steps(_results(section), f"{name.lower()} results")
     return readings_of(source, NAME, steps, _geometry(document), _notes(name, section))
 
 
@@ -106,34 +98,8 @@ def _notes(name: str, section: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def _by_vendor(document: Mapping[str, Any], name: str) -> _Results | None:
-    """Read with tadatakit, or return None where it cannot."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # its doubts about the results' origin stand in the notes
-            from tadatakit.classes import Experiment
-
-            experiment = Experiment.from_dict(document)
-            section = getattr(experiment.results, name.lower())
-            frame = experiment.get_dataframe(name.lower())
-        headers = section.column_headers.__dict__
-        names = {str(step.id): str(step.name) for step in section.results_steps}
-        headings, units, columns = [], [], []
-        for header in headers.values():
-            unit = header.unit.name if header.unit else ""
-            heading = f"{header.display_name} / {unit}" if header.unit else header.display_name
-            if heading in frame.columns and header.value_type == "Number":
-                headings.append(str(header.display_name))
-                units.append(str(unit))
-                columns.append(frame[heading].to_numpy(dtype=float))
-        ids = [str(one) for one in frame[_STEP_ID]]
-    except (ImportError, TypeError, KeyError, ValueError, AttributeError, IndexError, OverflowError, RecursionError):
-        return None
-    return _Results(headings, units, columns, ids, names)
-
-
-def _as_stated(section: Mapping[str, Any]) -> _Results:
-    """Read the structure itself: headers by key, rows of cells by key, names of the steps by their id."""
+def _results(section: Mapping[str, Any]) -> _Results:
+    """Return headers and rows, which the file holds by key, and the names of the steps by their id."""
     headers = {key: header for key, header in section["ColumnHeaders"].items() if isinstance(header, dict)}
     listed = section.get("Rows")
     rows = [row for row in listed if isinstance(row, dict)] if isinstance(listed, list) else []
@@ -182,7 +148,7 @@ def _number(cell: object) -> float:
 
 
 def _geometry(document: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """Return what the file says of the tool that held the sample."""
+    """Return labels and values that name the sample holder."""
     listed = _part(_part(document, "Procedure"), "Configuration").get("InstrumentConfigurations")
     for instrument in listed if isinstance(listed, list) else []:
         for part in ("Geometry", "Clamp"):

@@ -32,7 +32,7 @@ _LIMS = re.compile(r"\s*\[version\]\s*TA Instruments LIMS", re.IGNORECASE)
 _SHORT = re.compile(
     r'\s*"?Filename"?(?P<delimiter>[\t,;]).*?^"?Instrument name', re.IGNORECASE | re.DOTALL | re.MULTILINE
 )
-_HEAD = 4000  # characters that tell the layout
+_HEAD = 4000  # characters that show the layout
 _GEOMETRY_FIELDS = frozenset({"name", "geometry name", "geometry type", "type"})
 
 

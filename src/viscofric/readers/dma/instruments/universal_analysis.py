@@ -1,7 +1,7 @@
 """DMA files of TA Instruments' Universal Analysis (Q800 and its kin): text exports and the binary files themselves.
 
 Both begin with the same header: ``CLOSED``, the version, lines of tag and value, ``Nsig`` and the list of signals
-``Sig1`` … with their units, which alone says what stands in which column.  In the text export ``StartOfData`` and
+``Sig1`` … with their units, which alone identifies the columns.  In the text export ``StartOfData`` and
 tab-separated rows follow, of which those with a negative time mark events.  The binary file holds its header as
 UTF-16, then little-endian float32 records of one number per signal, up to the first record with a negative time.
 
@@ -75,16 +75,16 @@ def read(source: Source) -> Readings:
         instrument = next((value for tag, value in header if tag.lower() == "instrument"), "the instrument")
         raise DataFileError(
             source.path,
-            f"holds no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}.",
+            f"contains no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}.",
             code="missing-columns",
         )
     tools = [(tag, value) for tag, value in header if _CLAMP_TAGS.fullmatch(tag)]
-    # The file does not tell the steps of its programme apart.
+    # The file does not separate the steps of its programme.
     return replace(readings_of(source, kind, [step], tools, notes), step=None)
 
 
 def _end_of_header(data: bytes) -> int:
-    """Return where the header of a binary file ends, or -1: the marker stands at a whole character of UTF-16."""
+    """Return where the header of a binary file ends, or -1; the marker begins at a whole UTF-16 character."""
     if b"\0" not in data[:20]:
         return -1
     place = data.find(_END_OF_HEADER)
@@ -165,7 +165,7 @@ def _step_of_text(
             if events == 1
             else f"{events} rows with a negative time mark events"
         )
-        notes.append(Note("points-missing", f"{marks}; no point was read there."))
+        notes.append(Note("events", f"{marks}; no point was read there."))
     if measured and rows[-1] is measured[-1] and len(rows[-1][1]) < len(names):
         line, _ = measured.pop()
         notes.append(
@@ -203,7 +203,7 @@ def _step_of_records(title: str, names: list[str], units: list[str], data: bytes
 
 
 def _note_records_behind(records: Array, end: int, notes: list[str]) -> None:
-    """Say it where what follows the record that ends the data goes on in time like data."""
+    """Add a note if the records behind the end of the data look like data."""
     time = records[:, 0]
     last = time[end - 1] if end else 0.0
     behind = time[end + 1 :]
@@ -211,7 +211,7 @@ def _note_records_behind(records: Array, end: int, notes: list[str]) -> None:
     if like_data:
         notes.append(
             Note(
-                "doubtful-rows",
+                "records-behind-end",
                 f"Record {end + 1} has a negative time and ends the data; {like_data} later records look like data "
                 "and were not read.",
             )

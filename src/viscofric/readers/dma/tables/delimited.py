@@ -1,4 +1,4 @@
-"""Text tables with columns separated by commas, semicolons, tabs or blanks, as people and most programs write them."""
+"""Text tables with columns separated by commas, semicolons, tabs or spaces, under one row of headings or two."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from viscofric.readers.table import Table
 
 
-#: A table that begins further down is none that a person or an instrument wrote.
+#: Tables by people and instruments begin above this line.
 DEEPEST_HEADER = 300
 _MODULI = {"storage modulus", "loss modulus", "complex modulus"}
 _FREQUENCIES = {"frequency", "angular frequency", "reduced frequency", "reduced angular frequency"}
@@ -88,7 +88,7 @@ def table_under(path: str, rows: Sequence[NumberedRow], header: int, *, comma_is
             column if column.unit else replace(column, unit=_unit(cell))
             for column, cell in zip(columns, [*units, *[""] * len(columns)], strict=False)
         )
-    repeated = [list(rows[header][1])]  # tables put one below the other repeat their header
+    repeated = [list(rows[header][1])]  # stacked tables repeat their header
     table = make_table(
         path, columns, [row for row in body if list(row[1]) not in repeated], comma_is_free=comma_is_free
     )
@@ -100,7 +100,7 @@ def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
         if sum(is_number(cell) for cell in cells) > 2:
             raise DataFileError(
                 path,
-                "a row of numbers stands above the header; put the header first.",
+                "a row of numbers precedes the header; put the header first.",
                 number,
                 code="numbers-above-header",
             )
@@ -130,7 +130,7 @@ def is_number(cell: str) -> bool:
 
 NAME = "text table (columns separated by commas, semicolons, tabs or blanks)"
 _DELIMITERS = "\t;,"
-#: Headings may hold single blanks ("f (Hz)"), so that two or more part them; numbers hold none.
+#: Headings may contain single blanks ("f (Hz)"), so two or more separate them; numbers contain none.
 _BLANKS = "blanks"
 
 
@@ -175,13 +175,13 @@ def _delimiter(lines: list[tuple[int, str]]) -> str | None:
         if header is not None:
             named = len(quantities(rows[header][1]))
             best = max(best or (-1, ""), (named, delimiter), key=lambda one: one[0])
-    if best is None and _parted_by_blanks(lines):
+    if best is None and _separated_by_blanks(lines):
         return _BLANKS
     return best[1] if best else None
 
 
-def _parted_by_blanks(lines: list[tuple[int, str]]) -> bool:
-    """Return whether a line of headings stands above lines of as many numbers; prose may name quantities too."""
+def _separated_by_blanks(lines: list[tuple[int, str]]) -> bool:
+    """Return whether a line of headings precedes lines of as many numbers; prose may name quantities too."""
     rows: list[NumberedRow] = [
         (number, _split_at_blanks(line[:10_000])) for number, line in lines[: DEEPEST_HEADER + 2]
     ]
@@ -193,10 +193,10 @@ def _parted_by_blanks(lines: list[tuple[int, str]]) -> bool:
 
 
 def _split_at_blanks(line: str) -> list[str]:
-    """Return cells parted by blanks, single ones too if no cell is a heading of several words."""
-    parted = re.split(r"\s{2,}", line.strip())
+    """Return cells separated by two blanks or more, or by single ones if no heading has several words."""
+    wide = re.split(r"\s{2,}", line.strip())
     single = line.split()
-    return single if len(parted) == 1 or all(map(is_number, single)) else parted
+    return single if len(wide) == 1 or all(map(is_number, single)) else wide
 
 
 def _split(line: str, delimiter: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""Points of frequency sweeps out of a table with units: temperature, strain amplitude and step beside the moduli."""
+"""Points of frequency sweeps from a table with units: columns, SI units, tan δ, strain amplitude, step."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def _is_angular(table: Table, place: int) -> bool:
 
 
 def _in_rad_per_second(table: Table, place: int) -> Array:
-    """Return rad/s, or raise `DataFileError` where the unit tells neither hertz nor rad/s."""
+    """Return rad/s, or raise `DataFileError` for a unit that is neither hertz nor rad/s."""
     column = table.columns[place]
     named_angular = _is_angular(table, place)
     factor = to_rad_per_second(column.unit, angular=named_angular)
@@ -136,10 +136,10 @@ def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array
     apart = np.abs(_in_rad_per_second(table, other) - angular) > PRINTED_FREQUENCY * np.abs(angular)
     if np.any(apart):
         row = int(np.argmax(apart))
-        told = [
+        both = [
             f"{table.rows[row][place].strip()} in column {table.columns[place].heading!r}" for place in (other, used)
         ]
-        problem = f"{' and '.join(told)} contradict each other (ω = 2πf); correct or leave out one of them."
+        problem = f"{' and '.join(both)} contradict each other (ω = 2πf); correct or leave out one of them."
         raise DataFileError(table.path, problem, int(table.lines[row]), code="columns-contradict")
 
 
@@ -152,7 +152,7 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     values = {what: _modulus(table, places[what], source, notes) for what in _MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
         storage, loss = values["storage modulus"], values["loss modulus"]
-        insist_on_agreement(table.path, storage, loss, _tangent_beside(table, places), values.get("complex modulus"))
+        insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places), values.get("complex modulus"))
         return storage, loss
     tangent = table.numbers_or_missing(places["tan delta"])
     if "storage modulus" in values:
@@ -172,8 +172,8 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     return storage, storage * tangent
 
 
-def _tangent_beside(table: Table, places: dict[str, int]) -> Array | None:
-    """Return tan δ where both moduli are printed too, None if its column holds no numbers: it is not needed."""
+def _printed_tangent(table: Table, places: dict[str, int]) -> Array | None:
+    """Return tan δ next to both moduli, None if its column holds no numbers: it is not needed."""
     try:
         return table.numbers_or_missing(places["tan delta"]) if "tan delta" in places else None
     except DataFileError:
@@ -192,7 +192,7 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
         factor, offset = unit_conversion(source.modulus_unit, "Pa", "modulus_unit")
         note = Note(
             "modulus-unit-given",
-            f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as asked.",
+            f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as requested.",
         )
         if note not in notes:
             notes.append(note)
@@ -206,7 +206,9 @@ def deformation(table: Table, places: dict[str, int]) -> Said:
     said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
     if {"tension", "shear"} <= {kind for kind, _ in said}:
         raise DataFileError(
-            table.path, "one modulus is headed as tensile (E), the other as shear (G).", code="deformation-contradicts"
+            table.path,
+            "one modulus is tensile (E) by its heading, the other shear (G).",
+            code="deformation-contradicts",
         )
     for kind, place in said:
         if kind is not None:
@@ -219,7 +221,7 @@ def deformation(table: Table, places: dict[str, int]) -> Said:
     return said_by_columns((), filled, table.tools)
 
 
-#: No sweep of an instrument spans as many decades of frequency as master curves do.
+#: Frequency range of the sweeps of any instrument; master curves exceed it.
 WIDEST_SWEEP = 7.0  # decades
 
 
@@ -269,11 +271,11 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
 def _temperature(
     table: Table, places: dict[str, int], source: Source, name: str, angular: Array, notes: list[str]
 ) -> Array:
-    """Return K: from the column, else as the user gave it, else as the file's name tells it, with a note."""
+    """Return K: from the column, else from the user, else from the file's name, with a note."""
     if "temperature" in places:
         if source.temperature is not None:
             heading = table.columns[places["temperature"]].heading
-            problem = f"column {heading!r} holds the temperatures; leave out temperature for this file."
+            problem = f"column {heading!r} contains the temperatures; leave out temperature for this file."
             raise DataFileError(table.path, problem, code="temperature-not-needed")
         factor, offset = table.conversion(table.columns[places["temperature"]], "K")
         kelvin = factor * table.numbers_or_missing(places["temperature"]) + offset
@@ -286,13 +288,13 @@ def _temperature(
     if source.temperature is not None:
         notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
         return np.full(len(angular), source.temperature)
-    told, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
+    found, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
-    if told is None or decades > WIDEST_SWEEP:
+    if found is None or decades > WIDEST_SWEEP:
         raise _no_temperature(table, decades)
     notes.append(Note("temperature-from-name", f"No column holds a temperature; it was taken from the {named} name."))
-    return np.full(len(angular), told)
+    return np.full(len(angular), found)
 
 
 def _no_temperature(table: Table, decades: float) -> DataFileError:
@@ -326,7 +328,7 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
     bad = np.flatnonzero(~(values > 0.0))
     if place is None or 2 * len(bad) <= len(values):
         return
-    table.numbers(place)  # tells the first cell that is empty or no number
+    table.numbers(place)  # raises for the first cell that is empty or not a number
     row = int(bad[0])
     problem = f"{_cell(table, row, place)} in column {table.columns[place].heading!r} must be above zero."
     raise DataFileError(table.path, problem, int(table.lines[row]), code="not-positive")
@@ -350,10 +352,7 @@ def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     if len(found) > 1:
         several = " and ".join(repr(table.columns[place].heading) for place in found)
         notes.append(
-            Note(
-                "strain-amplitude-not-read",
-                Note("strain-amplitude-not-read", f"The strain amplitudes were not read: {several} may hold them."),
-            )
+            Note("strain-amplitude-not-read", f"The strain amplitudes were not read: {several} may hold them.")
         )
     if len(found) != 1:
         return None

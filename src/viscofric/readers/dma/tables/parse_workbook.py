@@ -1,6 +1,6 @@
-"""Parse a workbook from standard input in a process of its own, with bounded memory; `workbook` starts it.
+"""Parse a workbook from standard input in a separate process with limited memory; `workbook` starts it.
 
-A crafted workbook can make any parser ask for hundreds of gigabytes, which ends the process that runs it.  This
+A crafted workbook can make any parser request hundreds of gigabytes, which ends its process.  This
 script imports nothing of viscofric, so that it starts quickly.
 """
 
@@ -12,10 +12,10 @@ import re
 import sys
 import zipfile
 
-#: A workbook of measurements has far fewer cells; a sheet is held whole, empty cells included.
+#: Far above those of a workbook of measurements; a sheet is held in memory with its empty cells.
 MOST_CELLS = 5_000_000
 LARGEST_MEMORY = 3_000_000_000  # bytes
-#: Text beyond this is no heading and no number; a workbook may share one long text among thousands of cells.
+#: Longer text is neither a heading nor a number; thousands of cells may share one long text.
 LONGEST_TEXT = 1000  # characters
 LARGEST_ANSWER = 50_000_000  # bytes
 
@@ -23,7 +23,7 @@ _CELL = re.compile(rb"""\sr\s*=\s*["']([A-Z]{1,3})([0-9]{1,7})["']""")
 
 
 class RefusalError(Exception):
-    """The workbook is not one of measurements."""
+    """The workbook is not one of measurements; the second argument is the code of the refusal."""
 
 
 def main() -> None:
@@ -33,15 +33,15 @@ def main() -> None:
         sheets, hidden = _sheets(sys.stdin.buffer.read())
         answer: dict[str, object] = {"sheets": sheets, "hidden": hidden}
     except RefusalError as error:
-        answer = {"problem": str(error)}
+        answer = {"problem": error.args[0], "code": error.args[1]}
     except MemoryError:
-        answer = {"problem": "needs more memory than a workbook of measurements would."}
+        answer = {"problem": "needs more memory than a workbook of measurements would.", "code": "too-large"}
     except ImportError:
         answer = {"missing": "python-calamine"}
     written = json.dumps(answer).encode()
     if len(written) > LARGEST_ANSWER:
         problem = f"holds {len(written) / 1e6:.0f} MB of cells, far more than a workbook of measurements does."
-        written = json.dumps({"problem": problem}).encode()
+        written = json.dumps({"problem": problem, "code": "too-large"}).encode()
     sys.stdout.buffer.write(written)
 
 
@@ -74,13 +74,13 @@ def _sheets(data: bytes) -> tuple[dict[str, list[list[object]]], list[str]]:
             height, width = sheet.end or (0, 0)
             cells += (height + 1) * (width + 1)
             if cells > MOST_CELLS:
-                raise RefusalError(_too_many_cells(cells))
+                raise RefusalError(_too_many_cells(cells), "too-large")
             rows = sheet.to_python(skip_empty_area=False)
             sheets[name] = [[_plain(cell) for cell in row] for row in rows]
     except (MemoryError, RefusalError):
         raise
     except BaseException as error:  # noqa: BLE001 - a panic of the parser is no Exception
-        raise RefusalError(f"is a damaged or protected workbook ({_first_line(error)}).") from None
+        raise RefusalError(f"is a damaged or protected workbook ({_first_line(error)}).", "damaged") from None
     return sheets, hidden
 
 
@@ -100,20 +100,20 @@ def _plain(cell: object) -> object:
 
 
 def _insist_on_sense(data: bytes) -> None:
-    """Refuse a sheet of billions of cells; what the archive unpacks to was looked at before."""
+    """Refuse a sheet of billions of cells; the unpacked size of the archive was checked before."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             for part in archive.infolist():
                 if part.filename.lower().endswith(".xml") and "worksheets/" in part.filename.lower():
                     cells = _extent(archive.read(part))
                     if cells > MOST_CELLS:
-                        raise RefusalError(_too_many_cells(cells))
+                        raise RefusalError(_too_many_cells(cells), "too-large")
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError, ValueError, KeyError) as error:
-        raise RefusalError(f"is a damaged workbook ({_first_line(error)}).") from None
+        raise RefusalError(f"is a damaged workbook ({_first_line(error)}).", "damaged") from None
     except Exception as error:  # zlib.error and what else a torn archive raises
         if isinstance(error, RefusalError):
             raise
-        raise RefusalError(f"is a damaged workbook ({_first_line(error)}).") from None
+        raise RefusalError(f"is a damaged workbook ({_first_line(error)}).", "damaged") from None
 
 
 def _extent(sheet: bytes) -> int:

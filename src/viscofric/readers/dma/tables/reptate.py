@@ -65,12 +65,14 @@ def read(source: Source) -> Readings:
     if source.temperature is not None:
         raise DataFileError(
             source.path,
-            "tells its temperature itself; leave out temperature for this file.",
+            "contains its temperature; leave out temperature for this file.",
             code="temperature-not-needed",
         )
     if not np.all(np.isfinite(found.temperature)):
         raise DataFileError(
-            source.path, "tells no temperature, neither as T= in its first line nor in a column.", code="no-temperature"
+            source.path,
+            "contains no temperature, neither as T= in its first line nor in a column.",
+            code="no-temperature",
         )
     return Readings(
         source=source.path,
@@ -131,7 +133,7 @@ def columns(source: Source) -> RepTateColumns:
 
 
 def _reference(parameters: dict[str, str]) -> float:
-    """Return T of the first line, K (the file's is in °C), NaN if it tells none."""
+    """Return T of the first line, K (the file's is in °C), NaN without it."""
     try:
         return float(parameters.get("T", "nan")) + CELSIUS_ZERO
     except ValueError:

@@ -1,4 +1,4 @@
-"""Excel workbooks: parsed in a process of its own, then read like a text table."""
+"""Excel workbooks: parsed in a separate process, then read like a text table."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ NAME = "Excel workbook"
 
 #: A zip archive (.xlsx) and a compound document (.xls).
 MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")
-#: A workbook of measurements is parsed in a small part of this.
+#: Far above the time to parse a workbook of measurements.
 LONGEST_PARSE = 30.0  # s
 
 _MODULI = {"storage modulus", "loss modulus", "complex modulus"}
@@ -92,7 +92,7 @@ def _workbook(source: Source) -> _Workbook:
 
 def _parse(source: Source) -> _Workbook:
     insist_on_size(source.data, source.path)
-    # -P: modules beside the script must not stand in for those of Python
+    # -P: modules in the script's folder must not replace those of Python
     command = [sys.executable, "-P", str(_PARSER)]
     window = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # none flashes up under Windows
     try:
@@ -102,10 +102,10 @@ def _parse(source: Source) -> _Workbook:
         answer = json.loads(done.stdout)
     except subprocess.TimeoutExpired:
         problem = f"takes longer than {LONGEST_PARSE:.0f} s to parse; save the sheet of measurements alone, or as CSV."
-        raise DataFileError(source.path, problem, code="workbook-refused") from None
-    except ValueError:  # the parser was ended, for want of memory as a rule
+        raise DataFileError(source.path, problem, code="too-slow") from None
+    except ValueError:  # the parser ended, usually for lack of memory
         raise DataFileError(
-            source.path, "is a workbook that cannot be parsed; save it anew, or as CSV.", code="workbook-refused"
+            source.path, "is a workbook that cannot be parsed; save it again, or as CSV.", code="damaged"
         ) from None
     except OSError as error:
         problem = f"was not read: workbooks are parsed by {sys.executable!r}, which does not start ({error.strerror}); "
@@ -114,7 +114,7 @@ def _parse(source: Source) -> _Workbook:
         problem = f"was not read: workbooks need {answer['missing']}, which this Python does not find; install it, or "
         raise DataFileError(source.path, problem + "save the sheet as CSV.", code="package-missing")
     if "problem" in answer:
-        raise DataFileError(source.path, answer["problem"], code="workbook-refused")
+        raise DataFileError(source.path, answer["problem"], code=answer["code"])
     return _Workbook(dict(answer["sheets"]), tuple(answer["hidden"]))
 
 
@@ -136,7 +136,7 @@ def read(source: Source) -> Readings:
     _insist_on_own_temperatures(source, readings)
     hidden = [name for name in _workbook(source).hidden if name in readings]
     notes = [
-        Note("hidden-sheet", f"The sheet {name!r} is hidden in the workbook; it was read all the same.")
+        Note("hidden-sheet", f"The sheet {name!r} is hidden in the workbook; it was read nevertheless.")
         for name in hidden
     ]
     whole = _joined(source, readings)
@@ -161,8 +161,8 @@ def tables(source: Source) -> dict[str, Table]:
         )
     # a sheet of, say, shift factors names two quantities, but no modulus
     whole = {name: one for name, one in found.items() if _MODULI & quantities(one[0][one[1]][1])}
-    beside = [rows[:DEEPEST_HEADER] for name, rows in sheets(source).items() if name not in found]
-    tools = tools_in([str(cell) for cell in row] for rows in beside for row in rows)
+    others = [rows[:DEEPEST_HEADER] for name, rows in sheets(source).items() if name not in found]
+    tools = tools_in([str(cell) for cell in row] for rows in others for row in rows)
     tables = {
         name: table_under(f"{source.path}, sheet {name!r}", rows, header)
         for name, (rows, header) in (whole or found).items()
@@ -198,9 +198,9 @@ def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -
     spans.sort()
     for (low, high, name), (next_low, next_high, next_name) in pairwise(spans):
         if next_low <= high:
-            told = f"{name!r} ({celsius(low):z.1f} to {celsius(high):z.1f} °C) and {next_name!r} "
-            told += f"({celsius(next_low):z.1f} to {celsius(next_high):z.1f} °C)"
-            problem = f"the sheets {told} each hold a DMA table and overlap; keep the one that is meant."
+            both = f"{name!r} ({celsius(low):z.1f} to {celsius(high):z.1f} °C) and {next_name!r} "
+            both += f"({celsius(next_low):z.1f} to {celsius(next_high):z.1f} °C)"
+            problem = f"the sheets {both} each contain a DMA table and overlap; keep one of them."
             raise DataFileError(source.path, problem, code="several-tables")
 
 
@@ -209,11 +209,11 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
     names, parts = list(readings), list(readings.values())
     if len(parts) == 1:
         return parts[0]
-    saying = next((part for part in parts if part.deformation is not None), parts[0])
-    if any(part.deformation not in (None, saying.deformation) for part in parts):
+    stating = next((part for part in parts if part.deformation is not None), parts[0])
+    if any(part.deformation not in (None, stating.deformation) for part in parts):
         raise DataFileError(
             source.path,
-            f"the sheets {', '.join(map(repr, names))} differ in E and G; part them.",
+            f"the sheets {', '.join(map(repr, names))} differ in E and G; separate them.",
             code="deformation-contradicts",
         )
 
@@ -225,9 +225,9 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
         none if part.strain_amplitude is None else part.strain_amplitude
         for part, none in zip(parts, nothing, strict=True)
     ]
-    told = Note(
+    joined = Note(
         "sheets-as-temperatures",
-        f"The sheets {', '.join(map(repr, names))} were taken for temperatures of one specimen.",
+        f"The sheets {', '.join(map(repr, names))} were read as temperatures of one specimen.",
     )
     return Readings(
         source=source.path,
@@ -237,9 +237,9 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
         angular_frequency=all_of("angular_frequency"),
         storage_modulus=all_of("storage_modulus"),
         loss_modulus=all_of("loss_modulus"),
-        deformation=saying.deformation,
-        said_by=saying.said_by,
+        deformation=stating.deformation,
+        said_by=stating.said_by,
         strain_amplitude=np.concatenate(amplitudes) if any(p.strain_amplitude is not None for p in parts) else None,
         unit_is_asked=any(part.unit_is_asked for part in parts),
-        notes=(told, *dict.fromkeys(note for part in parts for note in part.notes)),
+        notes=(joined, *dict.fromkeys(note for part in parts for note in part.notes)),
     )

@@ -1,0 +1,128 @@
+"""What readers say: the content of a file, and the sentence of the error or of a note."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from viscofric.errors import DataFileError
+from viscofric.readers import read_dma, read_mtm
+from viscofric.readers.dma.master_curves import read_master_curve
+from viscofric.readers.topography.read import read_scan
+from viscofric.readers.topography.scan import Asked
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+DMA = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
+SWEEP = [f"{T},{f},{5 + f},0.5" for T in (20, 40) for f in (1, 2, 5)]
+MTM = "disc speed (mm/s),ball speed (mm/s),traction force (N),load (N),temperature (degC)"
+
+ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
+    (read_dma, [""], "the file is empty; it must hold a header and rows of numbers."),
+    (
+        read_dma,
+        [DMA, "20,1,five,0.5"],
+        "'five' in column 'storage modulus (MPa)' is not a finite number.",
+    ),
+    (read_dma, [DMA, "20,1,0,0.5"], "0 in column 'storage modulus (MPa)' must be above zero."),
+    (read_dma, [DMA, "20,1,5"], "the row has 3 cells where the header names 4 columns."),
+    (
+        read_dma,
+        [DMA.replace("(MPa)", "(mm)"), *SWEEP],
+        "column 'storage modulus (mm)' has the unit 'mm'; it must be one like 'MPa'.",
+    ),
+    (
+        read_dma,
+        [DMA, *SWEEP],
+        (
+            "does not state whether it was measured in tension or in shear, a factor of 3 in the modulus; give "
+            "deformation = 'tension' or 'shear'."
+        ),
+    ),
+    (
+        lambda path: read_dma(path, deformation="tension"),
+        [DMA, *(f"{20 + 0.5 * n},{1 + n % 3},5,0.5" for n in range(40))],
+        (
+            "the temperatures run continuously from 20.0 to 39.5 °C, without a gap of 1 K; isothermal sweeps are needed, "
+            "not a temperature ramp."
+        ),
+    ),
+    (
+        lambda path: read_dma(path, deformation="tension"),
+        [DMA, *(f"{T},10,5,0.5" for T in range(0, 100, 10))],
+        "each of the 10 temperatures has one frequency; frequency sweeps are needed, not a temperature sweep.",
+    ),
+    (
+        read_dma,
+        ["reduced frequency (Hz),E' (MPa),E'' (MPa)", "1,5,0.5"],
+        (
+            "column 'reduced frequency (Hz)' holds reduced frequencies: a master curve; use read_master_curve with its "
+            "reference temperature."
+        ),
+    ),
+    (
+        lambda path: read_master_curve(path, "25 degC"),
+        ["# reference temperature 30 degC", "reduced frequency (Hz),E' (MPa),E'' (MPa)", "1,5,0.5"],
+        "states the reference temperature 30 °C, not 25 °C.",
+    ),
+    (
+        read_mtm,
+        [MTM.replace("ball speed", "slip"), "20,1,0.5,25,30"],
+        (
+            "no column for ball speed; a table of traction runs has e.g. 'temperature (degC)', 'disc speed (mm/s)', "
+            "'ball speed (mm/s)', 'load (N)', 'traction force (N)', this one has 'disc speed (mm/s)', 'slip (mm/s)', "
+            "'traction force (N)', 'load (N)', 'temperature (degC)'."
+        ),
+    ),
+    (read_mtm, [MTM, "20,1,0.5,0,30"], "0 in column 'load (N)' must be above zero."),
+    (
+        lambda path: read_scan(path, Asked()),
+        ["1,2,3,4", "5,6,7,8"],
+        "does not state the spacing of its points; give spacing='5 um', for instance.",
+    ),
+    (
+        lambda path: read_scan(path, Asked(unit="um")),
+        ["x (um),z (um)", "1,2", "2,3"],
+        "column 'x (um)' states its unit; leave unit = 'um' out.",
+    ),
+]
+
+
+@pytest.mark.parametrize(("read", "lines", "sentence"), ERRORS)
+def test_errors_are_one_sentence(
+    tmp_path: Path, read: Callable[[Path], object], lines: list[str], sentence: str
+) -> None:
+    path = tmp_path / "data.csv"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(DataFileError) as caught:
+        read(path)
+    assert caught.value.problem == sentence
+
+
+def test_notes_on_sweeps(tmp_path: Path) -> None:
+    path = tmp_path / "sweeps.csv"
+    header = DMA.replace("storage modulus", "E'").replace("loss modulus", "E''")
+    path.write_text("\n".join([header, *SWEEP[::-1], "20,9,6,-0.1", "40,1,6,0.5"]), encoding="utf-8")
+    assert list(read_dma(path).notes) == [
+        "Read as text table (columns separated by commas, semicolons, tabs or blanks).",
+        "The file's header states that the moduli were measured in tension (the heading \"E' (MPa)\").",
+        "Line 8 left out: its loss modulus is not above zero (-1e+05 Pa at 20.0 °C, 9 Hz).",
+        "The rows at 20.0 and 40.0 °C were sorted by frequency.",
+        "1 repeated frequency at 40.0 °C was averaged.",
+        "The isotherms were sorted by temperature.",
+    ]
+
+
+def test_notes_on_traction_runs(tmp_path: Path) -> None:
+    path = tmp_path / "runs.csv"
+    path.write_text(f"{MTM},remark\n20,18,0.5,25,30,ok\n20,22,-0.5,25,30,ok\n", encoding="utf-8")
+    assert list(read_mtm(path).notes) == [
+        "Not read: the column 'remark'.",
+        (
+            "There is no replicate column; passes at equal speeds, load and temperature are numbered in their order, and "
+            "rows in succession are one pass. Give a replicate column if they are repetitions."
+        ),
+    ]
