@@ -46,8 +46,8 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
         lambda path: read_dma(path, deformation="tension"),
         [DMA, *(f"{20 + 0.5 * n},{1 + n % 3},5,0.5" for n in range(40))],
         (
-            "the temperatures run continuously from 20.0 to 39.5 °C, without a gap of 1 K; isothermal sweeps are needed, "
-            "not a temperature ramp."
+            "the temperatures run continuously from 20.0 to 39.5 °C, without a gap of 1 K; isothermal sweeps are "
+            "needed, not a temperature ramp."
         ),
     ),
     (
@@ -122,7 +122,7 @@ def test_notes_on_traction_runs(tmp_path: Path) -> None:
     assert list(read_mtm(path).notes) == [
         "Not read: the column 'remark'.",
         (
-            "There is no replicate column; passes at equal speeds, load and temperature are numbered in their order, and "
-            "rows in succession are one pass. Give a replicate column if they are repetitions."
+            "There is no replicate column; passes at equal speeds, load and temperature are numbered in their order, "
+            "and rows in succession are one pass. Give a replicate column if they are repetitions."
         ),
     ]
