@@ -1,4 +1,4 @@
-"""What the predictions of a study take for granted, checked for the cases asked for and for those measured."""
+"""Assumptions of the predictions, checked for the cases of a study and for those at measured points."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.study import Study
 
 _OF_HALF_SPACES = "half-space"
-# What a run warns of; what else does not hold is told contact by contact, or is no fault.
+# Checks with a warning of the run; others have warnings of single contacts, or are harmless.
 _WARNED_OF = (_OF_HALF_SPACES, "uncoupled")
 
 
 def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
-    """Return what `assumption_checks` found as a group of results; none where there was nothing to check."""
+    """Return the checks as a group of results; none without checks."""
     return {"/assumptions": assumptions_dataset(found, "run_file")} if found else {}
 
 
 def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:
-    """Tell of rubber that is no half-space, and of Coulomb friction that moves the surface as pressure does."""
+    """Return warnings about rubber that is no half-space, and about Coulomb friction that couples to pressure."""
     return [
         note_of(check.sentence).coded(check.name)
         for check in found
@@ -45,22 +45,14 @@ def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:
 
 
 def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> list[AssumptionCheck]:
-    """Check thickness, small strain and warming of all contacts; of each, what is told is the worst.
-
-    Parameters
-    ----------
-    contacts : Contacts
-        Of the study; measured friction tells the Coulomb friction, which heats.
-    asked, at_points : Solved
-        Cases asked for, and those at the measured points.
-    """
+    """Check thickness, small strain and warming of all contacts, and return the worst check of each kind."""
     if contacts.study.indenter is None:
         return _surface_checks(contacts.study, asked.of_records)
     alike: dict[object, list[tuple[IndenterCase, Record]]] = {}
     for case, record in zip(asked.of_records, asked.records, strict=True):
         alike.setdefault(case.alike, []).append((case, record))
     found: dict[str, AssumptionCheck] = {}
-    # The largest contact first: where the thickness is not known there is nothing else to tell the worst by.
+    # The largest contact first: if the thickness is unknown, it is the worst.
     for pairs in sorted(alike.values(), key=lambda pairs: -max(_reach(record) for _, record in pairs)):
         records = [record for _, record in pairs]
         curves = replace(curves_of(records), load_unit=pairs[0][0].indenter.geometry.load_unit)
@@ -75,7 +67,7 @@ def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> l
 def _checked(
     contacts: Contacts, case: IndenterCase, curves: FrictionCurves, records: list[Record]
 ) -> Iterable[AssumptionCheck]:
-    """Check contacts of one rubber, shape and load."""
+    """Check contacts of one material, shape and load."""
     reach = np.array([_reach(record) for record in records])
     material = contacts.rubbers[case.material].material
     thickness = contacts.study.conditions.thickness if case.layer is None else case.layer.thickness
@@ -90,7 +82,7 @@ def _reach(record: Record) -> float:
 
 
 def _keep_worst(found: dict[str, AssumptionCheck], checks: Iterable[AssumptionCheck]) -> None:
-    """Keep, of two checks of the same assumption, the one with more to tell: the farther beyond its limit."""
+    """Keep, of two checks of the same assumption, the one farther beyond its limit."""
     for check in checks:
         known = found.setdefault(check.name, check)
         if (check.holds is not False, -_share(check)) < (known.holds is not False, -_share(known)):
@@ -106,7 +98,7 @@ _THICKEST_WAVE = 1.0
 
 
 def _surface_checks(study: Study, cases: Sequence[SurfaceCase]) -> list[AssumptionCheck]:
-    """Check whether the rubber is a half-space to the longest wave; steep slopes are told by the contacts' warnings."""
+    """Check whether the rubber is a half-space for the longest wave; warnings of the contacts report steep slopes."""
     thickness = study.conditions.thickness
     if thickness is None or not cases:
         return []
@@ -117,7 +109,7 @@ def _surface_checks(study: Study, cases: Sequence[SurfaceCase]) -> list[Assumpti
     sentence = (
         f"The longest wave of the surface, {1e3 * longest:.3g} mm, is {value:.2g} times as long as the rubber is "
         "thick; "
-        + ("the rubber is a half-space to it." if holds else "give the rubber's thickness as a [layer] instead.")
+        + ("the rubber is a half-space for it." if holds else "give the rubber's thickness as a [layer] instead.")
     )
     return [AssumptionCheck("half-space", value, _THICKEST_WAVE, holds, sentence)]
 

@@ -1,4 +1,4 @@
-"""A study checked without solving it: its run file, data and rubber, and the effort; or its stored results."""
+"""A study checked without solving it: run file, data, materials and effort."""
 
 from __future__ import annotations
 
@@ -29,18 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class CheckedStudy:
-    """A study in which nothing is wrong.
-
-    Parameters
-    ----------
-    study : Study
-    sweep : Sweep
-        The cases that it asks for.
-    rubbers : tuple of Rubber
-        One for each material.
-    measured : FrictionCurves, optional
-        Friction that was measured.
-    """
+    """A study without errors: its cases, one `Rubber` for each material, and the measured friction, if any."""
 
     study: Study
     sweep: Sweep
@@ -49,7 +38,7 @@ class CheckedStudy:
 
     @cached_property
     def expected(self) -> Expectation:
-        """What solving will take, roughly: the cases asked for and the measured points."""
+        """Estimated effort for the cases and the measured points."""
         study, cases = self.study, [*self.sweep.cases]
         first = cases[0]
         if self.measured is not None:
@@ -66,7 +55,7 @@ class CheckedStudy:
 
     @property
     def master_curve_points(self) -> int:
-        """Points along the friction master curve; 0 where there is none."""
+        """Points along the friction master curve; 0 if there is none."""
         varied = {name for axis in self.sweep.axes if len(axis) > 1 for name in axis.columns} - {"sample"}
         alone = self.measured is None and (not varied or not varied <= {"temperature", "speed"})
         if self.study.indenter is None or alone:
@@ -75,7 +64,7 @@ class CheckedStudy:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was doubtful, changed or left out in reading the data, and what jobs may lack: one sentence each."""
+        """Warnings, changes and omissions in reading the data, and limits of jobs: one sentence each."""
         said = [note for rubber in self.rubbers for note in rubber.notes]
         said += self.measured.notes if self.measured is not None else ()
         said += self.study.notes
@@ -94,28 +83,22 @@ class CheckedStudy:
         together = self.expected.seconds / (cluster.jobs * cluster.cores)
         if together > cluster.walltime:
             yield (
-                f"All jobs together may take {together / 3600.0:.2g} hours, longer than the walltime; what a job did "
-                "not finish is taken up by the next one that starts."
+                f"All jobs together may take {together / 3600.0:.2g} hours, longer than the walltime; the next "
+                "job that starts continues with unfinished cases."
             )
 
 
 def check_study(study: Study, path: Path) -> CheckedStudy:
-    """Read the data files of a study and make its rubbers, without solving any case.
-
-    Parameters
-    ----------
-    study : Study
-    path : Path
-        Its run file, for messages.
+    """Read the data files of a study and make its materials, without solving any case.
 
     Raises
     ------
     StudyError
-        With all that is wrong with its data: one sentence for each material, and one for the measurement.
+        With all errors in its data: one sentence for each material, and one for the measurement.
     """
     rubbers, measured = [], None
     wrong: list[Note] = []
-    field = ""  # of the first that is wrong
+    field = ""  # of the first error
     for number, material in enumerate(study.materials):
         try:
             rubber = make_rubber(material)

@@ -1,4 +1,4 @@
-"""All contacts of a study in one plan: those asked for, those at measured points, those along the master curve."""
+"""All contacts of a study in one plan: its cases, those at measured points, and those along the master curve."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.study import Study
     from viscofric.study.study_rubber import StudyRubber
 
-# A little beyond the speeds asked for, so that rounding leaves no point outside the master curve.
+# Margin beyond the speeds of the cases, so that rounding leaves no point outside the master curve.
 _ROUNDING = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Some cases of a study, and what became of each.
+    """Some cases of a study with their results.
 
     Attributes
     ----------
-    cases : tuple of Case
     outcomes : tuple of Record or Failure
-    sweep : Sweep, optional
-        That the cases are, where they are one.
+        Of each case.
+    sweep : Sweep or None
+        If the cases are those of a sweep.
     """
 
     cases: tuple[Case, ...]
@@ -45,12 +45,12 @@ class Solved:
     sweep: Sweep | None = None
 
     def place(self, number: int) -> str:
-        """Say where one of the cases lies."""
+        """Return the position of a case in words."""
         return place(self.cases[number]) if self.sweep is None else place_in(self.sweep, number)
 
     @property
     def records(self) -> list[Any]:
-        """Those that have one, in their order."""
+        """The records, in the order of the cases."""
         return [outcome for outcome in self.outcomes if isinstance(outcome, Record)]
 
     @property
@@ -61,7 +61,7 @@ class Solved:
 
     @property
     def failures(self) -> list[Failure]:
-        """The others, each with its place among the cases."""
+        """The failures, with the position of their cases."""
         return [
             replace(outcome, label=self.place(number))
             for number, outcome in enumerate(self.outcomes)
@@ -73,24 +73,17 @@ class Solved:
 class Contacts:
     """The contacts of a study.
 
-    Parameters
-    ----------
-    study : Study
-    rubbers : sequence of StudyRubber
-        Its materials.
-    measured : Measurement, optional
-
     Attributes
     ----------
     sweep : Sweep
-        The cases asked for.
+        The cases of the study.
     at_points : tuple of Case
         At each measured point.
     along : tuple of Case
-        Along the friction master curve; none where there is more than one, as of several loads, nor of a rough surface,
-        whose seeds each have their own.
+        Along the friction master curve; none if there are several, as of several loads, nor for a rough surface, where
+        each seed has its own.
     plan : Plan
-        Of all of them, so that what is solved for the ones serves the others.
+        Of all of them together, so that they share solved contacts.
     """
 
     study: Study
@@ -108,13 +101,7 @@ class Contacts:
         object.__setattr__(self, "plan", self._plan())
 
     def results(self) -> tuple[Solved, Solved, Solved]:
-        """Return the cases asked for, those at measured points and those along the master curve, with their outcomes.
-
-        Raises
-        ------
-        InputError
-            If the plan has not been carried out.
-        """
+        """Return the three parts with their results; raise `InputError` if the plan has not run."""
         found, parts = list(self.plan.found()), []
         for cases in (self.sweep.cases, self.at_points, self.along):
             of = self.sweep if cases is self.sweep.cases else None
@@ -146,9 +133,9 @@ class Contacts:
         return case.speed * float(self.rubbers[case.material].shift(case.temperature))
 
     def _along(self) -> tuple[Case, ...]:
-        """Return the master curve's contacts, all of them at the reference temperature; none where it is one point.
+        """Return the contacts of the master curve at the reference temperature; none if it would be one point.
 
-        What is measured is of one rubber and one ball, and laid beside the curve of the first load.
+        A measurement has one material and one ball, and is compared with the curve of the first load.
         """
         points = self.study.solver.points_along(measured=self.measured is not None)
         one, alike = self.sweep.cases[0], {case.alike for case in self.sweep.cases if case.sample is None}
@@ -165,7 +152,7 @@ class Contacts:
         return tuple(moved(one, temperature=reference, speed=speed, sample=None) for speed in speeds.tolist())
 
     def _few(self) -> list[int]:
-        """Choose cases whose fields are kept: of the first load, shape … the slowest, middle and fastest, reduced."""
+        """Choose cases whose fields are kept: of the first load, shape … the slowest, middle and fastest (reduced)."""
         first = self.sweep.cases[0]
         numbers = [number for number, case in enumerate(self.sweep.cases) if case.alike == first.alike]
         numbers.sort(key=lambda number: self._reduced(self.sweep.cases[number]))
@@ -173,7 +160,7 @@ class Contacts:
 
 
 def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note]:
-    """Tell which assumptions do not hold well, each with the number of contacts that it concerns."""
+    """Return notes on assumptions that do not hold well, with the numbers of contacts."""
     found = [
         (part, number, outcome)
         for part in parts
@@ -185,7 +172,7 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
     if wide:
         part, number, record = max(wide, key=lambda one: one[0].cases[one[1]].reach(one[2]))
         said = " ".join(record.warnings)
-        text = f"In {len(wide)} of all {len(found)} contacts, most of all at {part.place(number)}: {said}"
+        text = f"In {len(wide)} of all {len(found)} contacts, worst at {part.place(number)}: {said}"
         notes.append(Note("doubtful-contacts", text))
     within = all_within(rubbers, [part.cases[number] for part, number, _ in found], [record for *_, record in found])
     beyond = [one for one, known in zip(found, within, strict=True) if not known]
@@ -196,7 +183,7 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
             Note(
                 "beyond-measured",
                 f"In {len(beyond)} of all {len(found)} contacts, such as {part.place(number)}, {what} beyond the "
-                "reduced frequencies at which the rubber is known: their friction rests on the extrapolated spectrum.",
+                "measured reduced frequencies: their friction depends on the extrapolated spectrum.",
             )
         )
     return notes

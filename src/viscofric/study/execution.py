@@ -1,4 +1,4 @@
-"""Running a study: from its files to the material, every contact solved, measurement laid beside."""
+"""Running a study: from its run file to the material, all contacts, and the comparison with a measurement."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     Groups = dict[str, xarray.Dataset]
 
-# As many contacts are named in a sentence.
+# Contacts named in a sentence.
 _MOST_LABELS = 5
 
 
@@ -49,7 +49,7 @@ def run_study(
     finished_only: bool = False,
     progress: Progress = silent,
 ) -> StudyResults:
-    r"""Run a study: material from DMA, friction of every case, measurement beside it.
+    r"""Run a study: material from DMA, friction of every case, comparison with a measurement.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def run_study(
     study = parse_study(text, path)
     folder = path.with_suffix(".results") if output is None else file_path(output)
     executor = choose_executor(workers, scheduler, study.cluster, finished_only)
-    # Workers come to life while the inputs are read.
+    # Workers start while the inputs are read.
     with study_folder(folder, resume or finished_only) as store, executor:
         hashes = input_hashes(study.inputs, path.parent)
         rubbers, measured = _inputs(study, _staged(progress))
@@ -132,7 +132,7 @@ def run_study(
 
 
 def _staged(progress: Progress) -> Callable[[str, Callable[[], Any]], Any]:
-    """Return what does a step that is a stage by itself, and tells of it."""
+    """Return a function that runs a step and reports it as a stage."""
 
     def stage(name: str, step: Callable[[], Any]) -> Any:
         progress(Event("stage", stage=name, done=0, total=1))
@@ -146,7 +146,7 @@ def _staged(progress: Progress) -> Callable[[str, Callable[[], Any]], Any]:
 def _inputs(
     study: Study, stage: Callable[[str, Callable[[], Any]], Any]
 ) -> tuple[list[StudyRubber], Measurement | None]:
-    """Read what a study starts from."""
+    """Read materials and measurement of a study."""
     conditions, table = study.conditions, study.measurement
     curves = None if table is None else stage("measurement", lambda: read_measurement(table))
     rubbers: list[StudyRubber] = stage(
@@ -161,13 +161,13 @@ def _inputs(
 
 
 def _damage(labels: Sequence[str], finished_only: bool) -> list[str]:
-    """Say which stored cases were not used, since they were damaged."""
+    """Return a note about damaged stored contacts."""
     if not labels:
         return []
     many = (
-        f"{len(labels)} stored contacts were damaged (they did"
+        f"{len(labels)} stored contacts were damaged (they do"
         if len(labels) > 1
-        else "1 stored contact was damaged (it did"
+        else "1 stored contact was damaged (it does"
     )
     shown = "; ".join(labels[:_MOST_LABELS]) + ("; …" if len(labels) > _MOST_LABELS else "")
     done = "counted as not solved" if finished_only else "solved again"
@@ -175,26 +175,14 @@ def _damage(labels: Sequence[str], finished_only: bool) -> list[str]:
 
 
 def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree:
-    """Lay out everything that a study found, from its contacts, whose plan has been carried out.
-
-    Parameters
-    ----------
-    contacts : Contacts
-    doubtful : iterable of str
-        What is to be said of them besides, as warnings.
-
-    Raises
-    ------
-    StudyError
-        If no case at all could be solved.
-    """
+    """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved."""
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
     asked, at_points, along = contacts.results()
     failures = list(dict.fromkeys(one.note for part in (asked, at_points, along) for one in part.failures))
     if not asked.records:
-        raise StudyError(f"no case could be solved; the first one failed: {failures[0]}")
+        raise StudyError(f"no case could be solved; the first one failed: {failures[0]}", code="nothing-solved")
     groups, about = material_groups(
         [rubber_groups(one.rubber, one.bands.samples) for one in rubbers], [one.rubber.attributes for one in rubbers]
     )
@@ -244,24 +232,24 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
 
 
 def _missed_accuracy(cases: xarray.Dataset, study: Study) -> list[str]:
-    """Say in how many cases the accuracy asked for is not reached."""
+    """Return a note about cases that miss the accuracy."""
     beyond = beyond_accuracy(cases, study.solver.accuracy)
     if not beyond.any():
         return []
     error, friction = (np.abs(cases[name].values[beyond]) for name in ("friction_error", "friction_coefficient"))
     worst = float(np.max(error[friction > 0.0] / friction[friction > 0.0], initial=0.0))
-    why = "" if study.indenter else ": the points of the surface are too far apart for it (spacing)"
+    why = "" if study.indenter else ": the spacing of the surface's points is too large"
     return [
         Note(
             "accuracy-missed",
             f"In {beyond.sum()} of {beyond.size} cases the estimated numerical error of friction, {worst:.2%} at most, "
-            f"is above the accuracy asked for, {study.solver.accuracy:.2%}{why}.",
+            f"exceeds the requested accuracy, {study.solver.accuracy:.2%}{why}.",
         )
     ]
 
 
 def _named(one: StudyRubber, sentences: Iterable[str], rubbers: Sequence[StudyRubber]) -> list[Note]:
-    """Say of which rubber sentences are, where there are several."""
+    """Return notes with the name of their material if there are several."""
     name = one.material.name if len(rubbers) > 1 else ""
     return [note_of(sentence).at(name) for sentence in sentences]
 

@@ -1,4 +1,4 @@
-"""A study's measurement: friction separated, laid beside the prediction, and asked for its own shift factors."""
+"""A study's measurement: separated, compared with the prediction, and its own shift factors."""
 
 from __future__ import annotations
 
@@ -33,13 +33,7 @@ if TYPE_CHECKING:
 
 
 def read_measurement(table: MeasurementTable) -> FrictionCurves:
-    """Return the friction curves of [measurement]: those of a table, or separated from the runs of a tribometer.
-
-    Raises
-    ------
-    DataFileError, InputError
-        If a file cannot be used, or its runs cannot be separated.
-    """
+    """Return the friction curves of [measurement]: those of a table, or separated from tribometer runs."""
     if table.curves is not None:
         return read_friction_curves(table.curves)
     runs = read_mtm(*table.mtm)
@@ -49,22 +43,14 @@ def read_measurement(table: MeasurementTable) -> FrictionCurves:
 
 
 class Measurement:
-    """Measured friction beside a rubber's modulus.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-        Measured.
-    material : Material
-        With a shift.
-    ball : Ball
-    load : float
-        Of the friction master curve, N.
+    """Measured friction and the modulus of a material.
 
     Attributes
     ----------
+    load : float
+        Of the friction master curve, N.
     notes : list of Note
-        What is to be said of it: one sentence each.
+        One sentence each.
     """
 
     def __init__(self, curves: FrictionCurves, material: Material, ball: Ball, load: float) -> None:
@@ -82,7 +68,7 @@ class Measurement:
         return self._master.reduced_speed
 
     def _shifted_by_itself(self) -> FrictionMasterCurve | None:
-        """Find α(T) from friction alone, about the modulus's reference where friction reaches it."""
+        """Find α(T) from friction alone, about the modulus's reference if friction covers it."""
         assert self.material.shift is not None
         reference: float | None = self.material.shift.reference
         if not self.curves.temperature.min() <= reference <= self.curves.temperature.max():
@@ -90,7 +76,7 @@ class Measurement:
         try:
             return shift_friction(self.curves, reference=reference, **self._rule)
         except (SuperpositionError, InputError) as error:
-            self.notes.append(error.note.at("Friction alone tells no shift factors").coded("no-shift-factors"))
+            self.notes.append(error.note.at("Friction alone gives no shift factors").coded("no-shift-factors"))
             return None
 
     def groups(
@@ -100,17 +86,10 @@ class Measurement:
         at_reference: FrictionCurves,
         bands: FrictionBands,
     ) -> Groups:
-        """Lay beside the prediction, and friction's shift factors beside the modulus's.
+        """Compare with the prediction, and the shift factors of friction with those of the modulus.
 
-        Parameters
-        ----------
-        at_points : list of Record or None
-            Solved at each measured point; None where that failed.
-        within : list of bool or None
-            Whether each of these lies within the measured frequencies, where those are known.
-        at_reference : FrictionCurves
-            Predicted along the master curve.
-        bands : FrictionBands
+        `at_points` are the records at each measured point (None: failed), `within` whether their frequencies were
+        measured, and `at_reference` is the prediction along the master curve.
         """
         predicted = bands.curves([record for record in at_points if record is not None])
         alpha = np.asarray(self._master.shift(self.curves.temperature))
@@ -125,7 +104,7 @@ class Measurement:
     def _agreement(
         self, at_points: list[Record | None], predicted: FrictionCurves, at_reference: FrictionCurves
     ) -> Groups:
-        """Compare where there is a prediction, and a friction above zero to relate the difference to."""
+        """Compare where there are a prediction, and a measured friction above zero as the reference."""
         solved = np.array([record is not None for record in at_points])
         comparable = solved & (self.curves.viscoelastic > 0.0)
         if not comparable.any():

@@ -1,4 +1,4 @@
-"""From [material] to a rubber: sweeps read, superposed and fitted, or a rubber that is ready."""
+"""From [material] to a material model: sweeps read, superposed and fitted, or a predefined material."""
 
 from __future__ import annotations
 
@@ -35,30 +35,28 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Rubber:
-    """A material with everything that it was made from.
+    """A material with everything it was made from.
 
-    Parameters
+    Attributes
     ----------
     material : Material
         With a shift, about the reference temperature.
     source : str
-        Where a rubber that was ready came from.
+        Origin of a predefined material.
     synthetic : bool
-        Whether it is one of the catalogue that nobody measured.
-    sweeps : IsothermalSweeps, optional
-        As read; none for a rubber that was ready.
-    fit : Superposition, optional
-        Of the sweeps.
-    master_curve : MasterCurve, optional
-        That was given instead of sweeps.
-    laws : LawComparison, optional
-        The shift laws that were tried on the measured shift factors.
+        Whether it is synthetic, from the catalogue.
+    sweeps, fit : IsothermalSweeps, Superposition or None
+        None for a predefined material.
+    master_curve : MasterCurve or None
+        Given instead of sweeps.
+    laws : LawComparison or None
+        Shift laws fitted to the measured shift factors.
     shift_used : str
-        What α(T) of the material is: ``"measured"``, or the name of a law.
+        ``"measured"``, or the name of the law in use.
     shift_origin : {"found", "given", "held"}
-        Where the factors of the isotherms come from: the sweeps, a file, or the sweeps but for some that were held.
+        Shift factors found from the sweeps, read from a file, or found with some held fixed.
     notes : tuple of str
-        What was doubtful, changed or left out on the way: one sentence each.
+        Warnings, changes and omissions, one sentence each.
     """
 
     material: Material
@@ -74,7 +72,7 @@ class Rubber:
 
     @property
     def law(self) -> ParametricLaw | None:
-        """The law that is used, else the one that describes the measured shift factors best, if any does."""
+        """The law in use, else the one that describes the measured shift factors best, if any."""
         from viscofric.rheology.shifts.laws import ParametricLaw
 
         if isinstance(self.material.shift, ParametricLaw):
@@ -83,14 +81,14 @@ class Rubber:
 
     @property
     def from_friction(self) -> bool:
-        """Whether the rubber was identified from friction, which then tests no prediction from it."""
+        """Whether it was identified from friction, which then does not test predictions from it."""
         spectrum = self.material.spectrum
         fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
         return fit is not None and fit.from_friction
 
     @property
     def attributes(self) -> dict[str, str | float]:
-        """What results say of the rubber as a whole."""
+        """Attributes of the material in results."""
         said: dict[str, str | float] = {"poisson_ratio": self.material.poisson_ratio}
         if self.sweeps is not None:
             said |= {"deformation": self.sweeps.deformation, "dma_format": self.sweeps.format}
@@ -107,23 +105,16 @@ class Rubber:
 
 
 def make_rubber(wanted: MaterialTable, *, liquids: bool = False) -> Rubber:
-    """Make the rubber that [material] of a run file asks for.
+    """Return the material of [material] of a run file, whose paths are resolved.
 
-    Parameters
-    ----------
-    wanted : MaterialTable
-        With its paths resolved.
-    liquids : bool
-        Whether a liquid, which has no spectrum that a contact could use, becomes a table of its master curve, with a
-        note; for those who look at shift factors and moduli.
+    With `liquids`, a liquid, which has no spectrum for contacts, becomes a table of its master curve, with a note.
 
     Raises
     ------
     LiquidError
         If it is a liquid, unless `liquids` is true.
     DataFileError, SuperpositionError, InputError
-        If a file cannot be used or does not say whether it was measured in tension or in shear, or the sweeps do not
-        give what is asked for.
+        If a file cannot be used or does not state tension or shear, or the fit fails.
     """
     if wanted.dma is not None:
         return _from_sweeps(wanted, liquids)
@@ -159,7 +150,7 @@ def _from_sweeps(wanted: MaterialTable, liquids: bool) -> Rubber:
         fit = _superposed(wanted, sweeps)
         shift, laws, used = _law_or_table(wanted.shift, fit.shift_factors)
     except DataFileError:
-        raise  # names its own file
+        raise  # it names its file
     except InputError as error:
         raise error.at(name) from error
     spectrum, flowing = _spectrum(wanted, fit.master_curve, _verdict(fit), liquids)
@@ -176,7 +167,7 @@ def _from_sweeps(wanted: MaterialTable, liquids: bool) -> Rubber:
 
 
 def _from_master_curve(wanted: MaterialTable, liquids: bool) -> Rubber:
-    """Take a curve that others superposed; α(T) is what they found, if it is given."""
+    """Use a given master curve, with its shift factors if they are given."""
     path, reference = wanted.master_curve, wanted.reference_temperature
     if path is None or reference is None:
         raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
@@ -200,7 +191,7 @@ def _from_master_curve(wanted: MaterialTable, liquids: bool) -> Rubber:
 
 
 def _undecided(laws: LawComparison | None, wanted: str) -> tuple[str, ...]:
-    """Return what a choice among laws leaves open, where the best law is used."""
+    """Return notes about an undecided choice among laws, if the best law is used."""
     if laws is None or wanted != "best":
         return ()
     return tuple(note for note in laws.notes if note.code == "laws-undecided")
@@ -209,7 +200,7 @@ def _undecided(laws: LawComparison | None, wanted: str) -> tuple[str, ...]:
 def _spectrum(
     wanted: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...], liquids: bool
 ) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
-    """Fit the spectrum; what is wrong with its master curve goes with it, into its file and to whoever uses it.
+    """Fit the spectrum; warnings about the master curve go into it, so that they stay in its file.
 
     A liquid becomes a table, with a note, or is refused.
     """
@@ -248,7 +239,7 @@ def _superposed(wanted: MaterialTable, sweeps: IsothermalSweeps) -> Superpositio
 
 
 def _law_or_table(wanted: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:
-    """Return α(T) as wanted, the laws that were tried, and what was taken."""
+    """Return α(T) as requested, the comparison of laws, and the choice."""
     try:
         laws = factors.compare_laws()
     except InputError:  # no law describes the factors
@@ -263,20 +254,14 @@ def _law_or_table(wanted: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComp
 
 
 def shift_of(rubber: Rubber) -> ShiftLaw:
-    """Return α(T) of a rubber that contacts can be solved with.
-
-    Raises
-    ------
-    StudyError
-        If it has no spectrum, or no shift factors.
-    """
+    """Return α(T) of a material for contacts; raise `StudyError` if it has no spectrum or no shift factors."""
     material = rubber.material
     if not isinstance(material.spectrum, RetardationSpectrum):
         raise StudyError(
             Note(
                 "no-spectrum",
-                f"{material.name or 'the rubber'} is a table of moduli without a spectrum; the contact of a ball needs "
-                "retardation modes, which fitting a spectrum to the table gives (viscofric material fit).",
+                f"{material.name or 'the rubber'} is a table of moduli without a spectrum, and contacts need one; "
+                "fit it to the table (viscofric material fit).",
                 "material",
             )
         )
@@ -284,8 +269,8 @@ def shift_of(rubber: Rubber) -> ShiftLaw:
         raise StudyError(
             Note(
                 "no-shift",
-                f"{material.name or 'the rubber'} has no shift factors, so that its temperature cannot be chosen; give "
-                "a rubber that has, or sweeps at several temperatures.",
+                f"{material.name or 'the rubber'} has no shift factors, and cannot be used at other temperatures; give "
+                "a material that has them, or sweeps at several temperatures.",
                 "material",
             )
         )
@@ -308,9 +293,10 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
         )
         groups["/superposition"] = fit.check.to_dataset()
     curve = rubber.master_curve if fit is None else fit.master_curve
-    if curve is not None:
-        fitted = isinstance(spectrum, RetardationSpectrum) and spectrum.fit is not None  # a liquid has no spectrum
-        groups["/master_curve"] = spectrum.master_curve_dataset(curve) if fitted else curve.to_dataset()  # type: ignore[union-attr]
+    if curve is not None and isinstance(spectrum, RetardationSpectrum) and spectrum.fit is not None:
+        groups["/master_curve"] = spectrum.master_curve_dataset(curve)
+    elif curve is not None:  # of a liquid, which has no spectrum
+        groups["/master_curve"] = curve.to_dataset()
     if rubber.laws is not None:
         groups["/laws"] = rubber.laws.to_dataset()
     if rubber.law is not None:

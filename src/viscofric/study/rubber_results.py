@@ -53,36 +53,32 @@ def run_material(
     samples: int = 200,
     synthetic: bool = False,
 ) -> tuple[StudyResults, Rubber, list[Path]]:
-    """Make a rubber and store it: results, material file and tables.
+    """Make a material and store it: results, material file and tables.
 
     Parameters
     ----------
     wanted : MaterialTable
-        Where the rubber comes from and how it is made.
     output : str or Path
-        Folder for the results, made if need be.
-    title : str
-        Of the report.
-    command : str
-        What the user called, for the report.
+        Folder for the results, made if missing.
+    title, command : str
+        Of the report; the user's command.
     samples : int
-        Draws of the rubber for the bands of E(ω); 0 for none.
+        Bootstrap samples for the bands of E(ω); 0 for none.
     synthetic : bool
-        Whether the data were made, not measured.
+        Whether the data are synthetic.
 
     Returns
     -------
     results : StudyResults
-        With the groups of `viscofric.study.results.tree`.
+        With the groups of the material in `viscofric.study.results.tree`.
     rubber : Rubber
-        The material with what it was made from.
     files : list of Path
         Material file and tables.
 
     Raises
     ------
     DataFileError, SuperpositionError, InputError
-        If a file cannot be read or written, or the sweeps do not give what is asked for.
+        If a file cannot be read or written, or the fit fails.
     """
     import xarray
 
@@ -122,34 +118,13 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
 
 
 def write_program_card(material: Material, folder: Path, form: CardFormat, law: CardLaw | None = None) -> Path:
-    """Write a rubber for a program into a folder, in a file named after the program; see `write_card`.
-
-    Raises
-    ------
-    InputError
-        If the format cannot hold the rubber.
-    DataFileError
-        If the file cannot be written.
-    """
+    """Write a material for a program into a folder, in a file named after the program; see `write_card`."""
     folder.mkdir(parents=True, exist_ok=True)
     return write_card(material, folder / f"rubber_{form.replace('-', '_')}{CARDS[form]}", format=form, law=law)
 
 
 def write_sweeps(sweeps: IsothermalSweeps, path: str | Path) -> Path:
-    """Write the points of sweeps as a table that `read_dma` reads; strain amplitudes are not in it.
-
-    Parameters
-    ----------
-    sweeps : IsothermalSweeps
-        As read; moduli as measured, in MPa, headed E or G.
-    path : str or Path
-        Replaced if it exists.
-
-    Raises
-    ------
-    DataFileError
-        If it cannot be written.
-    """
+    """Write sweeps (moduli as measured, MPa, headed E or G) as a table for `read_dma`, without strain amplitudes."""
     letter = "E" if sweeps.deformation == "tension" else "G"
     headings = ["temperature (degC)", "frequency (Hz)", f"{letter}' (MPa)", f"{letter}'' (MPa)"]
     rows = (
@@ -161,7 +136,7 @@ def write_sweeps(sweeps: IsothermalSweeps, path: str | Path) -> Path:
 
 
 def write_master_curve(curve: MasterCurve, path: str | Path) -> Path:
-    """Write a master curve: reduced angular frequency, tensile moduli, and the isotherm each point comes from."""
+    """Write a master curve: reduced angular frequency, tensile moduli, and the isotherm of each point."""
     headings = ["reduced angular frequency (rad/s)", "E' (Pa)", "E'' (Pa)", "isotherm (degC)"]
     columns = (curve.angular_frequency, curve.storage_modulus, curve.loss_modulus, curve.temperature - CELSIUS_ZERO)
     remark = f"reference temperature {celsius(curve.reference):z.6g} degC"
@@ -177,7 +152,7 @@ def write_spectrum(spectrum: RetardationSpectrum, path: str | Path) -> Path:
 def _write(
     path: str | Path, headings: Sequence[str], rows: Iterable[Sequence[float]], remark: str | None = None
 ) -> Path:
-    """Write rows with as many digits as tell the numbers apart."""
+    """Write rows with all significant digits."""
     text = io.StringIO()
     if remark is not None:
         text.write(f"# {remark}\n")

@@ -30,16 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class StudyRubber:
-    """A rubber of a study.
-
-    Attributes
-    ----------
-    rubber : Rubber
-    bands : FrictionBands
-    members : tuple of Material
-        Of its posterior, that cases are solved with.
-    shift : ShiftLaw
-    """
+    """A material of a study with its bands, its bootstrap samples (`members`) and its shift."""
 
     rubber: Rubber
     bands: FrictionBands
@@ -48,18 +39,18 @@ class StudyRubber:
 
     @classmethod
     def of(cls, table: MaterialTable, uncertainty: UncertaintyTable, temperatures: Sequence[float]) -> StudyRubber:
-        """Make a rubber, and see that it can be solved with at some temperatures.
+        """Make a material for contacts at some temperatures.
 
         Raises
         ------
         StudyError
-            If it has no spectrum, no shift, or no sweeps to draw members from.
+            If it has no spectrum, no shift, or no sweeps for bootstrap samples.
         InputError
             If a file cannot be used, or a temperature has no shift factor.
         """
         rubber = make_rubber(table)
         shift = shift_of(rubber)
-        # Temperatures without a shift factor are told now, not case by case.
+        # Raises for temperatures without a shift factor, before any case is solved.
         shift(np.array(temperatures))
         bands = FrictionBands(rubber, uncertainty.draws, uncertainty.seed)
         return cls(rubber, bands, _members(rubber, bands, uncertainty), shift)
@@ -71,14 +62,14 @@ class StudyRubber:
 
     @property
     def frequency_range(self) -> tuple[float, float] | None:
-        """Reduced angular frequencies between which the spectrum was measured, rad/s; None where that is not known."""
+        """Reduced angular frequencies of the measurement, rad/s; None if unknown."""
         fit = getattr(self.material.spectrum, "fit", None)
         return None if fit is None else fit.frequency_range
 
     def is_within(self, case: Case, record: Record) -> bool:
-        """Whether a contact's frequencies, reduced by α(T), lie within the master curve's, as far as is known.
+        """Whether a contact's frequencies, reduced by α(T), were measured, as far as is known.
 
-        That of an indenter is v/a; a rough surface has 2πv/λ for the shortest and the longest of its wavelengths.
+        They are v/a for an indenter, and 2πv/λ for the shortest and the longest wavelength of a rough surface.
         """
         if self.frequency_range is None:
             return True
@@ -88,28 +79,27 @@ class StudyRubber:
         return low <= rate / longest and rate / shortest <= high
 
     def doubts(self, temperatures: Sequence[float]) -> list[Note]:
-        """Tell what of the prediction rests on more than was measured, or does not lie on one curve."""
+        """Return notes about extrapolation, and about curves that do not lie on the master curve."""
         asked = np.array(temperatures)
         beyond = asked[np.asarray(self.shift.extrapolates(asked))]
         spectrum = self.material.spectrum
         fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
-        # What is wrong with a ready rubber is told by nothing else.
+        # The warnings of a predefined material are reported nowhere else.
         said = list(map(note_of, fit.notes)) if self.rubber.fit is None and fit is not None else []
         if fit is None:
             said.append(
                 Note(
                     "frequencies-unknown",
-                    "At which frequencies the rubber was measured is not known, so that nothing tells where it is "
-                    "extrapolated.",
+                    "The measured frequency range of the material is unknown; extrapolation cannot be checked.",
                 )
             )
         if beyond.size:
             at = ", ".join(f"{celsius(float(kelvin)):z.4g}" for kelvin in np.unique(beyond))
-            behind = "of the friction that it was identified from" if self.rubber.from_friction else "of the sweeps"
+            behind = "of the friction from which it was identified" if self.rubber.from_friction else "of the sweeps"
             said.append(
                 Note(
                     "extrapolated",
-                    f"At {at} °C the shift factor is extrapolated beyond the temperatures {behind}, by its law.",
+                    f"At {at} °C the law extrapolates the shift factor beyond the temperatures {behind}.",
                 )
             )
         if self.material.vertical_shift is not None:
@@ -125,12 +115,12 @@ class StudyRubber:
 
 
 def all_within(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Record]) -> list[bool]:
-    """Whether each case, solved, lies within the frequencies at which its rubber is known, as far as these are."""
+    """Return for each solved case whether its frequencies were measured, as far as is known."""
     return [rubbers[case.material].is_within(case, record) for case, record in zip(cases, records, strict=True)]
 
 
 def band_columns(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Any]) -> BandColumns | None:
-    """Return the bands of solved cases; None if no rubber has any.  Those of a posterior's members have none."""
+    """Return the bands of solved cases; None if no material has any.  Bootstrap samples have none."""
     if all(rubber.bands.samples is None for rubber in rubbers):
         return None
     columns = np.full((len(BandColumns._fields), len(records)), np.nan)
@@ -145,7 +135,7 @@ def band_columns(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records:
 
 
 def _members(rubber: Rubber, bands: FrictionBands, uncertainty: UncertaintyTable) -> tuple[Material, ...]:
-    """Return as many members of a rubber's posterior as are asked for."""
+    """Return the requested number of bootstrap samples of a material."""
     count = uncertainty.members
     if count == 0:
         return ()
@@ -154,15 +144,16 @@ def _members(rubber: Rubber, bands: FrictionBands, uncertainty: UncertaintyTable
         samples = draw_rubber(rubber, max(count, FEWEST_SAMPLES), uncertainty.seed)
     if samples is None:
         raise StudyError(
-            f"uncertainty.members = {count}: {rubber.material.name or 'the rubber'} cannot be drawn anew, as only the "
-            "sweeps that a rubber is made of tell how well it is known; leave members out, or give its sweeps.",
+            f"uncertainty.members = {count}: {rubber.material.name or 'the rubber'} has no bootstrap samples, which "
+            "need its sweeps; leave members out, or give its sweeps.",
+            code="no-samples",
             field="uncertainty.members",
         )
     return samples.materials[:count]
 
 
 class BandColumns(NamedTuple):
-    """What the rubber's uncertainty leaves on friction, a column entry for each record; NaN where that is not known."""
+    """Uncertainty of friction due to the material, an entry for each record; NaN if unknown."""
 
     material_error: Any
     viscoelastic_lower: Any
@@ -170,15 +161,7 @@ class BandColumns(NamedTuple):
 
 
 def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples | None:
-    """Draw a rubber as other sweeps of it might have given it; None where there are no sweeps to tell, or no wish.
-
-    Parameters
-    ----------
-    rubber : Rubber
-    samples : int
-        How many; 0 for none.
-    seed : int
-        Of the random numbers.
+    """Return bootstrap samples of a material; None without sweeps, or for 0 samples.
 
     Raises
     ------
@@ -208,21 +191,13 @@ def curves_of(records: Sequence[Record]) -> FrictionCurves:
 
 
 class FrictionBands:
-    """Turns solved cases into friction curves, with bands where the rubber can be drawn.
-
-    Parameters
-    ----------
-    rubber : Rubber
-    count : int
-        Samples of the rubber; 0 for no bands.
-    seed : int
-        Of their random numbers.
+    """Converts solved cases to friction curves, with bands if the material has bootstrap samples (`count`, 0 for none).
 
     Attributes
     ----------
     samples : MaterialSamples or None
     notes : tuple of str
-        What is to be said of the bands so far: one sentence each.
+        On the bands so far, one sentence each.
     """
 
     def __init__(self, rubber: Rubber, count: int, seed: int = 0) -> None:
@@ -236,11 +211,11 @@ class FrictionBands:
         if self.samples is not None:
             self.notes = tuple(self.samples.notes)
         elif count and rubber.fit is None:
-            text = "Friction has no 95 % bands: only the sweeps that a rubber is made of tell how well it is known."
+            text = "Friction has no 95 % bands: the uncertainty of the material is known from its sweeps only."
             self._note(Note("no-bands", text))
 
     def curves(self, records: Sequence[Record]) -> FrictionCurves:
-        """Return the friction of solved cases, in their order; without bands if any of them has no sensitivity."""
+        """Return the friction of solved cases, in their order; without bands if any has no derivatives."""
         found = curves_of(records)
         sensitivities = [record.sensitivity for record in records if record.sensitivity is not None]
         if self._drawn is None or not records:
@@ -249,8 +224,8 @@ class FrictionBands:
             self._note(
                 Note(
                     "no-bands",
-                    f"At {len(records) - len(sensitivities)} of {len(records)} cases it could not be found how "
-                    "friction answers to the rubber, so that these friction curves have no bands.",
+                    f"At {len(records) - len(sensitivities)} of {len(records)} cases the derivatives of "
+                    "friction by the material were not found, so that these friction curves have no bands.",
                 )
             )
             return found

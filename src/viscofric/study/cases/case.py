@@ -1,4 +1,4 @@
-"""What the contacts of a study have in common: their rubber, how they are solved, and the curve that they lie on."""
+"""Contacts of a study: their common interface, and the materials that they share."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Settings:
-    """How all contacts of a plan are solved.
+    """Settings of all contacts of a plan.
 
     Attributes
     ----------
     accuracy : float
         Of the friction coefficient, relative.
     sensitive : bool
-        Whether to find how friction answers to the rubber's compliance.
+        Whether to find the derivatives of friction by the material's compliance.
     fields : frozenset of int
         Numbers of the cases whose fields are kept.
     """
@@ -47,20 +47,18 @@ class Settings:
 
 
 class Case(ABC):
-    """One contact, SI: frozen, and equal to another where all of it is.
+    """One contact, SI: frozen and hashable.
 
     Attributes
     ----------
     material : int
-        Its number in `Study.materials`, from 0.
+        Index in `Study.materials`.
     sample : int or None
-        Member of the material's posterior that it is solved with, from 1; the best estimate if None.
-    temperature : float
-        K.
-    speed : float
-        m/s.
+        Bootstrap sample of the material, from 1; None: the best estimate.
+    temperature, speed : float
+        K, m/s.
     layer : Layer or None
-        A half-space without.
+        None: a half-space.
     """
 
     __slots__ = ()
@@ -70,22 +68,22 @@ class Case(ABC):
     speed: float
     layer: Layer | None
 
-    #: What lies where its frequencies do, in words.
+    #: Begins a sentence about its frequencies.
     FREQUENCIES: ClassVar[str]
-    #: Whether contacts that differ in temperature and speed make the friction master curve of a study.
+    #: Whether contacts at different temperatures and speeds form a friction master curve.
     HAS_MASTER_CURVE: ClassVar[bool]
-    #: Which columns of its nodes, the first of them friction, are interpolated by their logarithms.
+    #: Columns of its nodes, friction first, that are interpolated by their logarithms.
     LOGARITHMIC: ClassVar[Mask]
 
     @property
     @abstractmethod
     def alike(self) -> tuple[object, ...]:
-        """What cases have in common that differ by temperature and speed at most."""
+        """What is common to cases that differ by temperature and speed at most."""
 
     @property
     @abstractmethod
     def geometry(self) -> str:
-        """What touches: "point", "line" or "rough"."""
+        """Geometry of the contact: "point", "line" or "rough"."""
 
     @property
     @abstractmethod
@@ -94,82 +92,65 @@ class Case(ABC):
 
     @property
     def points(self) -> int:
-        """Points of its surface; none of an indenter."""
+        """Number of points of its surface; 0 for an indenter."""
         return 0
 
     @property
     def label(self) -> str:
-        """Which case it is, for people."""
+        """The case in words."""
         sample = "" if self.sample is None else f", sample {self.sample}"
         return f"{celsius(self.temperature):.4g} °C, {1e3 * self.speed:.4g} mm/s{self.body_label}{sample}"
 
     @property
     def body_label(self) -> str:
-        """Which of several bodies it is, after a comma."""
+        """Which of several bodies it has, after a comma."""
         return ""
 
     @abstractmethod
     def lengths(self, record: Record) -> tuple[float, float]:
-        """Return the shortest and the longest length that speed is divided by for its frequencies, m."""
+        """Return the shortest and the longest length, m, by which speed is divided for its frequencies."""
 
     @abstractmethod
     def reach(self, record: Record) -> float:
-        """Return the number by which contacts with a warning are ranked; that of the largest is reported."""
+        """Return the number that ranks contacts with a warning; the largest is reported."""
 
     @abstractmethod
     def task(
         self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
     ) -> Task:
-        """Return what solving it takes.
-
-        Parameters
-        ----------
-        modes : RetardationSpectrum
-            Of its rubber at its temperature.
-        poisson_ratio : float
-        settings : Settings
-        fields : bool
-            Whether its fields are kept.
-        label : str
-        """
+        """Return what is to be solved; `modes` are those of its material at its temperature."""
 
     @abstractmethod
     def solution(
         self, rubbers: Rubbers, accuracy: float, most_points: int | None = None
     ) -> ContactSolution | PeriodicSolution:
-        """Solve it, and return the whole solution, of which `record` keeps a part.
+        """Solve the contact and return the whole solution, of which `record` keeps a part.
 
-        Parameters
-        ----------
-        rubbers : Rubbers
-        accuracy : float
-            Of the friction coefficient, relative.
-        most_points : int, optional
-            Along the longer axis of a rough surface.
+        `most_points` limits the grid along the longer axis of a rough surface.
         """
 
     @abstractmethod
     def record(self, solution: Any) -> Record:
-        """Return what is kept of its solution."""
+        """Return the stored part of its solution."""
 
     def insist_on_motion(self) -> None:
-        """Raise `InputError` where it lies on no curve, as its speed is not above zero."""
+        """Raise `InputError` if it is on no curve because its speed is not above zero."""
         if not 0.0 < self.speed < math.inf:
             raise InputError(f"speed = {self.speed:g} m/s: must be above zero and finite to lie on a friction curve.")
 
     @abstractmethod
     def place(self, rubbers: Rubbers) -> Place:
-        """Return where it lies.
+        """Return its place on the curve of its family.
 
         Raises
         ------
         InputError
-            If it lies on no curve: its speed is not above zero, or its rubber is not known at its temperature.
+            If its speed is not above zero, or its material is unknown at its temperature.
         """
 
     @abstractmethod
     def node_label(self, ratio: float) -> str:
-        """Say which contact of a family is solved, whose speed is so many times that at s = 0."""
+        """Return the label of a family's contact at a speed that is `ratio` times that at s = 0."""
 
     @abstractmethod
     def node(self, record: Record, rubbers: Rubbers, accuracy: float) -> Node:
@@ -179,33 +160,25 @@ class Case(ABC):
     def interpolated(
         self, between: Between, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
     ) -> Iterator[tuple[int, Record | Failure]]:
-        """Yield number and record of every case of a closed interval of a family's curve, as if it had been solved.
+        """Yield number and record of every case between two nodes of the family's curve, as if it had been solved.
 
-        Parameters
-        ----------
-        between : Between
-            The interval.
-        cases, places : sequence of Case and Place
-            Of the whole family.
-        rubbers : Rubbers
+        `cases` and `places` are those of the whole family.
         """
 
 
 class Place(NamedTuple):
-    """Where a case lies on the curve of its family, all contacts of which differ by αv over a length only.
+    """Place of a case on the curve of its family, whose contacts differ only by αv over a length.
 
     Attributes
     ----------
     family : Case
-        The one of them with s = 0 at the reference temperature, with its load and the modulus of its body over b.
+        The one with s = 0 at the reference temperature, with load and modulus of the body divided by b.
     s : float
         ln of the speed over the family's, at the same αv over the length.
-    b : float
-        Vertical shift.
-    log_alpha : float
-        ln α.
+    b, log_alpha : float
+        Vertical shift, ln α.
     scale : Scale or None
-        Units of an indenter's case, but for pressures, which are b times as large.
+        Units of an indenter's case; pressures are b times as large.
     """
 
     family: Case
@@ -216,20 +189,20 @@ class Place(NamedTuple):
 
     @property
     def units(self) -> Scale:
-        """Its scale, of an indenter's case."""
+        """Scale of an indenter's case."""
         assert self.scale is not None
         return self.scale
 
 
 @dataclass(frozen=True, eq=False)
 class Rubbers:
-    """The materials that cases name by number, and those drawn from their posteriors; what many cases share is kept.
+    """The materials of the cases, and their bootstrap samples; shared results are cached.
 
     Attributes
     ----------
     materials : sequence of Material
     members : mapping of int to sequence of Material
-        Of a material's number: its posterior's members.
+        Index of a material → its bootstrap samples.
     """
 
     materials: Sequence[Material]
@@ -240,20 +213,14 @@ class Rubbers:
     _forces: dict[tuple[Indenter, float, float], float] = field(default_factory=dict, repr=False)
 
     def of(self, case: Case) -> Material:
-        """Return the material that a case is solved with.
-
-        Raises
-        ------
-        InputError
-            If there is none.
-        """
+        """Return the material of a case; raise `InputError` if there is no such sample."""
         if case.sample is None:
             return self.materials[case.material]
         drawn = self.members.get(case.material, ())
         if not 1 <= case.sample <= len(drawn):
             raise InputError(
-                f"sample {case.sample} of material {case.material} is asked for, but {len(drawn)} are drawn; right "
-                "would be a number from 1 to that."
+                f"sample {case.sample} of material {case.material} does not exist; there are {len(drawn)}, "
+                "numbered from 1."
             )
         return drawn[case.sample - 1]
 
@@ -268,17 +235,17 @@ class Rubbers:
         return self._shifts[key]
 
     def modes(self, case: Case, *, at_reference: bool = False) -> RetardationSpectrum:
-        """Return the modes of a case's material at its temperature, or at the reference one."""
+        """Return the modes of a case's material at its temperature, or at the reference temperature."""
         material = self.of(case)
         kelvin = None if at_reference or material.shift is None else case.temperature
         key = case.material, case.sample, kelvin
         if key not in self._modes:
-            # How the modes were found is much to send about, and does not matter to the answer.
+            # The fit is large to send to processes, and does not affect the result.
             self._modes[key] = replace(material.modes_at(kelvin), fit=None)
         return self._modes[key]
 
     def reference(self, case: Case) -> float:
-        """Return the temperature that is written down for a family's contacts, K; zero for rubbers without a shift."""
+        """Return the temperature recorded for a family's contacts, K; zero for materials without a shift."""
         reference = self.of(case).reference
         return 0.0 if reference is None else reference
 
@@ -297,7 +264,7 @@ class Rubbers:
         return self._forces[key]
 
     def task(self, case: Case, settings: Settings, *, fields: bool) -> Task | Failure:
-        """Return what solving a case by itself takes, with its fields or without, or why that cannot be."""
+        """Return the task of a single case, or the failure if there can be none."""
         try:
             ratio = self.of(case).poisson_ratio
             return case.task(self.modes(case), ratio, settings, fields=fields, label=case.label)
@@ -305,12 +272,12 @@ class Rubbers:
             return Failure.of(error, case.label)
 
     def node_task(self, family: Case, ratio: float, settings: Settings) -> Task:
-        """Return what is solved for a family at a speed so many times that at s = 0."""
+        """Return the task of a family's contact at a speed that is `ratio` times that at s = 0."""
         contact = moved(family, speed=ratio * family.speed)
         modes, label = self.modes(family, at_reference=True), family.node_label(ratio)
         return contact.task(modes, self.of(family).poisson_ratio, settings, fields=False, label=label)
 
 
 def moved(case: Case, **changes: Any) -> Case:
-    """Return a case that differs from another in some of what it is."""
+    """Return a case with some attributes changed."""
     return replace(case, **changes)  # type: ignore[type-var]

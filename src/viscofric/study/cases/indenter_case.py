@@ -1,9 +1,9 @@
-"""Contacts of an indenter, and what of them is the same contact seen in other units.
+"""Contacts of an indenter, and their similarity.
 
-Friction at the shift factors α and b is that at the reference temperature, at the speed αv, under the load F/b and an
-indenter's modulus E_i/b (Eq. 10).  A paraboloid or a cone on a half-space is the same shape at every size, so that its
-load and radius are units only: over a unit of slope, friction depends on αv over a length alone, and so do all other
-numbers over their units (see `viscofric.contact.free.scale`).
+Friction at the shift factors α and b is that at the reference temperature, at the speed αv, under the load F/b and
+with an indenter's modulus E_i/b (Eq. 10).  A paraboloid or a cone on a half-space has the same shape at every size, so
+that load and radius only set the units: over a unit of slope, friction depends on αv over a length alone, and so do
+all other numbers over their units (see `viscofric.contact.free.scale`).
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ _COLUMNS = (
 NAMES = tuple(name for name, _, _ in _COLUMNS)
 ERRORS = tuple(error for _, error, _ in _COLUMNS)
 LOGARITHMIC = np.array([logarithmic for *_, logarithmic in _COLUMNS])
-# Slope of the shapes that stand for all of their kind: so low that no contact is wider than the indenter.
+# Slope of the representative shapes: so low that no contact is wider than the indenter.
 _LOW_SLOPE = 0.01
 _BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
 
@@ -63,20 +63,12 @@ _BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
 class IndenterCase(Case):
     """One contact of an indenter, SI; see `Case`.
 
-    Parameters
+    Attributes
     ----------
-    material : int
-    indenter : Indenter
-        Ball, Cylinder, Ellipsoid or Cone.
-    temperature, speed : float
     load : float
         N; N/m for a cylinder.
-    layer : Layer, optional
-    modulus : float, optional
-        Young's modulus of an elastic indenter, Pa; rigid without.
-    poisson_ratio : float
-        Of an elastic indenter.
-    sample : int, optional
+    modulus, poisson_ratio : float
+        Of an elastic indenter, Pa; None: rigid.
     """
 
     material: int
@@ -95,12 +87,12 @@ class IndenterCase(Case):
 
     @property
     def alike(self) -> tuple[object, ...]:
-        """What cases have in common that differ by temperature and speed at most."""
+        """What is common to cases that differ by temperature and speed at most."""
         return (self.material, self.sample, self.indenter, self.load, self.layer)
 
     @property
     def geometry(self) -> str:
-        """What touches: "point" or "line"."""
+        """Geometry of the contact: "point" or "line"."""
         return "line" if self.indenter.geometry is LINE else "point"
 
     @property
@@ -116,12 +108,12 @@ class IndenterCase(Case):
         return "other"
 
     def lengths(self, record: Record) -> tuple[float, float]:
-        """Return half the contact's width, or length where it has no width, twice: there is one frequency."""
+        """Return half the contact's width (or length if it has no width) twice: there is one frequency."""
         half = record.half_width if math.isfinite(record.half_width) else 0.5 * (record.front + record.rear)
         return half, half
 
     def reach(self, record: Record) -> float:
-        """Return how far the contact reaches over the indenter's size."""
+        """Return the extent of the contact over the size of the indenter."""
         farthest = max(size for size in (record.front, record.rear, record.half_width) if np.isfinite(size))
         size = self.indenter.reach
         return float(farthest / size) if np.isfinite(size) else float(farthest)
@@ -129,7 +121,7 @@ class IndenterCase(Case):
     def task(
         self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
     ) -> Task:
-        """Return what solving it takes; see `Case.task`."""
+        """Return what is to be solved; see `Case.task`."""
         kept = {"temperature": self.temperature, "fields": fields}
         sensitive = settings.sensitive and self.sample is None
         rubber = {"modes": modes, "poisson_ratio": poisson_ratio}
@@ -137,7 +129,7 @@ class IndenterCase(Case):
         return Task(solve_indenter, rubber | contact | kept | {"sensitive": sensitive}, label)
 
     def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> ContactSolution:
-        """Solve it, and return the whole solution; see `solve_steady`."""
+        """Solve the contact and return the whole solution; see `solve_steady`."""
         rubber = Material(rubbers.modes(self), poisson_ratio=rubbers.of(self).poisson_ratio)
         return solve_steady(rubber, **self._contact(accuracy))
 
@@ -153,11 +145,11 @@ class IndenterCase(Case):
         }
 
     def record(self, solution: ContactSolution) -> Record:
-        """Return what is kept of its solution."""
+        """Return the stored part of its solution."""
         return indenter_record(solution, self.temperature)
 
     def place(self, rubbers: Rubbers) -> Place:
-        """Return where it lies; see `Case.place`."""
+        """Return its place on the curve of its family; see `Case.place`."""
         self.insist_on_motion()
         alpha, b = rubbers.shifts(self)
         indenter, load = None if self.layer is not None else representative(self.indenter), self.load / b
@@ -183,7 +175,7 @@ class IndenterCase(Case):
         return Place(family, math.log(alpha * self.speed / scale.length), b, math.log(alpha), scale)
 
     def node_label(self, ratio: float) -> str:
-        """Say which contact of a family is solved."""
+        """Return the label of a family's contact."""
         return f"friction curve at αv/a = {ratio:.3g} 1/s"
 
     def node(self, record: Record, rubbers: Rubbers, accuracy: float) -> Node:
@@ -209,7 +201,7 @@ class IndenterCase(Case):
             "interpolated": True,
         }
         for row, (number, place) in enumerate(zip(between.cases, here, strict=True)):
-            case, told = cases[number], _told(between.found, row, place)
+            case, told = cases[number], _with_units(between.found, row, place)
             if math.isinf(ends[0].half_width):
                 told["half_width"] = math.inf
             try:
@@ -228,7 +220,7 @@ class IndenterCase(Case):
 
 
 def representative(indenter: Indenter) -> Indenter | None:
-    """Return one that stands for all of its kind on a half-space, whatever their size; None where sizes differ."""
+    """Return the indenter of unit size on a half-space for all similar ones; None if sizes are not similar."""
     match indenter:
         case Ball():
             return _BALL
@@ -259,13 +251,13 @@ def units_of(scale: Scale, b: float = 1.0) -> Array:
 
 
 def _stiffness(material: Material, modulus: float | None, poisson_ratio: float) -> float:
-    """Modulus of the relaxed contact at the reference temperature with an indenter of a modulus (rigid: None), Pa."""
+    """Return the modulus of the relaxed contact at the reference temperature, Pa; `modulus` None: rigid indenter."""
     compliance = indenter_compliance(modulus, poisson_ratio)
     return 1.0 / ((1.0 - material.poisson_ratio**2) / material.modes_at(None).E0 + compliance)
 
 
-def _told(found: Interpolated, row: int, place: Place) -> dict[str, float]:
-    """Give a case's numbers and their errors their units."""
+def _with_units(found: Interpolated, row: int, place: Place) -> dict[str, float]:
+    """Return the numbers of a case and their errors, with units."""
     units = units_of(place.units, place.b)
     told = dict(zip(NAMES, (units * found.values[row]).tolist(), strict=True))
     errors = units * np.hypot(found.from_nodes[row], found.between[row])
@@ -281,13 +273,7 @@ def _extent(told: dict[str, float]) -> Extent:
 
 
 def _doubts(case: IndenterCase, contact: Extent, indentation: float) -> tuple[str, ...]:
-    """Tell what is doubtful about a contact, as `solve_steady` does.
-
-    Raises
-    ------
-    InputError
-        If it would be wider than the indenter.
-    """
+    """Return the warnings that `solve_steady` would give; raise `InputError` if it is wider than the indenter."""
     case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
     doubts = [case.indenter.doubt(contact, indentation)]
     if case.layer is not None:

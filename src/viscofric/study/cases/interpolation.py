@@ -1,4 +1,4 @@
-"""Interpolation between solved contacts: local polynomials and their errors, of numbers without units."""
+"""Interpolation between solved contacts: local polynomials and their errors, of dimensionless numbers."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 #: Column of friction in the values of a node.
 FRICTION = 0
-#: Interpolation may add so much to the error of friction, of the accuracy asked for.
+#: Largest error of friction due to interpolation, as a part of the accuracy.
 SHARE = 0.25
 #: Nodes that a polynomial goes through, and on either side of its interval.
 MOST, BESIDE = 6, 3
-# By what their differences are multiplied for an error that holds in 95 % of all places of steep curves, too.
+# Factor on their differences, for an error that holds in 95 % of all places also on steep curves.
 _CAUTION = 2.0
 # Where polynomials are compared, from one end of an interval to the other.
 _WITHIN = np.array([0.15, 0.35, 0.5, 0.65, 0.85])
@@ -35,7 +35,7 @@ class Stencil(NamedTuple):
     nodes : tuple of int
         Ascending.
     fewer : tuple of tuples of int
-        Rows of those that polynomials of lower degree go through, whose differences tell what may be left out.
+        Rows of the polynomials of lower degree, whose differences estimate the truncation error.
     """
 
     interval: tuple[int, int]
@@ -44,24 +44,15 @@ class Stencil(NamedTuple):
 
 
 def stencil(low: int, high: int, known: Sequence[int], furthest: int) -> Stencil:
-    """Choose the nodes for an interval.
+    """Choose the nodes of the polynomial over an interval whose two ends are known.
 
-    They are no closer to each other than the interval is long, as where a curve was refined nearby: closer ones would
-    tell little more of it, and their errors would be magnified.
-
-    Parameters
-    ----------
-    low, high : int
-        Ends of the interval, both of them known.
-    known : sequence of int
-        All nodes, ascending.
-    furthest : int
-        Distance of neighbours beyond which nothing is known between them.
+    Their distances are not below the length of the interval, where a curve was refined nearby: closer nodes would add
+    little and magnify their errors.  Neighbours more than `furthest` apart are not connected.
     """
     least = high - low
     below = _walk([node for node in reversed(known) if node < low], low, -1, least, furthest)
     above = _walk([node for node in known if node > high], high, 1, least, furthest)
-    # Where there are few on one side, there are more on the other.
+    # If there are few on one side, take more on the other.
     left = min(len(below), max(BESIDE, MOST - len(above)))
     right = min(len(above), MOST - left)
     nodes = (*reversed(below[:left]), *above[:right])
@@ -84,7 +75,7 @@ def _walk(beyond: list[int], first: int, toward: int, least: int, furthest: int)
 
 
 def weights(nodes: Array, places: Array) -> Array:
-    """Lagrange's weights of nodes, (nodes,), at places, (places,): (places, nodes)."""
+    """Return Lagrange's weights, (places, nodes), of nodes (nodes,) at places (places,)."""
     away = places[:, None] - nodes
     apart = nodes[:, None] - nodes
     result = np.ones((len(places), len(nodes)))
@@ -95,15 +86,15 @@ def weights(nodes: Array, places: Array) -> Array:
 
 
 class Interpolated(NamedTuple):
-    """Values between nodes.
+    """Values between nodes, each array (places, columns).
 
     Attributes
     ----------
-    values : (places, columns) array
-    from_nodes : (places, columns) array
-        What the errors of the nodes make of them.
-    between : (places, columns) array
-        How much polynomials of lower degree differ, at most within the interval: at one place they may meet.
+    values : array
+    from_nodes : array
+        Errors due to those of the nodes.
+    between : array
+        Largest difference from polynomials of lower degree within the interval; at a single place they may agree.
     """
 
     values: Array
@@ -114,19 +105,10 @@ class Interpolated(NamedTuple):
 def interpolate(
     chosen: Stencil, step: float, places: Array, values: Array, errors: Array, logarithmic: Mask
 ) -> Interpolated:
-    """Interpolate several quantities at once.
+    """Interpolate several quantities at places (places,) within the stencil's interval.
 
-    Parameters
-    ----------
-    chosen : Stencil
-    step : float
-        Length of one step between integers.
-    places : (places,) array
-        Within the interval.
-    values, errors : (nodes, columns) array
-        At the stencil's nodes.
-    logarithmic : (columns,) array of bool
-        Which are to be interpolated by their logarithms, where all of theirs are above zero.
+    `values` and `errors` are (nodes, columns); `step` is the length of one step between integers.  `logarithmic`
+    columns are interpolated by their logarithms if all values are positive.
     """
     nodes = step * np.array(chosen.nodes, dtype=float)
     logarithmic = logarithmic & np.all(values > 0.0, axis=0)

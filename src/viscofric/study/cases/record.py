@@ -1,4 +1,4 @@
-"""What is kept of one contact of a study: its numbers, or why there are none."""
+"""Stored part of a contact of a study: its numbers with their meaning, or the reason for a failure."""
 
 from __future__ import annotations
 
@@ -19,15 +19,7 @@ if TYPE_CHECKING:
 
 
 class ContactFields(NamedTuple):
-    """Fields of one contact; see `viscofric.contact.solution.ContactSolution`.
-
-    Attributes
-    ----------
-    x, y : (nx,) and (ny,) array
-        m.
-    pressure, displacement : (nx, ny) array
-        Pa, and m into the solid.
-    """
+    """Fields of one contact: x (nx,) and y (ny,), m; pressure and displacement (nx, ny), Pa and m into the solid."""
 
     x: Array
     y: Array
@@ -37,16 +29,16 @@ class ContactFields(NamedTuple):
 
 @dataclass(frozen=True)
 class Failure:
-    """A case without an answer.
+    """A case without a result.
 
     Attributes
     ----------
     reason : str
         One sentence.
     label : str
-        Which case it was, for people.
+        The case in words.
     code : str
-        Of the error behind it, for programs; empty where it has none.
+        Of the error that caused it; empty if it has none.
     """
 
     reason: str
@@ -58,7 +50,7 @@ class Failure:
 
     @classmethod
     def of(cls, error: ViscofricError, label: str) -> Self:
-        """Return what is left of a case when an error ends it."""
+        """Return the failure of a case that ends with an error."""
         return cls(str(error), label, error.code)
 
     @property
@@ -127,23 +119,19 @@ _ENDLESS = ("half_width",)
 
 @dataclass(frozen=True)
 class Record:
-    """What is kept of one contact, SI; each of its numbers is an attribute, too.
+    """Stored part of one contact, SI; each number is also an attribute.
 
     Attributes
     ----------
     numbers : dict of str to float
-        `NUMBERS` of an indenter's contact, `SURFACE_NUMBERS` of one on a rough surface, as `ContactSolution`,
-        `PeriodicSolution` and `Diagnostics` have them: m/s, K, N (N/m), m, m² (m of a line contact), Pa.  The
-        half-width of a line contact is infinite.  Of contacts that were not solved, the residuals are the largest of
-        those that they lie between, and there are no cells and products; `interpolation_error` is what that adds to
-        the error of friction, which holds it.
-    warnings : tuple of str
+        See `MEANING`.  Of interpolated contacts, the residuals are the largest of the neighbouring solved ones, there
+        are no cells and products, and `interpolation_error` is the part of the error of friction due to interpolation.
     interpolated : bool
-        Whether it was not solved, but lies between contacts that were.
+        Whether it was interpolated between solved contacts.
     sensitivity : ComplianceSensitivity or None
-        How friction answers to the rubber's compliance, where bands are wanted.
+        Derivatives of friction by the material's compliance, if bands are requested.
     fields : ContactFields or None
-        Where they are wanted; kept apart from the other numbers on disk.
+        If requested; stored in a file of their own.
     """
 
     numbers: dict[str, float]
@@ -162,23 +150,17 @@ class Record:
         fields: ContactFields | None = None,
         **numbers: float,
     ) -> Self:
-        """Make a record of its numbers by their names.
-
-        Raises
-        ------
-        TypeError
-            If one is missing, or is none of such a contact.
-        """
+        """Return a record of numbers by name; raise `TypeError` if one is missing or unknown."""
         names = SURFACE_NUMBERS if "contact_area_fraction" in numbers else NUMBERS
         given = {"interpolation_error": 0.0, **numbers}
         if given.keys() != set(names):
-            raise TypeError(f"numbers of a contact are missing or too many: {sorted(given.keys() ^ set(names))}.")
+            raise TypeError(f"numbers of a contact are missing or unknown: {sorted(given.keys() ^ set(names))}.")
         return cls({name: given[name] for name in names}, warnings, interpolated, sensitivity, fields)
 
     def __getattr__(self, name: str) -> float:
         numbers: dict[str, float] = self.__dict__.get("numbers", {})
         if name not in numbers:
-            raise AttributeError(f"a record of a contact has no {name}.")
+            raise AttributeError(f"a record has no {name}.")
         return numbers[name]
 
     @property
@@ -188,27 +170,21 @@ class Record:
 
     @classmethod
     def from_values(cls, values: dict[str, Any]) -> Self:
-        """Make a record of its `values`, as JSON's reader returns them; without fields.
-
-        Raises
-        ------
-        ValueError, TypeError, KeyError
-            If it is something else.
-        """
+        """Return a record from `values`, without fields; raise ValueError, TypeError or KeyError if it is invalid."""
         given = {**values, "warnings": tuple(values["warnings"])}
         if "contact_area_fraction" not in values and (told := values["sensitivity"]) is not None:
             columns = {name: np.array(told[name], dtype=float) for name in _COLUMNS}
             given["sensitivity"] = ComplianceSensitivity(**{**told, **columns})
         record = cls.of(**given)
         if not all(isinstance(text, str) for text in record.warnings) or not isinstance(record.interpolated, bool):
-            raise TypeError("warnings are no texts.")
+            raise TypeError("warnings are not texts.")
         sound = (is_number(value) or (name in _ENDLESS and value == math.inf) for name, value in record.numbers.items())
         if not all(sound) or not _is_sound(record.sensitivity):
-            raise ValueError("a number is none.")
+            raise ValueError("a number is invalid.")
         return record
 
     def values(self) -> dict[str, Any]:
-        """Return everything but the fields, in types that JSON keeps to the last digit."""
+        """Return everything but the fields, in types that JSON stores exactly."""
         values: dict[str, Any] = {**self.numbers, "warnings": self.warnings, "interpolated": self.interpolated}
         if "contact_area_fraction" in self.numbers:
             return values
@@ -225,7 +201,7 @@ def indenter_record(
     sensitivity: ComplianceSensitivity | None = None,
     with_fields: bool = False,
 ) -> Record:
-    """Take the numbers out of the solution of an indenter's contact, and its fields where they are wanted."""
+    """Return the record of an indenter's contact."""
     diagnostics = solution.diagnostics
     return Record.of(
         **{name: getattr(solution, name) for name in _OF_SOLUTION},
@@ -237,7 +213,7 @@ def indenter_record(
 
 
 def surface_record(solution: PeriodicSolution, temperature: float, with_fields: bool = False) -> Record:
-    """Take the numbers out of the solution of a contact on a rough surface, and its fields where they are wanted."""
+    """Return the record of a contact on a rough surface."""
     return Record.of(
         pressure=solution.mean_pressure,
         friction_error=solution.diagnostics.friction_error,
@@ -283,7 +259,7 @@ def is_number(value: object) -> bool:
 
 
 def _is_sound(sensitivity: ComplianceSensitivity | None) -> bool:
-    """Whether all numbers of a sensitivity are finite, and its columns belong together."""
+    """Whether all numbers of a sensitivity are finite, and its columns have equal length."""
     if sensitivity is None:
         return True
     single = [field.name for field in fields(sensitivity) if field.name not in _COLUMNS]

@@ -1,6 +1,6 @@
-"""How the friction of interpolated contacts answers to the rubber's compliance.
+"""Derivatives of interpolated friction by the material's compliance.
 
-Without units, g is a function of vτ over the length of the contact that changes smoothly along the curve.
+Without units, g is a function of vτ over the length of the contact that varies smoothly along the curve.
 """
 
 from __future__ import annotations
@@ -25,18 +25,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Sensitivities:
-    """Those of the cases of one interval.
+    """The derivatives of the cases in one interval.
 
     Attributes
     ----------
     modes : RetardationSpectrum
-        Of the rubber at the reference temperature.
+        At the reference temperature.
     places : sequence of Place
         Of the cases.
-    log_tau : tuple of (times,) array
-        Of each case, at its temperature, τ in s.
-    slope : tuple of (times,) array
-        g at these, Pa.
+    log_tau, slope : tuple of (times,) array
+        Of each case at its temperature: ln τ (s), g (Pa).
     glass, load : (cases,) array
         See `ComplianceSensitivity`.
     """
@@ -52,18 +50,9 @@ class Sensitivities:
     def between(
         cls, nodes: Sequence[tuple[float, Record]], places: Sequence[Place], modes: RetardationSpectrum, units: Scale
     ) -> Self | None:
-        """Interpolate; None where a node has none.
+        """Interpolate between nodes, (s, record), of the polynomial; None if a node has no derivatives.
 
-        Parameters
-        ----------
-        nodes : sequence of (float, Record)
-            s and record of each node of the polynomial.
-        places : sequence of Place
-            Of the cases.
-        modes : RetardationSpectrum
-            Of the rubber at the reference temperature, where all nodes are.
-        units : Scale
-            Of the nodes.
+        `modes` are those at the reference temperature, `units` those of the nodes.
         """
         known = [record.sensitivity for _, record in nodes]
         found = [one for one in known if one is not None]
@@ -95,7 +84,7 @@ class Sensitivities:
         )
 
     def complete(self, record: Record, row: int) -> Record:
-        """Return the record of a case with its sensitivity."""
+        """Return the record of a case with its derivatives."""
         modes, place = self.modes, self.places[row]
         sensitivity = ComplianceSensitivity(
             friction=record.friction_coefficient,
@@ -106,14 +95,14 @@ class Sensitivities:
             load=float(self.load[row]),
             frequency=record.frequency,
         )
-        # As the sensitivity itself tells it, so that the rubber's own modes change nothing.
+        # From the sensitivity itself, so that the material's own modes change nothing.
         own = _values_at(np.log(modes.tau) + place.log_alpha, sensitivity)
         part = (float(own @ modes.C) + sensitivity.glass / modes.E_inf) / place.b
         return replace(record, sensitivity=replace(sensitivity, compliance_part=part))
 
 
 def _values_at(log_tau: Array, sensitivity: ComplianceSensitivity) -> Array:
-    """Return g where it mostly is told already, so that nothing need be interpolated."""
+    """Return g at known times if possible, without interpolation."""
     rows = np.minimum(np.searchsorted(sensitivity.log_tau, log_tau - ROUNDING), len(sensitivity.log_tau) - 1)
     if np.all(np.abs(sensitivity.log_tau[rows] - log_tau) <= ROUNDING):
         return sensitivity.slope[rows]

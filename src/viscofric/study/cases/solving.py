@@ -1,4 +1,4 @@
-"""One contact of a study solved: from everything that decides its numbers to its record, and the key of its file."""
+"""The solution of one contact of a study, and the key of its file."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from viscofric.study.cases.surfaces import SurfaceSource
 
 
-# Complementarity asked for of rough surfaces: far less than what the grid does to friction, whatever the accuracy.
+# Complementarity of rough surfaces: far below the discretisation error of friction, at any accuracy.
 _TOLERANCE = 1e-7
 
 
@@ -43,11 +43,11 @@ class Task:
     verb : callable
         `solve_indenter` or `solve_surface`.
     arguments : dict
-        Of the verb: all that decides the answer.
+        Of the verb: everything that determines the result.
     label : str
         For people: "30 °C, 20 mm/s".
     key : str
-        A name that changes with any argument that could change the answer, and with any line of the solver.
+        A hash of the arguments and of the solver's source.
     """
 
     verb: Callable[..., Record]
@@ -65,17 +65,9 @@ class Task:
 
 
 def solve(task: Task) -> Record:
-    """Solve one contact.
+    """Solve one contact; the result is the same to the last bit in any process.
 
-    Returns
-    -------
-    Record
-        The same to the last bit in whatever process.
-
-    Raises
-    ------
-    InputError, ConvergenceError
-        As of `solve_steady`, or `solve_periodic`.
+    Raises as `solve_steady` or `solve_periodic`.
     """
     return task.verb(**task.arguments)
 
@@ -94,24 +86,22 @@ def solve_indenter(
     Parameters
     ----------
     modes : RetardationSpectrum
-        Of the rubber at the contact's temperature.
-    poisson_ratio : float
+        Of the material at the contact's temperature.
     temperature : float
-        K; it is written down only, as the modes are those of this temperature.
+        K; only recorded, as the modes are those at this temperature.
     sensitive : bool
-        Whether to find how friction answers to the rubber's compliance.  Where friction is found but not that, the
-        record is one without.
+        Whether to find the derivatives of friction by the material's compliance; if that fails, the record has none.
     fields : bool
         Whether to keep the fields.
     **contact
-        Indenter, speed, load, accuracy, layer and modulus of `solve_steady`, SI.
+        Further arguments of `solve_steady`, SI.
     """
     rubber = Material(modes, poisson_ratio=poisson_ratio)
     if sensitive:
         try:
             solution, sensitivity = solve_with_sensitivity(rubber, temperature=None, **contact)
             return indenter_record(solution, temperature, sensitivity, fields)
-        except ConvergenceError:  # of the derivatives, maybe: friction itself counts more than its band
+        except ConvergenceError:  # possibly of the derivatives: friction itself matters more than its band
             pass
     return indenter_record(solve_steady(rubber, **contact), temperature, with_fields=fields)
 
@@ -126,19 +116,7 @@ def solve_surface(
     fields: bool = False,
     **contact: Any,
 ) -> Record:
-    """Solve the contact of a rough surface.
-
-    Parameters
-    ----------
-    modes, poisson_ratio, temperature, fields
-        See `solve_indenter`.
-    surface : MadeSurface or ScannedSurface
-        What its heights are made from, which each process does for itself.
-    direction : float
-        Of the motion, from x towards y, rad.
-    **contact
-        Speed, pressure, layer and modulus of `solve_periodic`, SI.
-    """
+    """Solve the contact of a rough surface, with `direction` (rad) from x towards y; see `solve_indenter`."""
     solution = surface_solution(modes, poisson_ratio, surface_of(surface), direction, **contact)
     return surface_record(solution, temperature, fields)
 
@@ -146,13 +124,13 @@ def solve_surface(
 def surface_solution(
     modes: RetardationSpectrum, poisson_ratio: float, surface: PeriodicSurface, direction: float, **contact: Any
 ) -> PeriodicSolution:
-    """Return all that is found of the contact of a rough surface; see `solve_surface`."""
+    """Return the whole solution of the contact of a rough surface; see `solve_surface`."""
     rubber, toward = Material(modes, poisson_ratio=poisson_ratio), unit_vector(direction)
     return solve_periodic(rubber, surface, direction=toward, tolerance=_TOLERANCE, **contact)
 
 
 def key_of(arguments: Mapping[str, Any]) -> str:
-    """Return a name for a contact that changes with any argument that could change its answer."""
+    """Return a hash of everything that determines the result of a contact."""
     described = {name: written(value) for name, value in arguments.items()}
     text = json.dumps({"solver": solver_fingerprint(), **described}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
@@ -160,7 +138,7 @@ def key_of(arguments: Mapping[str, Any]) -> str:
 
 @functools.lru_cache(maxsize=64)  # many tasks have the same modes
 def modes_written(modes: RetardationSpectrum) -> str:
-    """Return what changes with any of the modes."""
+    """Return a digest of the modes."""
     digest = hashlib.sha256(np.array([modes.E0, modes.E_inf]).tobytes())
     for column in (modes.C, modes.tau):
         digest.update(np.ascontiguousarray(column).tobytes())
@@ -168,7 +146,7 @@ def modes_written(modes: RetardationSpectrum) -> str:
 
 
 def written(value: Any) -> object:
-    """Return a value in plain types that change with it: of modes and arrays, a digest; of shapes, all their fields."""
+    """Return a value in plain types: modes and arrays as digests, shapes as all their fields."""
     if isinstance(value, RetardationSpectrum):
         return modes_written(value)
     if isinstance(value, np.ndarray):
@@ -180,7 +158,7 @@ def written(value: Any) -> object:
     return value.item() if isinstance(value, np.generic) else value
 
 
-#: Files of other rooms that decide what is kept of a contact.
+#: Files outside the solver that determine the records.
 _OWN = {
     "friction": ("sensitivity.py",),
     "study": ("cases/solving.py", "cases/record.py", "cases/surfaces.py"),
@@ -189,7 +167,7 @@ _OWN = {
 
 @functools.cache
 def solver_fingerprint() -> str:
-    """Return what changes with any line of the solver, so that cases of an older one are not taken for new."""
+    """Return a digest of the solver's source, so that stored cases of another version are not reused."""
     digest = hashlib.sha256()
     for room in ("contact", "roughness", "readers/topography"):
         for name, source in _sources(files("viscofric") / room):

@@ -1,8 +1,8 @@
-"""Contacts of a rough surface, and what of them is the same contact seen in other units.
+"""Contacts of a rough surface, and their similarity.
 
 Friction at the shift factors α and b is that at the reference temperature, at the speed αv, under the pressure p/b and
-with a surface's modulus E_i/b (Eq. 10): contact area and gap are the same, pressures b times as large.  No other
-surface or pressure is alike: roughness has no length that all others are multiples of.
+with a surface's modulus E_i/b (Eq. 10): contact area and gap are the same, pressures b times as large.  Different
+surfaces and pressures are not similar.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _COLUMNS = (
 _NAMES = tuple(name for name, _ in _COLUMNS)
 _LOGARITHMIC = np.array([logarithmic for _, logarithmic in _COLUMNS])
 _PRESSURE = _NAMES.index("max_pressure")
-# Of the error that a grid makes, what is not the same in neighbouring contacts.
+# Part of the discretisation error that differs between neighbouring contacts.
 _RIPPLE = 0.05
 
 
@@ -49,21 +49,14 @@ _RIPPLE = 0.05
 class SurfaceCase(Case):
     """One contact of a rough surface, SI; see `Case`.
 
-    Parameters
+    Attributes
     ----------
-    material : int
-    surface : MadeSurface or ScannedSurface
-    temperature, speed : float
     pressure : float
         Mean pressure, Pa.
     direction : float
         Of the motion, from x towards y, rad.
-    layer : Layer, optional
-    modulus : float, optional
-        Young's modulus of an elastic surface, Pa; rigid without.
-    poisson_ratio : float
-        Of an elastic surface.
-    sample : int, optional
+    modulus, poisson_ratio : float
+        Of an elastic surface, Pa; None: rigid.
     """
 
     material: int
@@ -83,12 +76,12 @@ class SurfaceCase(Case):
 
     @property
     def alike(self) -> tuple[object, ...]:
-        """What cases have in common that differ by temperature and speed at most."""
+        """What is common to cases that differ by temperature and speed at most."""
         return (self.material, self.sample, self.surface, self.pressure, self.direction, self.layer)
 
     @property
     def geometry(self) -> str:
-        """What touches: "rough"."""
+        """Geometry of the contact: "rough"."""
         return "rough"
 
     @property
@@ -98,12 +91,12 @@ class SurfaceCase(Case):
 
     @property
     def points(self) -> int:
-        """Points of its surface."""
+        """Number of points of its surface."""
         return math.prod(self.surface.shape)
 
     @property
     def body_label(self) -> str:
-        """Which of several surfaces it is, after a comma."""
+        """The seed of its surface, after a comma."""
         seed = getattr(self.surface, "seed", None)
         return "" if seed is None else f", seed {seed}"
 
@@ -119,21 +112,15 @@ class SurfaceCase(Case):
     def task(
         self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
     ) -> Task:
-        """Return what solving it takes; see `Case.task`."""
+        """Return what is to be solved; see `Case.task`."""
         rubber = {"modes": modes, "poisson_ratio": poisson_ratio, "surface": self.surface}
         kept = {"temperature": self.temperature, "direction": self.direction, "fields": fields}
         return Task(solve_surface, rubber | self._contact | kept, label)
 
     def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> PeriodicSolution:
-        """Solve it, and return the whole solution; see `solve_periodic`.
+        """Solve the contact and return the whole solution; see `solve_periodic`.
 
-        Parameters
-        ----------
-        rubbers : Rubbers
-        accuracy : float
-            Its grid decides, whatever is asked for.
-        most_points : int, optional
-            Along the longer axis: of a surface with more, a coarser likeness is taken instead.
+        The surface's grid sets the accuracy; a surface with more than `most_points` along an axis is coarsened.
         """
         surface = surface_of(self.surface)
         every = 1 if most_points is None else -(-max(surface.shape) // most_points)
@@ -154,11 +141,11 @@ class SurfaceCase(Case):
         }
 
     def record(self, solution: PeriodicSolution) -> Record:
-        """Return what is kept of its solution."""
+        """Return the stored part of its solution."""
         return surface_record(solution, self.temperature)
 
     def place(self, rubbers: Rubbers) -> Place:
-        """Return where it lies; see `Case.place`."""
+        """Return its place on the curve of its family; see `Case.place`."""
         self.insist_on_motion()
         alpha, b = rubbers.shifts(self)
         family = SurfaceCase(
@@ -176,14 +163,14 @@ class SurfaceCase(Case):
         return Place(family, math.log(alpha * self.speed), b, math.log(alpha))
 
     def node_label(self, ratio: float) -> str:
-        """Say which contact of a family is solved."""
+        """Return the label of a family's contact."""
         return f"friction curve at αv = {ratio:.3g} m/s{self.body_label}"
 
     def node(self, record: Record, rubbers: Rubbers, accuracy: float) -> Node:
         """Return a solved contact of a family as a node of its curve.
 
-        The error of its grid is much the same in all contacts on the surface, but for a ripple, as points come into
-        contact one by one.  Where that is more than the accuracy lets be, the curve is refined all the same.
+        The discretisation error is nearly the same in all contacts on the surface, apart from a ripple as points come
+        into contact one by one.  If the ripple exceeds what the accuracy allows, the curve is still refined.
         """
         values, errors = np.array([getattr(record, name) for name in _NAMES]), np.zeros(len(_NAMES))
         errors[FRICTION] = min(_RIPPLE * record.friction_error, SHARE * accuracy * abs(values[FRICTION]))
@@ -192,7 +179,7 @@ class SurfaceCase(Case):
     def interpolated(
         self, between: Between, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
     ) -> Iterator[tuple[int, Record]]:
-        """Yield number and record of every case of a closed interval, as if it had been solved."""
+        """Yield number and record of every case between two nodes, as if it had been solved."""
         found, ends = between.found, between.ends
         doubtful = [end for end in ends if end.warnings]
         for row, number in enumerate(between.cases):
@@ -206,7 +193,7 @@ class SurfaceCase(Case):
                     temperature=case.temperature,
                     pressure=case.pressure,
                     **dict(zip(_NAMES, values.tolist(), strict=True)),
-                    # An error of the grid does not go away between contacts that have it.
+                    # The discretisation error of the neighbours remains between them.
                     friction_error=max(end.friction_error for end in ends) + added,
                     energy_balance=max((end.energy_balance for end in ends), key=abs),
                     complementarity=max(end.complementarity for end in ends),

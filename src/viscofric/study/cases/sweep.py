@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     Values: TypeAlias = tuple[float | str, ...]
 
 
-#: A study asks for as many cases at most.
+#: Largest number of cases of a study.
 MOST_CASES = 1_000_000
-#: Axes of [conditions], in their order, as far as they are given.
+#: Axes of [conditions], in their order.
 CONDITIONS = ("load", "pressure", "direction", "temperature", "speed")
 
 
@@ -32,14 +32,14 @@ CONDITIONS = ("load", "pressure", "direction", "temperature", "speed")
 class Axis:
     """One dimension of the results.
 
-    Parameters
+    Attributes
     ----------
     name : str
         "material", "sample", "radius" ("radius_x", "radius_y", "angle"), "seed", "thickness", "load", "pressure",
-        "direction", "temperature" or "speed"; of several that are stepped together, joined: "load_radius".
+        "direction", "temperature" or "speed"; of several that vary together, joined: "load_radius".
     columns : dict of str to tuple
-        Each coordinate's values, one for each point of the axis, SI; names of materials, numbers of samples (0: the
-        best estimate).
+        Coordinate → its values, one for each point of the axis, SI; names of materials, numbers of samples (0: the best
+        estimate).
     """
 
     name: str
@@ -53,11 +53,11 @@ class Axis:
 class Sweep:
     """All cases of a study.
 
-    Parameters
+    Attributes
     ----------
     axes : tuple of Axis
         In the order material, sample, shape of the indenter or seed of the surface, thickness, load or pressure,
-        direction, temperature, speed; those of one point included.
+        direction, temperature, speed; those with one point included.
     cases : tuple of Case
         One for each combination of the axes' points; the last axis runs fastest.
     """
@@ -72,7 +72,7 @@ class Sweep:
 
     @property
     def geometry(self) -> str:
-        """What touches in all cases: "point", "line" or "rough"."""
+        """Geometry of all cases: "point", "line" or "rough"."""
         return self.cases[0].geometry if self.cases else "point"
 
     @property
@@ -82,18 +82,12 @@ class Sweep:
 
 
 def body_of(tables: Mapping[str, Any]) -> Any:
-    """Return the table of what slides over the rubber; None where that is not known."""
+    """Return the table [indenter] or [surface]; None if it is unknown."""
     return tables.get("indenter") or tables.get("surface")
 
 
 def coordinates(tables: Mapping[str, Any]) -> dict[str, Values]:
-    """Return all that a study may vary, each with its values, in the order of the axes, as far as the tables give it.
-
-    Parameters
-    ----------
-    tables : mapping
-        Those of a run file by their keys, without those that cannot be read.
-    """
+    """Return all coordinates with their values, in the order of the axes, as far as the (valid) tables give them."""
     known: dict[str, Values] = {}
     if "material" in tables:
         known["material"] = tuple(material.name for material in tables["material"])
@@ -111,22 +105,22 @@ def coordinates(tables: Mapping[str, Any]) -> dict[str, Values]:
 
 
 def axes_of(known: Mapping[str, Values], together: Sequence[Sequence[str]]) -> tuple[Axis, ...]:
-    """Join the coordinates that are stepped together; such an axis stands where its first coordinate would."""
+    """Join the coordinates that vary together; the axis takes the position of its first coordinate."""
     group_of = {name: tuple(group) for group in together for name in group}
     groups = dict.fromkeys(group_of.get(name, (name,)) for name in known)
     return tuple(Axis("_".join(group), {name: known[name] for name in group}) for group in groups)
 
 
 def count_cases(axes: Sequence[Axis]) -> int:
-    """Return how many cases all combinations of the axes' points make."""
+    """Return the number of combinations of the axes' points."""
     return math.prod(map(len, axes))
 
 
 def sweep_of(tables: Mapping[str, Any]) -> Sweep:
-    """Return all cases that the tables of a run file ask for; see `Study.sweep`."""
+    """Return all cases of the tables of a run file; see `Study.sweep`."""
     axes = axes_of(coordinates(tables), tables["sweep"].together)
     body, layer = body_of(tables), tables["layer"]
-    # Cases that have a body or a layer in common have the same one.
+    # Cases with the same body or layer share one object.
     made = functools.cache(body.made)
     layered = functools.cache(partial(Layer, bonded=layer is None or layer.base == "bonded"))
 
@@ -147,7 +141,7 @@ def sweep_of(tables: Mapping[str, Any]) -> Sweep:
 
 
 def _places(axes: Sequence[Axis]) -> Iterator[dict[str, Any]]:
-    """Yield the coordinates of every case, the last axis running fastest; a material's is its number."""
+    """Yield the coordinates of every case, the last axis running fastest; a material is given by its index."""
     columns = [axis.columns | ({"material": range(len(axis))} if "material" in axis.columns else {}) for axis in axes]
     names = [name for axis in columns for name in axis]
     for points in itertools.product(*(zip(*axis.values(), strict=True) for axis in columns)):
@@ -159,17 +153,7 @@ _COUNTED = ("sample", "seed")
 
 
 def shown(name: str, value: float | str, line: bool = False) -> str:
-    """Return one value of an axis in the unit that people use for it.
-
-    Parameters
-    ----------
-    name : str
-        Of the coordinate.
-    value : float or str
-        SI.
-    line : bool
-        Whether the contact is one along a line, and the load per length.
-    """
+    """Return one value (SI) of a coordinate in its usual unit; `line`: load per length."""
     if isinstance(value, str):
         return value
     if name == "temperature":
@@ -186,17 +170,17 @@ def shown(name: str, value: float | str, line: bool = False) -> str:
 
 
 def place(case: Case) -> str:
-    """Say at which temperature and speed a case lies."""
+    """Return temperature and speed of a case in words."""
     return f"{plain(celsius(case.temperature))} °C, {told_speed(case.speed)}"
 
 
 def place_in(sweep: Sweep, number: int) -> str:
-    """Say where a case of a sweep lies: its temperature and speed, and its place on every other axis."""
+    """Return the position of a case of a sweep in words: temperature and speed, then all other axes."""
     return ", ".join([place(sweep.cases[number]), *others_in(sweep, number)])
 
 
 def others_in(sweep: Sweep, number: int) -> list[str]:
-    """Say where a case of a sweep lies on every axis but those of temperature and speed."""
+    """Return the position of a case of a sweep in words, without temperature and speed."""
     case = sweep.cases[number]
     points = np.unravel_index(number, sweep.shape)
     return [

@@ -1,8 +1,8 @@
-"""A curve solved no more finely than the friction on it asks for, wave after wave.
+"""A curve solved as finely as its friction requires, in waves.
 
-Nodes lie on a grid in s that is the same for all studies, halved where a solved midpoint differs too much from what
-the nodes about it let expect.  All nodes of a wave are independent of each other, and what comes next depends on
-whole waves only, so that neither time nor order matters.
+Nodes lie on a grid in s that is the same for all studies, halved where a solved midpoint differs too much from the
+value predicted by the nodes around it.  The nodes of a wave are independent of each other, and the next wave depends
+on whole waves only, so that timing and order do not matter.
 """
 
 from __future__ import annotations
@@ -30,20 +30,19 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Integers, Mask
 
 
-#: Length in s of the smallest interval there can be; others are multiples by powers of two.
+#: Length in s of the smallest interval; others are multiples by powers of two.
 STEP = 1.0 / 32.0
-# Intervals begin that long, in steps, at accuracies up to and above the limit.
+# Length of the first intervals, in steps, at accuracies up to and above the limit.
 _FINE_START, _COARSE_START, _COARSE_FROM = 32, 64, 1e-2
-#: Nodes further apart than this, in steps, tell nothing of what lies between them.
+#: Largest distance of connected nodes, in steps.
 FURTHEST = 64
-# By how much halving an interval lowers the error at the least, by the nodes that its polynomial goes through: in the
-# limit it is 2 to the power of their number.  Between nodes further apart than the first ones are at high accuracy,
-# which peaks of single modes fit between, halving gains nothing that can be counted on.
+# Least factor by which halving an interval reduces the error, by the number of nodes of its polynomial: in the limit it
+# is 2 to the power of their number.  Between nodes further apart than the first ones at high accuracy, where peaks of
+# single modes fit between, no reduction is certain.
 _GAIN = (1.0, 1.0, 1.0, 2.0, 4.0, 4.0, 8.0)
-# Midpoints that are solved for each first interval, with those of later ones: as many as for three rubbers over twelve
-# decades at 1e-3.
+# Midpoints solved for each first interval, including later ones: as for three materials over twelve decades at 1e-3.
 _REFINED = 1.1
-#: No more cases than this are worth a node more in an interval.
+#: Up to this number, cases are solved individually instead of refining their interval.
 _FEW = 2
 
 
@@ -56,7 +55,7 @@ class Interval(NamedTuple):
 
     @property
     def middle(self) -> int:
-        """Where it is halved."""
+        """The node that halves it."""
         return (self.low + self.high) // 2
 
 
@@ -69,18 +68,17 @@ class Curve:
         s of each case.
     accuracy : float
         Of the friction, relative.
-    logarithmic : (columns,) array of bool, optional
-        Which columns of the nodes, the first of them friction, are interpolated by their logarithms; those of an
-        indenter's contact if not given.
+    logarithmic : (columns,) array of bool
+        Columns of the nodes, friction first, that are interpolated by their logarithms.
 
     Attributes
     ----------
     wanted : tuple of int
-        Nodes of this wave; none once the curve is known well enough.
+        Nodes of this wave; none when the curve is known well enough.
     alone : list of int
-        Cases that are better solved by themselves.
+        Cases that are better solved individually.
     closed : list of Interval
-        Those between whose nodes the others lie.
+        Intervals that need no refinement.
     """
 
     def __init__(self, places: Array, accuracy: float, logarithmic: Mask) -> None:
@@ -94,12 +92,12 @@ class Curve:
 
     @property
     def expected(self) -> float:
-        """Contacts that will be solved as far as can be told from where the cases lie, at the beginning."""
+        """Estimated number of contacts to solve, from the places of the cases."""
         few = [len(one.cases) for one in self._open if len(one.cases) <= _FEW]
         return len(self.alone) + len(self.wanted) + sum(few) + _REFINED * (len(self._open) - len(few))
 
     def _worth_a_curve(self) -> list[Interval]:
-        """Return the first intervals, of neighbours that hold more cases together than a curve needs nodes."""
+        """Return the first intervals, where neighbours have more cases than a curve needs nodes."""
         length = _COARSE_START if self._accuracy > _COARSE_FROM else _FINE_START
         number = np.floor(self._places / (STEP * length)).astype(np.int64)
         worth: list[Interval] = []
@@ -114,12 +112,7 @@ class Curve:
         return worth
 
     def advance(self, found: Mapping[int, Node | None]) -> None:
-        """Hear what became of all the nodes that are wanted: None of those that failed.
-
-        Parameters
-        ----------
-        found : mapping of int to Node or None
-        """
+        """Take the nodes of the whole wave; None for those that failed."""
         before = sorted(self._nodes)
         self._nodes |= {place: node for place, node in found.items() if node is not None}
         self._failed |= {place for place, node in found.items() if node is None}
@@ -144,7 +137,7 @@ class Curve:
         self.wanted = tuple(one.middle for one in self._open)
 
     def _refine(self, one: Interval, missed: Indices) -> None:
-        """Have an interval halved for those of its cases that are not known well enough, or these solved alone."""
+        """Halve an interval for the cases that are not known well enough, or solve these individually."""
         if len(missed) <= _FEW or one.high - one.low < 2:
             self._leave_alone(missed)
             left = np.setdiff1d(one.cases, missed)
@@ -154,10 +147,9 @@ class Curve:
             self._open.append(one)
 
     def _reopen(self) -> None:
-        """Look at the cases as they will be told, and refine where the error of any is above the accuracy.
+        """Check the errors of the cases themselves, and refine where one is above the accuracy.
 
-        The tests of an interval look at its middle; elsewhere in it, and with the errors of the nodes, there may be
-        more.
+        The tests of an interval check its middle; elsewhere, and with the errors of the nodes, errors may be larger.
         """
         closed, self.closed = self.closed, []
         for one in closed:
@@ -171,17 +163,9 @@ class Curve:
                 self.closed.append(one)
 
     def drafted(self, found: Mapping[int, Node | None]) -> Curve:
-        """Return what the curve would be if nothing more were solved.
+        """Return the curve as known so far, with part of the nodes wanted now.
 
-        Parameters
-        ----------
-        found : mapping of int to Node or None
-            What is known already of the nodes that are wanted.
-
-        Returns
-        -------
-        Curve
-            Intervals are closed if their ends are known, well enough or not, the open ones last; nothing is wanted.
+        Intervals with known ends are closed, well enough known or not, the open ones last; nothing is wanted.
         """
         drafted = copy.copy(self)
         drafted._nodes = self._nodes | {place: node for place, node in found.items() if node is not None}
@@ -210,19 +194,19 @@ class Curve:
         return interpolate(chosen, STEP, places, values, errors, self._logarithmic)
 
     def _foretells(self, one: Interval, known: list[int]) -> bool:
-        """Whether friction at the midpoint is what the nodes known before let expect."""
+        """Whether friction at the midpoint agrees with the value predicted by the earlier nodes."""
         chosen = stencil(one.low, one.high, known, FURTHEST)
         expected = self._at(chosen, np.array([STEP * one.middle]))
         solved = self._nodes[one.middle]
         value, error = solved.values[FRICTION], solved.errors[FRICTION]
-        # No more can be told than the errors of the solutions let tell.
+        # Differences below the errors of the solutions are not significant.
         noise = np.hypot(error, expected.from_nodes[0, FRICTION])
         gain = 1.0 if one.high - one.low > _FINE_START else _GAIN[len(chosen.nodes)]
         allowed = gain * self._allowed(value)
         return bool(abs(expected.values[0, FRICTION] - value) <= max(allowed, noise))
 
     def _agrees(self, one: Interval, known: list[int]) -> bool:
-        """Whether polynomials of different degree tell the same friction in the middle of an interval."""
+        """Whether polynomials of different degree agree on friction in the middle of an interval."""
         chosen = stencil(one.low, one.high, known, FURTHEST)
         middle = self._at(chosen, np.array([0.5 * STEP * (one.low + one.high)]))
         noise = middle.from_nodes[0, FRICTION]
@@ -234,5 +218,5 @@ class Curve:
 
 
 def _runs(numbers: Integers) -> list[list[int]]:
-    """Part ascending whole numbers where some are left out."""
+    """Split ascending whole numbers at gaps."""
     return [run.tolist() for run in np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)]

@@ -1,4 +1,4 @@
-"""What a set of cases will take, roughly, before anything is solved: contacts, processor time and memory."""
+"""Rough estimates before solving: number of contacts, processor time and memory."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ _SECONDS = {
     "other": (0.09, 0.10, 1.6),
     "layer": (0.13, 0.05, 1.6),
 }
-# On a rough surface, s: of a contact, and of each of its points, half as much in full contact (512² points of the
-# synthetic fluoroelastomer at 2 to 6 % of contact; the accuracy hardly counts).  Bytes of a point, while it is solved.
+# On a rough surface, s: for each contact and each of its points, half as much in full contact (512² points of the
+# synthetic fluoroelastomer at 2 to 6 % of contact; the accuracy hardly matters).  Bytes for each point while solving.
 _SURFACE_SECONDS, _SURFACE_SECONDS_PER_POINT, _BYTES_PER_POINT = 0.012, 1.1e-6, 250.0
-#: Finding how friction answers to the rubber takes about as long as finding friction.
+#: The derivatives take about as long as friction itself.
 _SENSITIVE = 2.0
 # Bytes: of a process that solves; of each cell of the finest window while it does; of a record and its sensitivity.
 _PROCESS, _PER_CELL, _RECORD, _SENSITIVITY = 1.1e8, 240.0, 2.5e3, 3e3
@@ -42,20 +42,16 @@ _LINE_CELLS = 65536.0
 
 @dataclass(frozen=True)
 class Expectation:
-    """What a set of cases will take, all but the number of cases rough: by a factor of two as a rule.
+    """Estimated effort of a set of cases; all but the number of cases within a factor of about two.
 
     Attributes
     ----------
-    cases : int
-        Asked for.
-    solves : int
-        Contacts that will be solved for them.
+    cases, solves : int
+        Cases, and contacts to be solved for them.
     seconds : float
         Processor time of all, on one core of 2020, s.
-    memory : float
-        Of the study itself, with all records and fields, bytes.
-    memory_per_process : float
-        Of each process that solves, at most, bytes.
+    memory, memory_per_process : float
+        Of the study with all records and fields, and of each solving process at most, bytes.
     """
 
     cases: int
@@ -74,17 +70,7 @@ def estimate(
     fields: bool | Collection[int] = False,
     each: bool = False,
 ) -> Expectation:
-    """Estimate what `plan_cases` with the same arguments will take.
-
-    Parameters
-    ----------
-    cases, materials, accuracy, sensitive, fields, each
-        See `plan_cases`.  Members of posteriors need not be drawn: they are taken to be like the best estimate.
-
-    Returns
-    -------
-    Expectation
-    """
+    """Estimate the effort of `plan_cases` with the same arguments; bootstrap samples need not be drawn."""
     kept = range(len(cases)) if fields is True else () if fields is False else frozenset(fields)
     drawn = max((case.sample or 0 for case in cases), default=0)
     rubbers = Rubbers(materials, {number: [material] * drawn for number, material in enumerate(materials)})
@@ -119,7 +105,7 @@ def _curves(
     accuracy: float,
     solves: dict[tuple[str, bool], float],
 ) -> list[tuple[tuple[str, bool], Curve]]:
-    """Return the curves of all families, with their kinds; cases that are solved by themselves are counted."""
+    """Return the curves of all families with their kinds; add individually solved cases to `solves`."""
     places: dict[Case, list[float]] = defaultdict(list)
     kinds: dict[Case, tuple[str, bool]] = {}
     for number, case in enumerate(cases):
@@ -136,7 +122,7 @@ def _curves(
 
 
 def _kind(case: Case) -> tuple[str, bool]:
-    """Tell what contact it is, and whether with the best estimate of the rubber."""
+    """Return the kind of contact, and whether it has the best estimate of the material."""
     return case.cost, case.sample is None
 
 

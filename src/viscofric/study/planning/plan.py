@@ -1,4 +1,4 @@
-"""What is to be solved next for a set of cases, and what the answers make of them."""
+"""The plan of a set of cases: which contacts to solve next, and the results of the cases from theirs."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ Outcome: TypeAlias = Record | Failure
 
 
 class Plan:
-    """What is to be solved next, without clocks, files or processes.
+    """What is to be solved next, without clocks, files or processes; made by `plan_cases`.
 
-    The same answers make the same plan, in whatever order they come in.  It is made by `plan_cases`.
+    The same results give the same plan, in any order.
 
     Attributes
     ----------
     total : int
-        Cases asked for.
+        Number of cases.
     done : int
-        Those of them whose outcome is known, or that lie where no more need be solved for them.
+        Cases with a result, or in intervals that need no refinement.
     """
 
     def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
@@ -42,7 +42,7 @@ class Plan:
         self._cases, self.rubbers, self.settings = cases, rubbers, settings
         self._outcomes: list[Outcome | None] = [None] * len(cases)
         self._waiting: dict[str, Task] = {}
-        self._told: dict[str, list[Callable[[Outcome], None]]] = {}
+        self._callbacks: dict[str, list[Callable[[Outcome], None]]] = {}
         self._known: dict[str, Outcome] = {}
         alone = set(apart)
         self._parts = [_FamilyPlan(self, family, members) for family, members in self._families(alone).items()]
@@ -52,58 +52,40 @@ class Plan:
             self.solve_alone(number)
 
     def wanted(self) -> list[Task]:
-        """Return what is to be solved next, all of it independent of each other; empty when every case is known."""
+        """Return the tasks to solve next, independent of each other; none when every case has a result."""
         return list(self._waiting.values())
 
     def receive(self, key: str, outcome: Outcome) -> None:
-        """Hear what became of a task that is wanted.
-
-        Parameters
-        ----------
-        key : str
-            Of the task.
-        outcome : Record or Failure
-
-        Raises
-        ------
-        InputError
-            If no such task was ever wanted.
-        """
+        """Take the result of a wanted task; raise `InputError` if no such task was ever wanted."""
         if key in self._known:
             return
         if key not in self._waiting:
-            raise InputError(f"key = {key!r}: no task of this plan has it.")
+            raise InputError(f"key = {key!r}: this plan has no such task.")
         del self._waiting[key]
         self._known[key] = outcome
-        for tell in self._told.pop(key):
-            tell(outcome)
+        for call in self._callbacks.pop(key):
+            call(outcome)
 
     def found(self) -> list[Outcome]:
-        """Return what became of every case, in their order.
-
-        Raises
-        ------
-        InputError
-            If tasks are still waiting for their outcome.
-        """
+        """Return the results of all cases, in their order; raise `InputError` if tasks are still open."""
         known = [outcome for outcome in self._outcomes if outcome is not None]
         if len(known) < self.total:
             raise InputError(
-                f"{self.total - len(known)} of {self.total} cases are not known yet; solve what is wanted first."
+                f"{self.total - len(known)} of {self.total} cases have no result yet; solve the wanted tasks first."
             )
         return known
 
     def so_far(self) -> Iterator[tuple[int, Outcome, bool]]:
-        """Yield what can be told by now, for those who do not want to wait for the end.
+        """Yield preliminary results.
 
         Yields
         ------
         number : int
             Of a case.
         outcome : Record or Failure
-            Once more when it is asked again; it may change as long as its curve is solved.
+            It may change as long as its curve is being solved.
         known : bool
-            Whether it is within the accuracy already, or lies between contacts that may be too far from each other.
+            Whether it is already within the accuracy.
         """
         for number, outcome in enumerate(self._outcomes):
             if outcome is not None:
@@ -112,16 +94,16 @@ class Plan:
             yield from part.draft()
 
     def settle(self, number: int, outcome: Outcome) -> None:
-        """Note what became of a case."""
+        """Set the result of a case."""
         self.done += 1
         self._outcomes[number] = outcome
 
     def count(self, cases: int) -> None:
-        """Count cases as done before they are settled, or no more."""
+        """Count cases as done before they are settled, or undo it."""
         self.done += cases
 
     def solve_alone(self, number: int) -> None:
-        """Have a case solved by itself."""
+        """Request the individual solution of a case."""
         task = self.rubbers.task(self._cases[number], self.settings, fields=number in self.settings.fields)
         if isinstance(task, Failure):
             self.settle(number, task)
@@ -134,7 +116,7 @@ class Plan:
             tell(self._known[task.key])
             return
         self._waiting.setdefault(task.key, task)
-        self._told.setdefault(task.key, []).append(tell)
+        self._callbacks.setdefault(task.key, []).append(tell)
 
     def case(self, number: int) -> Case:
         """Return a case by its number."""
@@ -155,10 +137,7 @@ class Plan:
 
 
 class _FamilyPlan:
-    """The part of a plan that concerns one family: its curve, and the wave that is under way.
-
-    What is solved are the family's contacts at the reference temperature.
-    """
+    """The part of a plan for one family: its curve, and the current wave at the reference temperature."""
 
     def __init__(self, plan: Plan, family: Case, members: list[tuple[int, Place]]) -> None:
         self._plan, self._family = plan, family
@@ -171,7 +150,7 @@ class _FamilyPlan:
         self._settled = False
 
     def go_on(self) -> None:
-        """Ask for the next wave, or settle all cases where there is none."""
+        """Request the next wave, or settle all cases if there is none."""
         self._wave = {}
         asked = self._curve.wanted
         rubbers, settings = self._plan.rubbers, self._plan.settings
@@ -190,7 +169,7 @@ class _FamilyPlan:
             self.go_on()
 
     def draft(self) -> Iterator[tuple[int, Outcome, bool]]:
-        """Yield cases that lie between contacts known by now; see `Plan.so_far`."""
+        """Yield cases between known contacts; see `Plan.so_far`."""
         if self._settled:
             return
         cases = [self._plan.case(number) for number in self._numbers]
@@ -227,35 +206,30 @@ def plan_cases(
     fields: bool | Collection[int] = False,
     each: bool = False,
 ) -> Plan:
-    """Plan how a set of cases becomes known.
+    """Plan the solution of a set of cases.
 
     Parameters
     ----------
     cases : sequence of Case
     materials : sequence of Material
-        That the cases name by number; with a shift where cases differ in temperature.
+        Referred to by index; with a shift if cases differ in temperature.
     members : mapping of int to sequence of Material, optional
-        Of the number of a material: what is drawn from its posterior, which cases name by `sample`, from 1.
+        Index of a material → its bootstrap samples, which cases name by `sample`, from 1.
     accuracy : float
         Of the friction coefficients, relative.
     sensitive : bool
-        Whether to find how friction answers to the rubber's compliance, for bands; not of members of a posterior, which
-        need none.
+        Whether to find the derivatives of friction by the material's compliance, for bands; not for bootstrap samples.
     fields : bool or collection of int
-        Whether to keep pressure and displacement, or the numbers of the cases of which; these are solved by themselves.
+        Whether to keep pressure and displacement, or the numbers of the cases to keep them of, which are solved
+        individually.
     each : bool
-        Whether every case is solved by itself.  If not, cases that Eq. 10 lays on one curve are interpolated between
-        contacts that are solved along it, as many as the accuracy asks for.
-
-    Returns
-    -------
-    Plan
+        Whether to solve every case individually.  If not, cases on one curve (Eq. 10) are interpolated between as many
+        solved contacts as the accuracy requires.
 
     Notes
     -----
-    Nodes of curves lie at places that no study chooses.  One that gained cases has the same nodes and others beside
-    them, so that its old cases change within the accuracy where their neighbourhood is refined, and not at all
-    elsewhere.
+    The nodes of curves lie at fixed places.  A study with more cases has the same nodes and some others, so that
+    results of its old cases change within the accuracy if their neighbourhood is refined, and not at all elsewhere.
     """
     kept = range(len(cases)) if fields is True else () if fields is False else fields
     settings = Settings(accuracy, sensitive, frozenset(kept))

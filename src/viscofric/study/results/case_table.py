@@ -1,4 +1,4 @@
-"""Cases of two results that are the same: found by their coordinates, whatever the order and the axes."""
+"""Cases as a table, and the common cases of two tables, found by coordinates in any order."""
 
 from __future__ import annotations
 
@@ -35,18 +35,17 @@ _OF_CURVES = {
 }
 _COORDINATES = ("speed", "temperature", "load")
 _UNITS = {"speed": "m/s", "load": "N", "radius": "m", "thickness": "m", "angle": "rad"}
-# Coordinates whose value says what they are.
+# Coordinates whose value needs no name.
 _SPEAKING = ("material", "load", "temperature", "speed")
 _TABLES = (".csv", ".txt", ".tsv")
 
 
 @dataclass(frozen=True, eq=False)
 class CaseTable:
-    """Cases one below the other.
+    """Cases as rows.
 
     Attributes
     ----------
-    coordinates : tuple of str
     columns : dict of str to (n,) array
         Coordinates and variables, SI.
     units : dict of str to str
@@ -64,12 +63,12 @@ class CaseTable:
 
     @classmethod
     def of_file(cls, path: str | Path) -> CaseTable:
-        """Read results, the table that they were exported to, or a table of friction curves."""
+        """Read results, an exported table of them, or a table of friction curves."""
         return cls._of_table(path) if file_path(path).suffix.lower() in _TABLES else cls.of_tree(*open_tree(path))
 
     @classmethod
     def of_tree(cls, tree: xarray.DataTree, folder: Path) -> CaseTable:
-        """Return the cases of results that lie in a folder."""
+        """Return the cases of results in a folder."""
         dataset = cases_of(tree, folder)
         columns = {str(name): over_all_dimensions(dataset, str(name)).ravel() for name in dataset.variables}
         places = [str(name) for name in dataset.coords] or [name for name in _COORDINATES if name in columns]
@@ -80,7 +79,7 @@ class CaseTable:
 
     @classmethod
     def _of_table(cls, path: str | Path) -> CaseTable:
-        """Read the table that results were exported to, or one of friction curves."""
+        """Read an exported table of results, or a table of friction curves."""
         text = read_text(path, LARGEST_FILE)
         if not text.startswith(f"# {TITLE}"):
             from viscofric.friction.curve_files import read_friction_curves
@@ -90,7 +89,7 @@ class CaseTable:
             attributes, units, columns = read_table_text(text)
             solved = np.isfinite(columns["friction_coefficient"])
         except (ValueError, KeyError) as error:
-            raise DataFileError(path, f"cannot be read as a table of results: {error}") from error
+            raise DataFileError(path, f"cannot be read as a table of results: {error}", code="damaged") from error
         places = tuple(name for name in PLACES if name in columns)
         return cls(str(path), places, columns, units, solved, dict(attributes))
 
@@ -107,9 +106,9 @@ class CaseTable:
 
     @property
     def accuracy(self) -> float | None:
-        """Numerical error that was aimed at, relative, where it is told."""
-        told = self.attributes.get("accuracy")
-        return None if told is None else float(told)
+        """Relative numerical accuracy, if stated."""
+        accuracy = self.attributes.get("accuracy")
+        return None if accuracy is None else float(accuracy)
 
     def varies(self, coordinate: str) -> bool:
         """Whether the cases differ in a coordinate."""
@@ -121,7 +120,7 @@ class CaseTable:
 
 
 class Common(NamedTuple):
-    """Cases in common: their rows in both tables, and what is to be said of the axes."""
+    """Common cases: their rows in both tables, and remarks about the axes."""
 
     first: Integers
     second: Integers
@@ -129,12 +128,12 @@ class Common(NamedTuple):
 
 
 def common_cases(one: CaseTable, other: CaseTable) -> Common:
-    """Find the cases that two tables have in common.
+    """Find the common cases of two tables.
 
     Raises
     ------
     InputError
-        If there are none, a coordinate varies in one that the other does not have, or a case is there twice.
+        If there are none, a coordinate varies in only one of them, or a case is repeated.
     """
     shared = [name for name in one.coordinates if name in other.coordinates]
     remarks = []
@@ -144,15 +143,20 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
                 continue
             if table.varies(name):
                 raise InputError(
-                    f"{table.name} varies the {name}, of which {beside.name} tells nothing: no case can be paired."
+                    f"{table.name} varies the {name}, which {beside.name} does not state: no case can be paired.",
+                    code="no-common-cases",
                 )
-            remarks.append(f"{table.name} has a {name} ({_shown(name, table.columns[name][0])}), the other tells none.")
+            remarks.append(
+                f"{table.name} has a {name} ({_shown(name, table.columns[name][0])}), the other states none."
+            )
     rows = []
     for table in (one, other):
         keys = list(zip(*(_keys(table.columns[name]) for name in shared), strict=True))
         found = {key: row for row, key in enumerate(keys)}
         if len(found) < len(keys):
-            raise InputError(f"{table.name} holds cases of the same {', '.join(shared)} more than once.")
+            raise InputError(
+                f"{table.name} contains cases with the same {', '.join(shared)} more than once.", code="repeated-cases"
+            )
         rows.append(found)
     keys_of_both = [key for key in rows[0] if key in rows[1]]
     for number, name in enumerate(shared):
@@ -163,13 +167,15 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
             parts += [f"{len(less)} only in {other.name} (such as {_shown(name, less[0])})"] if less else []
             remarks.append(f"The {name} has other values: {', '.join(parts)}; {len(here & there)} in common.")
     if not keys_of_both:
-        raise InputError(f"{one.name} and {other.name} have no case in common. {' '.join(remarks)}")
+        raise InputError(
+            f"{one.name} and {other.name} have no case in common. {' '.join(remarks)}", code="no-common-cases"
+        )
     first, second = (np.array([found[key] for key in keys_of_both], dtype=np.int64) for found in rows)
     return Common(first, second, tuple(remarks))
 
 
 def _keys(column: NDArray[Any]) -> list[Any]:
-    """Return values that are the same where coordinates agree but for rounding."""
+    """Return values that are equal if coordinates agree apart from rounding."""
     if column.dtype.kind in "OUST":
         return [str(value) for value in column.tolist()]
     return [float(f"{value:.{_DIGITS - 1}e}") for value in column.tolist()]

@@ -1,4 +1,4 @@
-"""Labelled results as columns: a row for each case, units beside the names, and where the numbers come from."""
+"""Labelled results as columns: a row for each case, units with the names, and the provenance."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ PLACES = (
     "temperature",
     "speed",
 )
-# Of a temperature in degC: what is beyond comes from the sum with 273.15.
+# Of a temperature in degC; further digits are rounding of the sum with 273.15.
 _DECIMALS = 9
-# Attribute -> what the lines above a table call it.
-_TOLD = {
+# Attribute -> its name in the lines above a table.
+_NAMED = {
     "data_origin": "data",
     "indenter": "indenter",
     "accuracy": "accuracy",
@@ -65,27 +65,22 @@ def table_text(cases: xarray.Dataset) -> str:
 
 
 def read_table_text(text: str) -> tuple[dict[str, str], dict[str, str], dict[str, Any]]:
-    """Read what `table_text` wrote.
+    """Read a table written by `table_text`; raise ValueError if it is not one.
 
     Returns
     -------
     attributes, units : dict of str to str
-        Of the data set, as far as the lines above the table tell them; and of the columns, SI.
+        Of the data set, from the lines above the table; and of the columns, SI.
     columns : dict of str to (n,) array
-        Numbers, missing ones NaN, or texts; SI.
-
-    Raises
-    ------
-    ValueError
-        If it is something else.
+        Numbers (missing ones NaN) or texts; SI.
     """
     lines = text.splitlines()
     remarks = [line.removeprefix("#").strip() for line in lines if line.startswith("#")]
     if not remarks or not remarks[0].startswith(TITLE):
-        raise ValueError("is no table of results of viscofric.")
+        raise ValueError("is not a table of results of viscofric.")
     headings, *rows = csv.reader(line for line in lines if not line.startswith("#"))
     if any(len(row) != len(headings) for row in rows):
-        raise ValueError("has rows of other lengths than its headings; it was cut short or changed.")
+        raise ValueError("has rows that do not match its headings; it was cut short or changed.")
     units, columns = {}, {}
     for heading, cells in zip(headings, zip(*rows, strict=True), strict=True):
         name, _, unit = heading.removesuffix(")").partition(" (")
@@ -100,8 +95,8 @@ def read_table_text(text: str) -> tuple[dict[str, str], dict[str, str], dict[str
 
 
 def _attributes(remarks: list[str]) -> dict[str, str]:
-    """Return the attributes that the lines above a table tell."""
-    names = {words: name for name, words in _TOLD.items()}
+    """Return the attributes in the lines above a table."""
+    names = {words: name for name, words in _NAMED.items()}
     found, tables = {}, {"input": {}, "software": {}}  # type: ignore[var-annotated]
     for remark in remarks:
         words, _, value = remark.partition(": ")
@@ -117,9 +112,9 @@ def _attributes(remarks: list[str]) -> dict[str, str]:
 
 
 def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
-    """Return what says where numbers come from, each with its name and on one line."""
+    """Return the provenance of results, as pairs of name and text on one line."""
     found = [(TITLE, attributes.get("title", ""))]
-    found += [(words, attributes[name]) for name, words in _TOLD.items() if name in attributes]
+    found += [(words, attributes[name]) for name, words in _NAMED.items() if name in attributes]
     hashes = json.loads(str(attributes.get("input_hashes", "{}")))
     found += [("input", f"{path} (SHA-256 {digest})") for path, digest in hashes.items()]
     software = json.loads(str(attributes.get("software", "{}")))
@@ -129,13 +124,13 @@ def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
 
 
 def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list[Any]]]:
-    """Return a data set as columns: names, units and values, a row for each point, the last dimension running fastest.
+    """Return names, units and values of a data set's columns, a row for each point, the last dimension running fastest.
 
-    Temperatures are in degC; what is missing is None.
+    Temperatures are in degC; missing values are None.
     """
     known = [name for name in PLACES if name in dataset.coords]
     known += [str(name) for name in dataset.coords if name not in PLACES]
-    # What is measured as well as calculated has its places among the variables.
+    # Coordinates of measured points are among the variables.
     places = [name for name in PLACES if name in dataset.data_vars]
     names = [*known, *places, *(str(name) for name in dataset.data_vars if name not in PLACES)]
     units, columns = [], []
@@ -163,12 +158,15 @@ def _plain(value: Any) -> Any:
 
 
 def written(value: Any) -> str:
-    """Return a value as a table has it: the shortest text that is the same number, nothing for what is missing."""
+    """Return a value as in a table: the shortest text that gives the same number, empty if missing."""
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)
 
 
 def tables(tree: xarray.DataTree) -> Iterator[tuple[str, xarray.Dataset]]:
-    """Yield the tables of results beside the cases, with their names; those of several rubbers named after them."""
+    """Yield the tables of results other than the cases, with their names.
+
+    Of several materials, with the material's name.
+    """
     for name, group in _tables_of(tree):
         if name != "prediction":
             yield name, group

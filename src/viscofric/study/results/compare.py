@@ -29,26 +29,25 @@ COMPARED = {
     "max_pressure": "max_pressure_error",
     "centre_of_pressure": "",
 }
-#: Variables without an error of their own agree within the accuracy, or within this where none is told.
+#: Variables without a stated error agree within the accuracy, or within this if it is unknown.
 _USUAL_ACCURACY = 1e-3
-#: Differences of as many times the combined stated errors are no differences.
+#: Differences within this many combined stated errors are not significant.
 _WITHIN = 2.0
 _LAST_DIGITS = 1e-12
 
 
 @dataclass(frozen=True)
 class VariableDifference:
-    """How far one variable differs over the cases that two results have in common.
+    """Difference of one variable over the common cases of two results.
 
     Attributes
     ----------
-    name, unit : str
     points : int
         Cases that both solved.
     largest, rms : float
         Relative to the larger of the two values.
     in_errors : float or None
-        The largest difference over the combined stated error; None where no error is stated.
+        The largest difference over the combined stated error; None without a stated error.
     where : dict of str to float or str
         Coordinates of the largest difference, SI.
     first, second : float
@@ -146,7 +145,7 @@ def _difference(
         within = relative <= _WITHIN * accuracy
     else:
         within = gap <= _WITHIN * errors + _LAST_DIGITS * scale
-    # Where the difference is largest beyond what is allowed, if it is anywhere.
+    # The largest difference among those beyond the limit, if there are any.
     worst = int(np.argmax(relative if within.all() else np.where(within, -1.0, relative)))
     return VariableDifference(
         name=name,
@@ -163,7 +162,7 @@ def _difference(
 
 
 def _combined_error(name: str, tables: tuple[CaseTable, CaseTable], rows: tuple[Any, Any]) -> Array | None:
-    """Return the stated errors of both, added in squares; None where neither states any."""
+    """Return the stated errors of both, added in squares; None if neither states any."""
     stated = [
         table.columns[COMPARED[name]][row]
         for table, row in zip(tables, rows, strict=True)
@@ -177,7 +176,7 @@ def _combined_error(name: str, tables: tuple[CaseTable, CaseTable], rows: tuple[
 
 
 def _largest_ratio(gap: Array, errors: Array) -> float | None:
-    """Return the largest difference in units of its error; None where a difference has an error of zero."""
+    """Return the largest difference in units of its error; None if a difference has an error of zero."""
     if np.any((errors == 0.0) & (gap > 0.0)):
         return None
     return float(np.divide(gap, errors, out=np.zeros_like(gap), where=errors > 0.0).max())
@@ -188,19 +187,13 @@ _SINGLE = {"data_origin": "data", "accuracy": "accuracy", "seed": "seed"}
 
 
 def provenance_differences(one: Mapping[Any, Any], other: Mapping[Any, Any]) -> Iterator[str]:
-    """Yield what differs between the attributes of two results, one sentence each.
-
-    Parameters
-    ----------
-    one, other : mapping
-        Attributes of the roots of results; friction curves have none.
-    """
+    """Yield the differences between the attributes of two results, one sentence each; friction curves have none."""
     if not one or not other:
-        yield "Where the friction curves come from is not known: versions, inputs and accuracy are not compared."
+        yield "Friction curves have no provenance: versions, inputs and accuracy are not compared."
         return
     for name, words in _SINGLE.items():
         if str(one.get(name)) != str(other.get(name)):
-            yield f"Another {words}: {one.get(name, 'not told')} and {other.get(name, 'not told')}."
+            yield f"Another {words}: {one.get(name, 'unknown')} and {other.get(name, 'unknown')}."
     yield from _versions(one, other)
     yield from _inputs(_table(one, "input_hashes"), _table(other, "input_hashes"))
     yield from _run_files(str(one.get("study_text", "")), str(other.get("study_text", "")))
@@ -211,7 +204,7 @@ def _versions(one: Mapping[Any, Any], other: Mapping[Any, Any]) -> Iterator[str]
         {"viscofric": str(about.get("viscofric_version", "")), **_table(about, "software")} for about in (one, other)
     )
     changed = [
-        f"{name} {here.get(name, 'not told')} and {there.get(name, 'not told')}"
+        f"{name} {here.get(name, 'unknown')} and {there.get(name, 'unknown')}"
         for name in {**here, **there}
         if here.get(name) != there.get(name)
     ]
@@ -220,7 +213,7 @@ def _versions(one: Mapping[Any, Any], other: Mapping[Any, Any]) -> Iterator[str]
 
 
 def _inputs(here: dict[str, str], there: dict[str, str]) -> Iterator[str]:
-    """Tell of input files by their contents: the same file may lie elsewhere."""
+    """Yield differences of input files by content: the same file may have another path."""
     if set(here.values()) == set(there.values()):
         return
     names = [{PurePath(path).name: digest for path, digest in of_one.items()} for of_one in (here, there)]
@@ -235,7 +228,7 @@ def _inputs(here: dict[str, str], there: dict[str, str]) -> Iterator[str]:
 
 
 def _run_files(first: str, second: str) -> Iterator[str]:
-    if first == second or not (first and second):  # a table of results does not hold its run file
+    if first == second or not (first and second):  # a table of results has no run file
         return
     try:
         here, there = (dict(_flat(parse_toml(text))) for text in (first, second))
@@ -250,7 +243,7 @@ def _run_files(first: str, second: str) -> Iterator[str]:
 
 
 def _flat(table: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield every value of nested tables with the keys that lead to it."""
+    """Yield every value of nested tables with its joined keys."""
     tables = table.items() if isinstance(table, dict) else enumerate(table, 1)
     for key, value in tables:
         deeper = isinstance(value, dict) or (isinstance(value, list) and value and isinstance(value[0], dict))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 Form = Literal["csv", "excel", "netcdf", "zarr"]
 FORMS: tuple[Form, ...] = get_args(Form)
-#: Format -> the file that it is written into, where no other is named.
+#: Format -> the default name of its file.
 NAMES: dict[Form, str] = {
     "csv": "results.csv",
     "excel": "results.xlsx",
@@ -35,11 +35,11 @@ NAMES: dict[Form, str] = {
 
 
 def export_results(tree: xarray.DataTree, folder: Path, form: Form, path: str | Path | None = None) -> Path:
-    """Write results that lie in a folder for other programs; see `StudyResults.export`."""
+    """Write results for other programs; see `StudyResults.export`."""
     check_choice(form, "form", *FORMS)
     target = folder / NAMES[form] if path is None else file_path(path)
     if target.resolve() == (folder / RESULTS_FILE).resolve():
-        raise InputError(f"{target} holds the results themselves; choose another name.")
+        raise InputError(f"{target} contains the results themselves; choose another name.", code="results-file")
     cases = cases_of(tree, folder)
     if form == "csv":
         write_atomically(target, table_text(cases).encode())
@@ -54,7 +54,7 @@ def export_results(tree: xarray.DataTree, folder: Path, form: Form, path: str | 
 
 def _write_netcdf(dataset: xarray.Dataset, target: Path) -> None:
     if target.is_dir():
-        raise DataFileError(target, "is a folder; a name for a file is wanted.")
+        raise DataFileError(target, "is a folder; give the name of a file.", code="is-folder")
 
     def write(path: Path) -> None:
         dataset.to_netcdf(path, engine="h5netcdf")
@@ -67,19 +67,19 @@ def _write_zarr(dataset: xarray.Dataset, target: Path) -> None:
         import zarr  # noqa: F401
     except Exception as error:
         why = not_imported("zarr", error, "pip install 'viscofric[zarr]'")
-        raise InputError(f"this format needs zarr, but {why}.") from error
+        raise InputError(f"this format needs zarr, but {why}.", code="not-installed") from error
     if target.exists() and not any((target / name).exists() for name in (".zgroup", "zarr.json")):
-        raise DataFileError(target, "exists, and is no zarr folder that could be replaced; choose another name.")
+        raise DataFileError(target, "exists and is not a zarr folder; choose another name.", code="not-zarr")
 
     def write(path: Path) -> None:
-        # Version 2 of the format has texts of any length, and is read everywhere.
+        # Version 2 of the format supports texts of any length, and all programs read it.
         dataset.to_zarr(path, zarr_format=2, consolidated=True)
 
     _moved_into_place(write, target)
 
 
 def _moved_into_place(write: Callable[[Path], None], target: Path) -> None:
-    """Write beside the target and move it there when it is whole."""
+    """Write beside the target, then move the complete file to it."""
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as temporary:
@@ -101,29 +101,11 @@ _SENTENCES = ("warnings", "notes")
 
 
 def workbook(tree: xarray.DataTree, cases: xarray.Dataset) -> bytes:
-    """Return results as the bytes of a workbook, the same each time.
-
-    Parameters
-    ----------
-    tree : DataTree
-        Of the results.
-    cases : Dataset
-        The predicted ones of them.
-
-    Returns
-    -------
-    bytes
-        Sheets: summary, prediction, the other tables, variables.
-
-    Raises
-    ------
-    InputError
-        If there are more cases than a sheet has rows.
-    """
+    """Return results as the bytes of a workbook: sheets summary, prediction, the other tables, variables."""
     import xlsxwriter  # type: ignore[import-untyped]
 
     target = io.BytesIO()
-    # Text stays text: what begins with = or http comes from files of others.
+    # Text stays text: text that begins with = or http comes from data files.
     options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}
     with xlsxwriter.Workbook(target, options) as book:
         made = _Made(book)
@@ -143,7 +125,7 @@ def workbook(tree: xarray.DataTree, cases: xarray.Dataset) -> bytes:
 
 
 class _Made:
-    """A workbook as it is made."""
+    """A workbook under construction."""
 
     def __init__(self, book: Any) -> None:
         self.book = book
@@ -152,7 +134,7 @@ class _Made:
         self.meaning: dict[tuple[str, str, str], None] = {}
 
     def sheet(self, name: str) -> Any:
-        """Add a sheet, under a name that the format allows and no other sheet has."""
+        """Add a sheet with a valid, unique name."""
         plain = _NOT_IN_NAMES.sub(" ", name).strip("' ") or "sheet"
         called, number = plain[:_LONGEST_NAME], 1
         while called.lower() in self.names:
@@ -163,7 +145,7 @@ class _Made:
         return self.book.add_worksheet(called)
 
     def summary(self, attributes: Mapping[Any, Any]) -> None:
-        """Say what the results are, what is doubtful, and how to make them again."""
+        """Write provenance, warnings, notes and the run file."""
         rows = about(attributes)
         for name in _SENTENCES:
             rows += [(name[:-1], str(note_of(one))) for one in json.loads(str(attributes.get(name, "[]")))]
@@ -178,12 +160,13 @@ class _Made:
         page.freeze_panes(1, 0)
 
     def table(self, name: str, dataset: xarray.Dataset) -> None:
-        """Write a data set on a sheet: headings with units that stay in sight, a row for each point."""
+        """Write a data set on a sheet: fixed headings with units, a row for each point."""
         names, units, columns = columns_of(dataset)
         count = len(columns[0])
         if count >= MOST_ROWS:
             raise InputError(
-                f"{name} has {count:,} rows, and a sheet of a workbook has {MOST_ROWS:,} at most; write CSV or netCDF."
+                f"{name} has {count:,} rows, and a sheet of a workbook has {MOST_ROWS:,} at most; write CSV or netCDF.",
+                code="too-many-rows",
             )
         page = self.sheet(name)
         for column, (variable, unit, values) in enumerate(zip(names, units, columns, strict=True)):
@@ -198,7 +181,7 @@ class _Made:
         page.autofilter(0, 0, count, len(names) - 1)
 
     def variables(self) -> None:
-        """Write what the headings mean."""
+        """Write the meaning of the headings."""
         page = self.sheet("variables")
         for row, cells in enumerate([("name", "unit", "meaning"), *self.meaning]):
             for column, cell in enumerate(cells):

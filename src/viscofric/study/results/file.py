@@ -1,4 +1,4 @@
-"""The file of a study's results: written and opened whole, or refused; and what its groups hold."""
+"""The results file: written and opened as a whole, or refused; and what its groups hold."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 RESULTS_FILE = "results.nc"
 _PREDICTION = "prediction"
-#: Attributes of the whole that a data set taken out of it keeps: what it is, and where it comes from.
+#: Attributes of the root that a data set of the tree keeps: title and provenance.
 _ABOUT = (
     "title",
     "data_origin",
@@ -42,15 +42,16 @@ _CUT = re.compile(r"truncated file: eof = (\d+),.*stored_eof = (\d+)")
 
 
 def cases_of(tree: xarray.DataTree, folder: Path) -> xarray.Dataset:
-    """Return the predicted cases of results that lie in a folder; see `StudyResults.dataset`."""
+    """Return the predicted cases of results; see `StudyResults.dataset`."""
     if _PREDICTION not in tree.children:
-        raise InputError(f"{folder}: these are results of a rubber alone, without a prediction of friction.")
+        words = "these results have no prediction of friction; they are of a material alone."
+        raise InputError(f"{folder}: {words}", code="no-prediction")
     found = tree[_PREDICTION].to_dataset()
     return found.assign_attrs({name: tree.attrs[name] for name in _ABOUT if name in tree.attrs})
 
 
 def rubbers_of(tree: xarray.DataTree) -> dict[str, xarray.DataTree]:
-    """Return what results hold of each rubber, by its name; see `StudyResults.materials`."""
+    """Return the groups of each material by its name; see `StudyResults.materials`."""
     branches = tree.children.get("materials")
     if branches is None:
         return {str(tree.attrs.get("material", "")): tree}
@@ -71,39 +72,41 @@ def open_tree(path: str | Path) -> tuple[xarray.DataTree, Path]:
         if solved:
             raise DataFileError(
                 file,
-                f"no such file: the study has not been finished.  Contacts solved so far: {solved}.  Running it with "
-                "--resume completes it; with --finished-only, it puts together what is there.",
+                f"no such file: the study has not been finished.  Contacts solved so far: {solved}.  Run it with "
+                "--resume to complete it, or with --finished-only to store the results so far.",
+                code="unfinished",
             )
     if not file.is_file():
-        raise DataFileError(file, f"no such results file; {_where_they_are(file.parent)}")
+        raise DataFileError(file, f"no such results file; {_where_they_are(file.parent)}", code="no-results")
     try:
         insist_on_true_size(file)
         with xarray.open_datatree(file, engine="h5netcdf", phony_dims="access") as stored:
             tree = stored.load()
             found = digest(tree)
-    except Exception as error:  # h5py raises many kinds; the file tells more than they do
-        raise DataFileError(file, what_is_wrong(file, error)) from error
+    except Exception as error:  # h5py raises many kinds, and the file is more informative
+        raise what_is_wrong(file, error) from error
     if "viscofric_version" not in tree.attrs:
-        raise DataFileError(file, "is a netCDF file, but not one of results of viscofric.")
+        raise DataFileError(file, "is a netCDF file, but not one of results of viscofric.", code="not-results")
     if not tree.children:
         raise DataFileError(
             file,
-            "holds the cases alone, as exported for other programs (xarray.open_dataset reads it); give the folder of "
-            "the study's results.",
+            "contains the cases only, as exported for other programs (xarray.open_dataset reads it); give the folder "
+            "of the study's results.",
+            code="exported",
         )
     if tree.attrs.get(DIGEST, found) != found:
-        raise DataFileError(file, f"is damaged: it does not hold what was written into it.{what_helps(file)}")
+        raise DataFileError(file, f"is damaged: its contents have changed.{what_helps(file)}", code="damaged")
     return tree, file.parent
 
 
 def _where_they_are(folder: Path) -> str:
-    """Say what to do where a folder holds no results."""
+    """Return a hint for a folder without results."""
     near = sorted(other.parent for other in folder.glob(f"*/{RESULTS_FILE}"))
     return f"there are results in {near[0]}." if near else "run the study first."
 
 
 def save_results(tree: xarray.DataTree, folder: Path) -> Path:
-    """Write a tree to a folder's ``results.nc``; the file is there whole or not at all."""
+    """Write a tree to ``results.nc`` of a folder, as a whole or not at all."""
     target = folder / RESULTS_FILE
     tree.attrs[DIGEST] = digest(tree)
     try:
@@ -120,10 +123,9 @@ def save_results(tree: xarray.DataTree, folder: Path) -> Path:
 
 
 def digest(tree: xarray.DataTree) -> str:
-    """Return what changes with any number, name, unit or attribute of results (SHA-256).
+    """Return a digest (SHA-256) of all numbers, names, units and attributes of results.
 
-    What HDF5 itself notices is a file that is too short; a page of zeros that a power cut left is a number like any
-    other to it.
+    HDF5 itself notices only a file that is too short, and not a page of zeros left by a power cut.
     """
     found = hashlib.sha256()
     for node in sorted(tree.subtree, key=lambda node: node.path):
@@ -140,7 +142,7 @@ def digest(tree: xarray.DataTree) -> str:
 
 
 def _attributes(attributes: dict[object, object]) -> list[list[object]]:
-    """Return attributes in plain types, as they are before they are written and after they are read alike."""
+    """Return attributes in plain types that are the same before writing and after reading."""
     return [
         [str(name), np.ravel(np.asarray(value)).tolist()]
         for name, value in sorted(attributes.items(), key=str)
@@ -148,36 +150,32 @@ def _attributes(attributes: dict[object, object]) -> list[list[object]]:
     ]
 
 
-def what_is_wrong(path: Path, error: Exception) -> str:
-    """Say in a sentence why a results file cannot be read.
-
-    Parameters
-    ----------
-    path : Path
-    error : Exception
-        That reading it raised.
-    """
+def what_is_wrong(path: Path, error: Exception) -> DataFileError:
+    """Return the reason why a results file cannot be read, given the error of reading it."""
     try:
         with path.open("rb") as file:
             start = file.read(len(_SIGNATURE))
     except OSError as reason:
-        return f"cannot be read ({reason.strerror or reason})."
-    if not start:
-        return f"is damaged: it is empty; writing or copying it was cut short.{what_helps(path)}"
-    if start != _SIGNATURE[: len(start)]:
-        return (
-            "is no results file of viscofric (netCDF); give the folder of a study's results, or the results.nc in it."
+        return DataFileError(path, f"cannot be read ({reason.strerror or reason}).", code="unreadable")
+    if start and start != _SIGNATURE[: len(start)]:
+        return DataFileError(
+            path,
+            "is not a results file of viscofric (netCDF); give a study's results folder, or the results.nc in it.",
+            code="not-results",
         )
-    if (cut := _CUT.search(str(error))) is not None:
-        return f"is damaged: only {cut[1]} of its {cut[2]} bytes are there.{what_helps(path)}"
-    if len(start) < len(_SIGNATURE):
-        return f"is damaged: only {len(start)} bytes of it are there.{what_helps(path)}"
-    said = " ".join(str(error).split()) or type(error).__name__
-    return f"is damaged: it cannot be read as netCDF ({said}).{what_helps(path)}"
+    if not start:
+        why = "it is empty; writing or copying it was cut short."
+    elif (cut := _CUT.search(str(error))) is not None:
+        why = f"it has only {cut[1]} of its {cut[2]} bytes."
+    elif len(start) < len(_SIGNATURE):
+        why = f"it has only {len(start)} bytes."
+    else:
+        why = f"it cannot be read as netCDF ({' '.join(str(error).split()) or type(error).__name__})."
+    return DataFileError(path, f"is damaged: {why}{what_helps(path)}", code="damaged")
 
 
 def what_helps(path: Path) -> str:
-    """Return what gives the results back, where finished cases lie beside them."""
+    """Return how to restore the results."""
     if any(path.parent.glob("cases/*.json")):
-        return " The finished cases beside it are kept: running the study with --resume puts results together."
-    return " Run the study again, or take a copy of the file."
+        return " The solved contacts are kept: run the study with --resume to store the results again."
+    return " Run the study again, or use a copy of the file."

@@ -38,7 +38,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class StudyResults:
-    """Everything that a study found.
+    """The results of a study.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class StudyResults:
 
     @property
     def materials(self) -> dict[str, xarray.DataTree]:
-        """What is known of each rubber, by its name: its sweeps, shift factors, master curve and spectrum."""
+        """Sweeps, shift factors, master curve and spectrum of each material, by its name."""
         return rubbers_of(self.tree)
 
     @property
@@ -147,14 +147,10 @@ class StudyResults:
 
 
 def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> Mask:
-    """Return in which cases the estimated numerical error of friction is above the accuracy asked for.
+    """Return in which cases the estimated numerical error of friction exceeds the (relative) accuracy.
 
-    Parameters
-    ----------
-    cases : xarray.Dataset
-        Predicted cases, in any shape, which the answer has; those that failed are not among them.
-    accuracy : float
-        Relative; of friction below the solver's floor, a fraction of the contact's slope, relative to that.
+    `cases` have any shape; failed ones count as within.  Friction below the solver's floor, a fraction of the contact's
+    slope, is compared with the floor.
     """
     friction, error = (np.abs(cases[name].values) for name in ("friction_coefficient", "friction_error"))
     floor = 0.0
@@ -244,12 +240,12 @@ def compare_results(
     True
     """
     if tolerance is not None and number(tolerance, "tolerance") < 0.0:
-        raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.")
+        raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.", code="tolerance")
     return compare_tables(_table_of(first), _table_of(second), tolerance)
 
 
 def _table_of(given: StudyResults | FrictionCurves | str | Path) -> CaseTable:
-    """Return the cases of results or friction curves, or of the file that holds them."""
+    """Return the cases of results or friction curves, or of their file."""
     if isinstance(given, StudyResults):
         return CaseTable.of_tree(given.tree, given.folder)
     from viscofric.friction.curves import FrictionCurves
@@ -258,17 +254,10 @@ def _table_of(given: StudyResults | FrictionCurves | str | Path) -> CaseTable:
 
 
 def input_hashes(inputs: Iterable[Path], beside: Path | None = None) -> str:
-    """Return the SHA-256 of each input file, as JSON keyed by its path.
-
-    Parameters
-    ----------
-    inputs : iterable of Path
-    beside : Path, optional
-        Folder of the run file: paths below it are told from there, so that they say the same on another machine.
-    """
+    """Return the SHA-256 of each input file, as JSON by path, relative to `beside` for files below that folder."""
     hashes = {}
     for path in inputs:
-        # What is not a plain file is told by its reader.
+        # The reader reports what is not a plain file.
         if path.is_file():
             with path.open("rb") as file:
                 hashes[_from(beside, path)] = hashlib.file_digest(file, "sha256").hexdigest()
@@ -282,7 +271,7 @@ def _from(folder: Path | None, path: Path) -> str:
 
 
 def provenance() -> dict[str, str]:
-    """Return what else is needed to repeat a study: versions and time."""
+    """Return versions and time."""
     software = {
         "Python": platform.python_version(),
         **{name: version(name) for name in ("numpy", "scipy", "xarray", "python-calamine")},

@@ -1,4 +1,4 @@
-"""Tasks done by the workers of a Dask cluster: those of a running scheduler, or started as jobs of a batch system."""
+"""Tasks solved by the workers of a Dask cluster: those of a running scheduler, or jobs of a batch system."""
 
 from __future__ import annotations
 
@@ -26,18 +26,16 @@ if TYPE_CHECKING:
     from viscofric.study.running.executors import Answers, Outcome, Solve, Task
 
 _PATIENCE = 30.0  # s
-_BETWEEN_LOOKS = 1.0  # s
+_POLLING = 1.0  # s
 
 
 @dataclass(frozen=True)
 class BatchJobs:
     """Workers that are started as jobs of a batch system.
 
-    Parameters
+    Attributes
     ----------
-    jobs : int
-        How many.
-    settings : dict, optional
+    settings : dict
         Of ``dask_jobqueue.SLURMCluster``: queue, account, cores, memory, walltime …
     kind : str
         Class of `dask_jobqueue`.
@@ -49,7 +47,7 @@ class BatchJobs:
 
     @classmethod
     def of(cls, table: ClusterTable) -> Self:
-        """Return the jobs that [cluster] of a run file asks for."""
+        """Return the jobs of [cluster] of a run file."""
         threads = [f"export {name}=1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")]
         settings: dict[str, Any] = {
             "cores": table.cores,
@@ -64,19 +62,10 @@ class BatchJobs:
 
 
 class Dask(Executor):
-    """Shares tasks out among the workers of a Dask cluster.
+    """Distributes tasks to the workers of a Dask cluster.
 
-    Workers may come and go meanwhile: what one of them had in hand when it was lost goes to another.
-
-    Parameters
-    ----------
-    where : str or BatchJobs
-        Address of a running scheduler, such as ``"tcp://10.0.0.1:8786"``, or jobs to start.
-
-    Raises
-    ------
-    InputError
-        If Dask is not installed.
+    Workers may join and leave meanwhile; tasks of a lost worker go to another.  `where` is the address of a running
+    scheduler, such as ``"tcp://10.0.0.1:8786"``, or the jobs to start.
     """
 
     def __init__(self, where: str | BatchJobs) -> None:
@@ -87,13 +76,7 @@ class Dask(Executor):
         self._client: Any = None
 
     def __enter__(self) -> Self:
-        """Reach the scheduler, or start jobs.
-
-        Raises
-        ------
-        InputError
-            If it does not answer.
-        """
+        """Connect to the scheduler, or start jobs; raise `InputError` if there is no answer."""
         with contextlib.ExitStack() as opened:
             address: Any = self._where
             self._insist_on_batch_system()
@@ -105,20 +88,23 @@ class Dask(Executor):
             try:
                 client = self._distributed.Client(address, timeout=_PATIENCE, set_as_default=False)
             except (OSError, ValueError) as error:
-                raise InputError(f"scheduler {self._where!r} cannot be reached: {error}") from error
+                raise InputError(
+                    f"scheduler {self._where!r} cannot be reached: {error}", code="no-scheduler"
+                ) from error
             self._client = opened.enter_context(client)
             self._open = opened.pop_all()
         return self
 
     def _insist_on_batch_system(self) -> None:
-        """Refuse to send jobs from where none can be sent: Dask would wait for them for ever."""
+        """Raise `InputError` where no jobs can be submitted: Dask would wait for them for ever."""
         if isinstance(self._where, str):
             return
         command = getattr(self._jobqueue, self._where.kind).job_cls.submit_command
         if command is not None and shutil.which(command) is None:
             raise InputError(
-                f"cluster: there is no {command} here; run the study where jobs can be sent from, or leave [cluster] "
-                "out and give --workers."
+                f"cluster: there is no {command} here; run the study where jobs can be submitted, or leave [cluster] "
+                "out and give --workers.",
+                code="no-batch-system",
             )
 
     def __exit__(
@@ -128,8 +114,8 @@ class Dask(Executor):
         self._open.close()
 
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
-        """Do tasks; see `Executor`."""
-        run = uuid.uuid4().hex  # the scheduler remembers names for a while, of what was given up too
+        """Solve tasks; see `Executor`."""
+        run = uuid.uuid4().hex  # the scheduler keeps names for a while, also of cancelled tasks
         keys = [f"{task.key}-{run}" for task in tasks]
         work = functools.partial(take_on_cluster, solve, fingerprint=solver_fingerprint())
         futures = dict(zip(self._client.map(work, tasks, key=keys, pure=False), tasks, strict=True))
@@ -145,48 +131,48 @@ class Dask(Executor):
                 self._client.cancel(list(futures))
 
     def _finished(self, futures: Sequence[Any]) -> Iterator[Any]:
-        """Yield futures as they are finished; tell, once, where there has been nobody for long who could do them."""
+        """Yield finished futures; yield `Waiting` once if there have been no workers for long."""
         finished: queue.SimpleQueue[Any] = queue.SimpleQueue()
         for future in futures:
             future.add_done_callback(finished.put)
-        left, alone_since, told = len(futures), time.monotonic(), False
+        left, idle_since, reported = len(futures), time.monotonic(), False
         while left:
             try:
-                found = finished.get(timeout=_BETWEEN_LOOKS)  # a wait without an end may not hear an interrupt
+                found = finished.get(timeout=_POLLING)  # an endless wait may not notice an interrupt
             except queue.Empty:
                 if self._client.scheduler_info()["workers"]:
-                    alone_since, told = time.monotonic(), False
-                elif not told and time.monotonic() > alone_since + _PATIENCE:
-                    told = True
-                    yield Waiting(self._who_is_missing())
+                    idle_since, reported = time.monotonic(), False
+                elif not reported and time.monotonic() > idle_since + _PATIENCE:
+                    reported = True
+                    yield Waiting(self._why_waiting())
             else:
                 left -= 1
-                alone_since = time.monotonic()
+                idle_since = time.monotonic()
                 yield found
 
-    def _who_is_missing(self) -> str:
+    def _why_waiting(self) -> str:
         if isinstance(self._where, str):
             return (
-                f"the scheduler {self._where} has no workers; the study goes on as soon as one is started "
+                f"the scheduler {self._where} has no workers; the study continues when one is started "
                 f"(dask worker {self._where})."
             )
         return (
-            "none of the cluster's jobs is at work: the batch system lets them wait, or refused them (squeue tells); "
-            "the study goes on as soon as one begins."
+            "none of the cluster's jobs is running: the batch system queues or refused them (see squeue); "
+            "the study continues when one starts."
         )
 
     def _outcome(self, future: Any, task: Task) -> Outcome:
         try:
             outcome: Outcome = future.result()
         except self._distributed.KilledWorker:
-            return Lost("one worker after the other ended while it was solved, mostly for want of memory.", task.label)
+            return Lost("several workers ended while solving it, mostly for lack of memory.", task.label)
         except self._distributed.CancelledError as error:
-            raise ViscofricError("the Dask scheduler ended, or gave up what it was asked for.") from error
+            raise ViscofricError("the Dask scheduler ended, or cancelled the tasks.") from error
         except ViscofricError:
             raise
         except Exception as error:
             raise ViscofricError(
-                f"the workers of the Dask cluster cannot do what they are asked for ({type(error).__name__}: {error}); "
+                f"the workers of the Dask cluster cannot solve the tasks ({type(error).__name__}: {error}); "
                 "viscofric must be installed on all machines, in the same version."
             ) from error
         return outcome
@@ -194,7 +180,7 @@ class Dask(Executor):
 
 @contextlib.contextmanager
 def _without_tracebacks() -> Iterator[None]:
-    """Keep Dask from printing its inside where the scheduler ends, which is told in a sentence."""
+    """Keep Dask from printing tracebacks when the scheduler ends, which an error reports."""
     loggers = [logging.getLogger(name) for name in ("distributed.client", "distributed.utils")]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
@@ -218,4 +204,4 @@ def _imported(name: str) -> ModuleType:
         return import_module(name)
     except Exception as error:
         why = not_imported(name, error, "pip install 'viscofric[cluster]'")
-        raise InputError(f"clusters need {name}, but {why}.") from error
+        raise InputError(f"clusters need {name}, but {why}.", code="not-installed") from error

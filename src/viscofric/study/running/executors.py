@@ -22,13 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Waiting:
-    """Nobody is there to do the tasks, now and maybe for long.
-
-    Attributes
-    ----------
-    reason : str
-        A sentence.
-    """
+    """No workers for the time being; `reason` is a sentence."""
 
     reason: str
 
@@ -37,33 +31,29 @@ Answers: TypeAlias = "Generator[tuple[str, Outcome | Waiting | None]]"
 
 
 class Executor(contextlib.AbstractContextManager["Executor"]):
-    """Does tasks, wherever; the answers do not depend on where, nor on how many work on them.
-
-    Used in a ``with`` block, at the end of which nothing is at work any more.
-    """
+    """Solves tasks, in a ``with`` block; the results do not depend on the executor or its number of workers."""
 
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
-        """Do tasks that are independent of each other.
+        """Solve independent tasks.
 
         Parameters
         ----------
         solve : callable
-            Gets a task, returns its record; raises ConvergenceError or InputError if there is none.  Importable by its
-            name.
+            Task → record; raises ConvergenceError or InputError.  Importable by its name.
         tasks : sequence of Task
 
         Yields
         ------
         key : str
-            Of a task, in the order in which they are finished.
+            Of a task, in the order in which they finish.
         outcome : Record, Failure, Waiting or None
-            None, where that is known: the task is begun.  A `Lost` one, where its workers ended again and again.
-            `Waiting`, of no task, where there are no workers for the time being.
+            None: the task has started.  `Lost`: its workers ended again and again.  `Waiting`, without a task: there
+            are no workers for the time being.
 
         Raises
         ------
         ViscofricError
-            If there are no workers, or they are of no use.
+            If there are no usable workers.
         """
         raise NotImplementedError
 
@@ -77,37 +67,28 @@ class Executor(contextlib.AbstractContextManager["Executor"]):
 
 
 class Serial(Executor):
-    """Does one task after the other in this process."""
+    """Solves one task after the other in this process."""
 
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
-        """Do tasks; see `Executor`."""
+        """Solve tasks; see `Executor`."""
         for task in tasks:
             yield task.key, None
             yield task.key, attempt(solve, task)
 
 
-class Nobody(Executor):
-    """Does no task: what is not known stays unknown."""
+class NoSolver(Executor):
+    """Solves no task."""
 
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
-        """Give every task up; see `Executor`."""
+        """Give up every task; see `Executor`."""
         for task in tasks:
-            yield task.key, Lost("not solved yet; running the study again with --resume solves it.", task.label)
+            yield task.key, Lost("not solved yet; run the study again with --resume to solve it.", task.label)
 
 
 class Processes(Executor):
-    """Shares tasks out among processes of this machine.
+    """Distributes tasks to `number` processes of this machine.
 
-    They start with the block, and live on from one set of tasks to the next; one that ended is replaced by another.
-
-    Parameters
-    ----------
-    number : int
-
-    Raises
-    ------
-    InputError
-        If it is not a whole number above zero.
+    They start with the block and are reused; one that ends is replaced.
     """
 
     def __init__(self, number: int) -> None:
@@ -123,7 +104,7 @@ class Processes(Executor):
         self._workers.__exit__(kind, error, trace)
 
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
-        """Do tasks; see `Executor`."""
+        """Solve tasks; see `Executor`."""
         fingerprint = solver_fingerprint()
         calls = [{"solve": solve, "task": task, "fingerprint": fingerprint} for task in tasks]
         with contextlib.closing(as_they_come(take, calls, workers=self._workers)) as found:
@@ -139,15 +120,15 @@ Solve: TypeAlias = Callable[[Any], Record]
 
 
 class Task(Protocol):
-    """What running needs to know of a task; all of it can be pickled."""
+    """A task as running uses it; it can be pickled."""
 
     @property
     def key(self) -> str:
-        """Changes with all that decides the answer."""
+        """A hash of everything that determines the result."""
 
     @property
     def label(self) -> str:
-        """For people."""
+        """The task in words."""
 
     @property
     def fields(self) -> bool:
@@ -155,18 +136,18 @@ class Task(Protocol):
 
 
 class Lost(Failure):
-    """A task that was given up for a reason that may lie outside it; it may well be solved another time."""
+    """A task given up for a reason that may not be its own; another run may solve it."""
 
     @classmethod
     def by(cls, error: BaseException, task: Task) -> Self:
-        """Tell of what came between."""
+        """Return the failure due to an error."""
         kind = "" if isinstance(error, ViscofricError) else f"unexpectedly, {type(error).__name__}: "
         return cls(f"{kind}{error}", task.label)
 
 
 @one_blas_thread
 def attempt(solve: Solve, task: Task) -> Outcome:
-    """Return the record of a task, or why there is none."""
+    """Return the record of a task, or its failure."""
     try:
         return solve(task)
     except (ConvergenceError, InputError) as error:
@@ -176,30 +157,25 @@ def attempt(solve: Solve, task: Task) -> Outcome:
 
 
 def take(solve: Solve, task: Task, fingerprint: str) -> Outcome:
-    """Do a task of another process or machine, if the solver here is the same as there.
-
-    Raises
-    ------
-    ViscofricError
-        If it is another one: its answers would be stored as those of the first.
-    """
+    """Solve a task of another process or machine; raise `ViscofricError` if the solver there is another one."""
     if fingerprint != solver_fingerprint():
         raise ViscofricError(
-            "the solver that a worker has is not that of the study: viscofric must be the same on all machines, and "
-            "must not be changed while a study runs."
+            "the solver of a worker differs from that of the study: viscofric must be the same on all machines, and "
+            "must not change while a study runs.",
+            code="other-solver",
         )
     return attempt(solve, task)
 
 
 def take_on_cluster(solve: Solve, task: Task, fingerprint: str) -> Outcome:
-    """Do a task in a process that may do several at a time, in threads."""
+    """Solve a task in a process that may run several threads."""
     _keep_blas_to_one_thread()
     return take(solve, task, fingerprint)
 
 
 @functools.cache
 def _keep_blas_to_one_thread() -> None:
-    """Limit BLAS for good: limits that end do so in the middle of what other threads of the process do."""
+    """Limit BLAS for the whole process: a temporary limit would end while other threads compute."""
     from threadpoolctl import threadpool_limits
 
     threadpool_limits(limits=1, user_api="blas")

@@ -1,4 +1,4 @@
-"""The folder of a study's results: one run in it at a time, nothing in it replaced unasked, nothing outside touched."""
+"""The folder of a study's results: one run at a time, no replacement without consent, no writing outside it."""
 
 from __future__ import annotations
 
@@ -23,31 +23,26 @@ if TYPE_CHECKING:
 
 CASES_FOLDER = "cases"
 _LOCK = ".lock"
-# What a study writes into its folder, with what begins like its results files.
+# What a study writes into its folder, and how names of its results files begin.
 _PARTS = (_LOCK, CASES_FOLDER, "figures", "report.html")
 _OUTPUTS = ("results.", "prediction.")
 
 
 @contextlib.contextmanager
 def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
-    """Have a folder for oneself, and its store of finished cases.
+    """Lock a results folder (made if missing) and yield its store of solved contacts.
 
-    Parameters
-    ----------
-    folder : Path
-        Made if it does not exist.
-    resume : bool
-        Whether finished cases in it are taken over, and results in it replaced.
+    With `resume`, contacts in it are reused and its results replaced.
 
     Raises
     ------
     StudyError
-        If another run is at work in it, or it holds what another left and is not to be resumed.
+        If another run uses it, or it has contents and `resume` is false.
     DataFileError
-        If it cannot be written, a part of it is a link to somewhere else, or it is removed before the end.
+        If it cannot be written, a part of it is a link to another place, or it is removed before the end.
     """
     if folder.exists() and not folder.is_dir():
-        raise DataFileError(folder, "is a file; results need a folder.")
+        raise DataFileError(folder, "is a file; results need a folder.", code="is-file")
     _refuse_links(folder)
     if not resume:
         _insist_on_nothing_there(folder)
@@ -56,25 +51,25 @@ def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
     with _locked(folder):
         with _writing(folder):
             store.sweep()
-        for left in folder.glob(".results.*"):  # a results file that was not finished; of a link nothing is removed
+        for left in folder.glob(".results.*"):  # incomplete results files; the target of a link stays
             shutil.rmtree(left, ignore_errors=True)
         yield store
 
 
 @dataclass(frozen=True)
 class CheckedResults:
-    """Whether a folder of results holds what was stored in it.
+    """Integrity of a folder of results.
 
     Attributes
     ----------
     cases : int
         Stored contacts.
     finished : bool
-        Whether the results were put together, too.
+        Whether the results file exists, too.
     damaged : dict of Path to str
-        Files that do not hold what was stored, and what is wrong with each.
+        Files that differ from what was stored, with the reason.
     unverified : tuple of Path
-        Files without a checksum, which older versions of viscofric wrote: nothing is known of them.
+        Files without a checksum, written by older versions of viscofric.
     """
 
     cases: int
@@ -84,17 +79,13 @@ class CheckedResults:
 
 
 def check_results(folder: Path) -> CheckedResults:
-    """Compare every file of a study's results with its checksum.
-
-    Raises
-    ------
-    DataFileError
-        If the folder holds no results.
-    """
+    """Compare every file of a study's results with its checksum; raise `DataFileError` if there are none."""
     store, target = CaseStore(folder / CASES_FOLDER), folder / RESULTS_FILE
     cases, finished = sum(1 for _ in store.stored()), target.exists()
     if not cases and not finished:
-        raise DataFileError(folder, f"holds no results of a study (no {RESULTS_FILE}, no {CASES_FOLDER}).")
+        raise DataFileError(
+            folder, f"contains no results of a study (no {RESULTS_FILE}, no {CASES_FOLDER}).", code="no-results"
+        )
     damaged, unverified = {}, []
     for key, found in store.damaged().items():
         file = store.folder / f"{key}.json"
@@ -112,13 +103,14 @@ def check_results(folder: Path) -> CheckedResults:
 
 
 def _refuse_links(folder: Path) -> None:
-    """Raise `DataFileError` if a part of a results folder is a symbolic link, whose target would be written."""
+    """Raise `DataFileError` if a part of a results folder is a symbolic link: its target would be written."""
     for part in folder.iterdir() if folder.is_dir() else ():
         if part.is_symlink() and (part.name in _PARTS or part.name.startswith(_OUTPUTS)):
             raise DataFileError(
                 part,
-                "is a symbolic link; results are written into their folder only. Remove the link, or give the folder "
-                "that it points into as the results folder (--output).",
+                "is a symbolic link; results are written into their folder only. Remove the link, or give its "
+                "target as the results folder (--output).",
+                code="link",
             )
 
 
@@ -128,21 +120,22 @@ def _insist_on_nothing_there(folder: Path) -> None:
     if cases or finished:
         what = "the results of a study" if finished else "an unfinished study"
         raise StudyError(
-            f"{folder}: holds {what} already ({cases} solved contacts); resume it (--resume) to solve only what is "
-            "missing, even if the run file has changed, and to replace its results, or choose another folder."
+            f"{folder}: contains {what} ({cases} solved contacts); resume it (--resume) to solve only what is missing, "
+            "even if the run file has changed, and to replace its results, or choose another folder.",
+            code="not-empty",
         )
 
 
 @contextlib.contextmanager
 def _locked(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder, which the system gives back however this process ends."""
+    """Hold the lock of a folder, which the system releases however this process ends."""
     path = folder / _LOCK
     file = _opened(path)
     try:
         if not _is_alone(file):
             raise StudyError(
-                f"{folder}: another run is at work in this folder{_holder(path)}; wait for its end, or choose another "
-                "folder."
+                f"{folder}: another run uses this folder{_holder(path)}; wait for its end, or choose another folder.",
+                code="locked",
             )
         held = {"process": os.getpid(), "machine": platform.node(), "since": datetime.now(UTC).isoformat()}
         with _writing(path):
@@ -152,28 +145,28 @@ def _locked(folder: Path) -> Iterator[None]:
             yield
             _insist_on_the_same(file, path)
         finally:
-            with contextlib.suppress(OSError):  # what happened before counts more
+            with contextlib.suppress(OSError):  # an earlier error matters more
                 file.truncate(0)
     finally:
         file.close()
 
 
 def _opened(path: Path) -> IO[bytes]:
-    """Open the lock, never what a link of its name points to: it is emptied."""
+    """Open the lock, but never the target of a link of its name: it is emptied."""
     flags = os.O_RDWR | os.O_CREAT | os.O_APPEND
-    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):  # those that the system has
+    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):  # as far as the system has them
         flags |= getattr(os, name, 0)
     with _writing(path):
         file = os.fdopen(os.open(path, flags, 0o666), "r+b", buffering=0)
     status = os.fstat(file.fileno())
     if not stat.S_ISREG(status.st_mode) or status.st_nlink > 1:
         file.close()
-        raise DataFileError(path, "is a link or no plain file, and is not touched; remove it.")
+        raise DataFileError(path, "is a link or not a plain file, and is not touched; remove it.", code="link")
     return file
 
 
 def _insist_on_the_same(file: IO[bytes], path: Path) -> None:
-    """Raise `DataFileError` if the lock that is held lies in the folder no more: the folder was removed or replaced."""
+    """Raise `DataFileError` if the held lock is no longer in the folder: it was removed or replaced."""
     try:
         same = os.path.samestat(os.fstat(file.fileno()), path.lstat())
     except OSError:
@@ -181,8 +174,9 @@ def _insist_on_the_same(file: IO[bytes], path: Path) -> None:
     if not same:
         raise DataFileError(
             path.parent,
-            "was removed or replaced while the study ran, and what was solved with it; run the study again, and leave "
-            "the folder alone until it ends.",
+            "was removed or replaced with all solved contacts while the study ran; run the study again, and do not "
+            "change the folder meanwhile.",
+            code="removed",
         )
 
 
@@ -195,7 +189,7 @@ def _writing(path: Path) -> Iterator[None]:
 
 
 def _is_alone(file: IO[bytes]) -> bool:
-    """Lock a file unless another process has."""
+    """Lock a file unless another process has locked it."""
     try:
         if sys.platform == "win32":
             import msvcrt
@@ -209,12 +203,12 @@ def _is_alone(file: IO[bytes]) -> bool:
     except (BlockingIOError, PermissionError):
         return False
     except OSError:
-        # A file system without locks, as some clusters have: what the file says of its holder must do.
+        # A file system without locks, as on some clusters: rely on the holder named in the file.
         return not _holder_is_alive(file)
     return True
 
 
-def _told(text: bytes) -> dict[str, object]:
+def _parsed(text: bytes) -> dict[str, object]:
     with contextlib.suppress(ValueError):
         held = json.loads(text)
         if isinstance(held, dict):
@@ -223,18 +217,18 @@ def _told(text: bytes) -> dict[str, object]:
 
 
 def _holder(path: Path) -> str:
-    """Tell who holds a lock, as far as that is known."""
+    """Return the holder of a lock in words, as far as it is known."""
     try:
-        held = _told(path.read_bytes())
-    except OSError:  # Windows lets nobody read it
+        held = _parsed(path.read_bytes())
+    except OSError:  # not readable on Windows
         held = {}
     return f" (process {held['process']} on {held['machine']})" if {"process", "machine"} <= held.keys() else ""
 
 
 def _holder_is_alive(file: IO[bytes]) -> bool:
-    """Whether the process that a lock tells of may be at work still; of another machine nobody knows."""
+    """Whether the process named in a lock may still run; unknown for another machine."""
     file.seek(0)
-    held = _told(file.read())
+    held = _parsed(file.read())
     process = held.get("process")
     if not isinstance(process, int):
         return False
@@ -249,5 +243,5 @@ def _holder_is_alive(file: IO[bytes]) -> bool:
     return True
 
 
-#: Byte that is locked under Windows, which lets nobody read what is locked.
+#: Byte that is locked on Windows, where locked bytes are not readable.
 _FAR = 1 << 30

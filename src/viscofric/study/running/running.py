@@ -1,4 +1,4 @@
-"""Carrying out a plan: stored contacts are taken, the others solved, and each is stored as soon as it is solved."""
+"""Running a plan: stored contacts are reused, the others solved, and each is stored as soon as it is solved."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.study.cases.solving import solve
-from viscofric.study.running.executors import Executor, Lost, Nobody, Processes, Serial, Waiting
+from viscofric.study.running.executors import Executor, Lost, NoSolver, Processes, Serial, Waiting
 from viscofric.study.running.store import Damaged
 
 if TYPE_CHECKING:
@@ -25,28 +25,26 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Event:
-    """One thing that happened.
+    """One event of a run.
 
     Attributes
     ----------
     event : str
-        ``"stage"``: a stage began or took a step; ``"solving"``: a contact is begun; ``"solved"``: it is solved and
-        stored; ``"stored"``: it had been before; ``"damaged"``: what had been stored cannot be used; ``"failed"``: it
+        ``"stage"``: a stage began or took a step; ``"solving"``: a contact is started; ``"solved"``: it is solved and
+        stored; ``"stored"``: it was stored before; ``"damaged"``: the stored contact cannot be used; ``"failed"``: it
         could not be solved; ``"waiting"``: a cluster has no workers for the time being.
     stage : str, optional
         Of the study: "measurement", "material", "contacts", "report" …
     done, total : int, optional
-        Steps of the stage; of contacts, the cases that are known and those that are asked for.
+        Steps of the stage; for contacts, the number of cases with a result and of all cases.
     solves : int, optional
-        Contacts solved for that, so far: many cases may come from few of them, or a case from several.
-    label : str, optional
-        The contact, for people.
-    key : str, optional
-        The contact, for programs: the name of its file.
+        Contacts solved so far.
+    label, key : str, optional
+        The contact in words, and the name of its file.
     seconds : float, optional
-        What it took.
+        Duration.
     reason : str, optional
-        Why it failed, what is wrong with what was stored, or what is waited for.
+        Why it failed, what is wrong with the stored contact, or what the run waits for.
     """
 
     event: str
@@ -60,50 +58,44 @@ class Event:
     reason: str | None = None
 
     def as_dict(self) -> dict[str, Value]:
-        """Return what is known of it."""
+        """Return the attributes that are set."""
         told = ((field.name, getattr(self, field.name)) for field in fields(self))
         return {name: value for name, value in told if value is not None}
 
 
 class Progress(Protocol):
-    """What hears of a study's progress."""
+    """A callback for events."""
 
     def __call__(self, event: Event) -> object:
-        """Hear of one event."""
+        """Receive one event."""
 
 
 def silent(event: Event) -> None:
-    """Hear, and say nothing."""
+    """Ignore an event."""
 
 
 def choose_executor(
     workers: int | None, scheduler: str | None, cluster: ClusterTable | None, finished_only: bool = False
 ) -> Executor:
-    """Return the executor that is asked for; what is asked for now counts more than the run file.
+    """Return the requested executor; arguments take precedence over [cluster] of the run file.
 
-    Parameters
-    ----------
-    workers : int, optional
-        Processes of this machine.
-    scheduler : str, optional
-        Address of a Dask scheduler.
-    cluster : ClusterTable, optional
-        Of the run file.
-    finished_only : bool
-        Whether nothing is to be done any more.
+    `workers` are processes of this machine, `scheduler` is the address of a Dask scheduler, and with `finished_only`
+    nothing is solved.
 
     Raises
     ------
     InputError
-        If both are asked for, the number is none, or Dask is not installed.
+        If two are requested, the number is invalid, or Dask is not installed.
     """
     if finished_only:
         if workers is not None or scheduler is not None:
-            raise InputError("finished_only: nothing is solved, so that neither workers nor a scheduler are of use.")
-        return Nobody()
+            raise InputError("finished_only solves nothing; leave workers and scheduler out.", code="two-executors")
+        return NoSolver()
     if scheduler is not None:
         if workers is not None:
-            raise InputError("workers and scheduler: only one of them; a scheduler has workers of its own.")
+            raise InputError(
+                "workers and scheduler: give only one; a scheduler has its own workers.", code="two-executors"
+            )
         from viscofric.study.running.cluster import Dask
 
         return Dask(scheduler)
@@ -122,60 +114,60 @@ _BETWEEN_COUNTS = 0.1  # s
 
 
 class Plan(Protocol):
-    """What running needs to know of a plan: see `viscofric.study.planning`."""
+    """A plan as running uses it; see `viscofric.study.planning.plan`."""
 
     @property
     def done(self) -> int:
-        """Cases that are known."""
+        """Cases with a result."""
 
     @property
     def total(self) -> int:
-        """Cases that are asked for."""
+        """All cases."""
 
     def wanted(self) -> Sequence[Task]:
-        """Return tasks that do not depend on each other; none when everything is known."""
+        """Return independent tasks; none when every case has a result."""
 
     def receive(self, key: str, outcome: Outcome) -> None:
-        """Take what became of a task."""
+        """Take the result of a task."""
 
 
 def run_plan(
     plan: Plan, store: CaseStore, executor: Executor, progress: Progress = silent, solve: Solve = solve
 ) -> list[str]:
-    """Do all tasks of a plan, but those that the store has.
+    """Solve all tasks of a plan that are not stored.
 
     Parameters
     ----------
     plan : Plan
-        Receives what becomes of its tasks in the order in which it wanted them, whatever the order in which they are
-        finished: what it wants next then depends on nothing else.
+        Receives results in the order of its tasks, whatever the order in which they finish, so that its next tasks do
+        not depend on timing.
     store : CaseStore
-        Gets each record, and each failure, as soon as it is there.
+        Each result is stored as soon as it is known.
     executor : Executor
         Within its ``with`` block.
     progress : callable, optional
-        Hears of each task.
+        Receives events.
     solve : callable, optional
-        Gets a task, returns its record; importable by its name.
+        Task → record; importable by its name.
 
     Returns
     -------
     list of str
-        Labels of the tasks whose stored cases were damaged, and were done again.
+        Labels of the tasks whose stored contacts were damaged, and were solved again.
 
     Raises
     ------
     DataFileError
-        If the store cannot be written (disk full, folder read-only), or cases were removed from it meanwhile.
+        If the store cannot be written (disk full, folder read-only), or contacts were removed from it meanwhile.
     ViscofricError
-        If the executor cannot go on.
+        If the executor cannot continue.
 
     Notes
     -----
-    An interrupt loses the tasks that are worked on, and no others.
+    An interrupt loses only the tasks being solved.
     """
     run = _Run(plan, store, executor, progress, solve)
-    run.tell("stage")
+    run.report("stage")
     while tasks := list(plan.wanted()):
         run.wave(tasks)
     removed = run.kept.difference(store.stored()) if store.made else ()
@@ -183,15 +175,16 @@ def run_plan(
         raise DataFileError(
             store.folder,
             f"{len(removed)} of {len(run.kept)} solved contacts were removed while the study ran; run it again with "
-            "--resume, and leave the folder alone until it ends.",
+            "--resume, and do not change the folder meanwhile.",
+            code="removed",
         )
     run.count_again()
-    run.tell("stage")
+    run.report("stage")
     return run.damaged
 
 
 class _Run:
-    """What is known of a plan while it is carried out."""
+    """State of a plan while it runs."""
 
     def __init__(self, plan: Plan, store: CaseStore, executor: Executor, progress: Progress, solve: Solve) -> None:
         self.plan, self.store, self.executor, self.progress, self.solve = plan, store, executor, progress, solve
@@ -202,13 +195,13 @@ class _Run:
         self._done = 0
 
     def wave(self, tasks: Sequence[Task]) -> None:
-        """Do tasks that are independent of each other."""
+        """Solve independent tasks."""
         by_key = {task.key: task for task in tasks}
         order = iter(by_key)
         due = next(order)
         outcomes: dict[str, Outcome] = {}
 
-        def hand_on() -> None:
+        def pass_on() -> None:
             nonlocal due
             while due in outcomes:
                 self.plan.receive(due, outcomes[due])
@@ -220,48 +213,48 @@ class _Run:
             if found is None or isinstance(found, Damaged):
                 if found is not None:
                     self.damaged.append(task.label)
-                    self.tell("damaged", task, reason=found.reason)
+                    self.report("damaged", task, reason=found.reason)
                 missing.append(task)
                 continue
             self.kept.add(task.key)
             outcomes[task.key] = found
-            hand_on()
-            self.tell("stored", task)
+            pass_on()
+            self.report("stored", task)
         begun: dict[str, float] = {}
         with contextlib.closing(self.executor.map(self.solve, missing)) as answers:
             for key, outcome in answers:
                 if outcome is None:
                     begun[key] = time.monotonic()
-                    self.tell("solving", by_key[key])
+                    self.report("solving", by_key[key])
                     continue
                 if isinstance(outcome, Waiting):
-                    self.tell("waiting", reason=outcome.reason)
+                    self.report("waiting", reason=outcome.reason)
                     continue
                 if not isinstance(outcome, Lost):
                     self.store.put(key, outcome)
                     self.kept.add(key)
                     self.solves += 1
                 outcomes[key] = outcome
-                hand_on()
-                self._tell_outcome(by_key[key], outcome, begun.get(key))
+                pass_on()
+                self._report_outcome(by_key[key], outcome, begun.get(key))
 
-    def _tell_outcome(self, task: Task, outcome: Outcome, begun: float | None) -> None:
+    def _report_outcome(self, task: Task, outcome: Outcome, begun: float | None) -> None:
         seconds = None if begun is None else round(time.monotonic() - begun, 6)
         reason = getattr(outcome, "reason", None)
-        self.tell("solved" if reason is None else "failed", task, seconds=seconds, reason=reason)
+        self.report("solved" if reason is None else "failed", task, seconds=seconds, reason=reason)
 
     def count_again(self) -> None:
-        """Have the cases that are known counted at the next event, however short ago that was."""
+        """Count the cases with a result at the next event, however recent the last count."""
         self._counted = -math.inf
 
     def _cases_done(self) -> int:
-        """Ask the plan how many cases are known; not too often, as it may have many to look through."""
+        """Return the number of cases with a result; counted only now and then, as a plan may have many."""
         if time.monotonic() > self._counted + _BETWEEN_COUNTS:
             self._done = self.plan.done
             self._counted = time.monotonic()
         return self._done
 
-    def tell(
+    def report(
         self, event: str, task: Task | None = None, seconds: float | None = None, reason: str | None = None
     ) -> None:
         self.progress(

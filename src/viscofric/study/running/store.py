@@ -1,4 +1,4 @@
-"""Finished cases on disk, one small file each: an interrupted study takes up where it stopped."""
+"""Solved contacts on disk, one small file each, so that an interrupted study continues where it stopped."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _DAMAGED = (OSError, ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile)
-# What stands before the checksum of a stored case, which is that of everything before it.
+# Text before the checksum of everything before it.
 _SEAL = b', "sha256": "'
 
 
 @dataclass(frozen=True)
 class Damaged:
-    """A stored case that cannot be used.
+    """A stored contact that cannot be used.
 
     Attributes
     ----------
     reason : str
-        What is wrong with it, without its name.
+        What is wrong, without its name.
     older : bool
-        Whether it is whole for all that is known, but was stored without a checksum by an older viscofric.
+        Whether it only lacks a checksum, as from an older viscofric.
     """
 
     reason: str
@@ -43,29 +43,25 @@ class Damaged:
 
 @dataclass(frozen=True)
 class CaseStore:
-    """A folder of finished cases: ``KEY.json`` for each, and ``KEY.npz`` where its fields are kept.
+    """A folder of solved contacts: ``KEY.json`` for each, and ``KEY.npz`` with its fields if they are kept.
 
-    Each file ends with a checksum (SHA-256) of its key, of all that it holds, and of its fields.
+    Each file ends with a checksum (SHA-256) of its key, of its contents, and of its fields.
 
-    Parameters
+    Attributes
     ----------
     folder : Path
-        Made when the first case is put into it.
+        Made with the first contact.
     made : bool
-        Whether it is there already, so that it has been removed if it is not, and is not made again.
+        Whether it exists already; if it is missing then, it was removed and is not made again.
     """
 
     folder: Path
     made: bool = False
 
     def get(self, key: str, with_fields: bool = False) -> Record | Failure | Damaged | None:
-        """Return what became of a case; None if it is not known.
+        """Return the stored result of a contact, None if there is none.
 
-        Parameters
-        ----------
-        key : str
-        with_fields : bool
-            Whether a record without its fields counts as none.
+        `with_fields`: a record without fields is none.
         """
         path = self._path(key)
         try:
@@ -86,37 +82,25 @@ class CaseStore:
             return Damaged("does not hold a solved contact")
 
     def prepare(self) -> None:
-        """Make the folder and see that it can be written, before time is spent on solving.
-
-        Raises
-        ------
-        DataFileError
-            If it cannot.
-        """
+        """Make the folder; raise `DataFileError` if it cannot be written."""
         probe = self.folder / ".writable"
         write_atomically(probe, b"")
         probe.unlink(missing_ok=True)
 
     def sweep(self) -> None:
-        """Remove what a run that was killed had begun to write; for who has the folder for themselves."""
+        """Remove incomplete files of a killed run; the folder must be locked."""
         for path in self.folder.glob(".*"):
             path.unlink(missing_ok=True)
 
     def put(self, key: str, outcome: Record | Failure) -> None:
-        """Store what became of a case; it is either there whole or not at all.
-
-        Raises
-        ------
-        DataFileError
-            If it cannot be written: the disk is full, the folder read-only, or removed …
-        """
+        """Store the result of a contact, whole or not at all; raise `DataFileError` if it cannot be written."""
         values: dict[str, object]
         if isinstance(outcome, Failure):
             values = {"failed": outcome.reason, "label": outcome.label, "code": outcome.code}
         else:
             values = {"case": outcome.values(), "fields": None}
             if outcome.fields is not None:
-                # First, so that a case whose numbers are there has its fields as well.
+                # First, so that a contact with numbers always has its fields.
                 packed = io.BytesIO()
                 np.savez_compressed(packed, **outcome.fields._asdict())
                 values["fields"] = hashlib.sha256(packed.getvalue()).hexdigest()
@@ -124,11 +108,11 @@ class CaseStore:
         write_atomically(self._path(key), _sealed(json.dumps(values), key), not self.made)
 
     def stored(self) -> Iterator[str]:
-        """Yield the keys of all cases in the folder, damaged ones too, in no order."""
+        """Yield the keys of all contacts in the folder, damaged ones too, in no order."""
         return (path.stem for path in self.folder.glob("*.json") if not path.name.startswith("."))
 
     def damaged(self) -> dict[str, Damaged]:
-        """Read every case with its fields, and return those that cannot be used, by their keys."""
+        """Read every contact with its fields, and return those that cannot be used, by key."""
         found = {}
         for key in sorted(self.stored()):
             outcome = self.get(key, with_fields=True)
@@ -140,7 +124,7 @@ class CaseStore:
         path = self._path(key, "npz")
         stored = read_bytes(path, LARGEST_FILE)
         if hashlib.sha256(stored).hexdigest() != checksum:
-            raise ValueError("fields are not those that were stored.")
+            raise ValueError("fields differ from the stored ones.")
         insist_on_size(stored, path)
         with np.load(io.BytesIO(stored), allow_pickle=False) as fields:
             return ContactFields(**{name: fields[name] for name in ContactFields._fields})
@@ -150,7 +134,7 @@ class CaseStore:
 
 
 def _sealed(text: str, key: str) -> bytes:
-    """Return the text of a JSON object, and in it, last, the checksum of the case."""
+    """Return the text of a JSON object with the checksum as its last entry."""
     body = text.encode().removesuffix(b"}")
     return body + _SEAL + _checksum(body, key).encode() + b'"}'
 
@@ -166,9 +150,9 @@ def _checksum(body: bytes, key: str) -> str:
 
 
 def _unsealed(stored: bytes) -> Damaged:
-    """Say what is wrong with a file whose checksum is not right, or not there."""
+    """Return what is wrong with a file without a correct checksum."""
     with contextlib.suppress(ValueError):
         values = parse_json(stored)
         if isinstance(values, dict) and not {"case", "sha256"} & values.keys():
-            return Damaged("has no checksum: an older viscofric stored it", older=True)
+            return Damaged("has no checksum; it was stored by an older viscofric", older=True)
     return Damaged("does not match its checksum")
