@@ -387,7 +387,7 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
     assert "the same command with --resume continues" in result.output
     assert len(list((tmp_path / "study.results" / "cases").iterdir())) == 1
     monkeypatch.setattr(executors, "attempt", attempt)
-    assert "holds an unfinished study already (1 solved contacts); resume it (--resume)" in told(call("run", path))
+    assert "contains an unfinished study (1 solved contacts); resume it (--resume)" in told(call("run", path))
     assert call("run", path, "--resume").exit_code == 0
     assert "holds the results of a study already" in told(call("run", path))
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from study.refusals import refused
 from study.sweeps import made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
 from viscofric.study.results.file import save_results
@@ -172,14 +173,14 @@ def test_friction_curves_are_compared_with_results(tmp_path: Path) -> None:
 def test_what_cannot_be_paired_is_told(tmp_path: Path) -> None:
     one = made_results(tmp_path / "a")
     cold = made_results(tmp_path / "b", made_sweep(temperatures=[253.15]))
-    with pytest.raises(InputError, match=r"no case in common.*such as -20 °C"):
+    with refused(InputError, "no-common-cases"):
         vf.compare_results(one, cold)
     several = made_results(tmp_path / "c", made_sweep(materials=("NBR", "EPDM")))
-    with pytest.raises(InputError, match="varies the material"):
+    with refused(InputError, "no-common-cases"):
         vf.compare_results(one, several)
-    with pytest.raises(InputError, match="tolerance"):
+    with refused(InputError, "tolerance"):
         vf.compare_results(one, one, tolerance=-1.0)
-    with pytest.raises(DataFileError, match="there are results in"):
+    with refused(DataFileError, "no-results"):
         vf.compare_results(one, tmp_path)
 
 
@@ -195,7 +196,7 @@ def test_an_exported_table_is_compared_with_results(tmp_path: Path) -> None:
     }
     lines = table.read_text(encoding="utf-8").splitlines()
     table.write_text("\n".join([*lines[:-1], lines[-1][:30]]), encoding="utf-8")
-    with pytest.raises(DataFileError, match="cut short"):
+    with refused(DataFileError, "damaged"):
         vf.compare_results(results, table)
     table.write_text("\n".join(lines).replace("# accuracy: 0.001", "# accuracy: 0.1"), encoding="utf-8")
     assert vf.compare_results(results, table).provenance == ("Another accuracy: 0.001 and 0.1.",)

@@ -15,6 +15,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
+from study.refusals import refused
 from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
 from viscofric.report.texts.study import grouped_failures
@@ -52,28 +53,28 @@ def test_results_of_a_rubber_alone_have_no_data_set(tmp_path: Path) -> None:
     made = made_results(tmp_path)
     del made.tree["prediction"]
     save_results(made.tree, tmp_path)
-    with pytest.raises(InputError, match="of a rubber alone"):
+    with refused(InputError, "no-prediction"):
         _ = vf.open_results(tmp_path).dataset
 
 
 @pytest.mark.parametrize(
-    ("content", "words"),
+    ("content", "code"),
     [
-        (b"", "it is empty"),
-        (b"\x89HD", "only 3 bytes"),
-        (b"speed,friction\n1,2\n", "is no results file"),
-        (b"\x89HDF\r\n\x1a\n", "is damaged"),
+        (b"", "damaged"),
+        (b"\x89HD", "damaged"),
+        (b"speed,friction\n1,2\n", "not-results"),
+        (b"\x89HDF\r\n\x1a\n", "damaged"),
     ],
 )
-def test_what_is_no_results_file_is_told(tmp_path: Path, content: bytes, words: str) -> None:
+def test_what_is_no_results_file_is_told(tmp_path: Path, content: bytes, code: str) -> None:
     (tmp_path / "results.nc").write_bytes(content)
-    with pytest.raises(DataFileError, match=words):
+    with refused(DataFileError, code):
         vf.open_results(tmp_path)
 
 
 def test_a_netcdf_file_of_others_is_told(tmp_path: Path) -> None:
     xarray.Dataset({"a": 1.0}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    with pytest.raises(DataFileError, match="not one of results of viscofric"):
+    with refused(DataFileError, "not-results"):
         vf.open_results(tmp_path / "other.nc")
 
 
@@ -81,9 +82,9 @@ def test_exported_cases_and_the_folder_above_are_not_taken_for_results(tmp_path:
     folder = tmp_path / "größe.results"
     made = made_results(folder)
     exported = made.export("netcdf")
-    with pytest.raises(DataFileError, match="holds the cases alone"):
+    with refused(DataFileError, "exported"):
         vf.open_results(exported)
-    with pytest.raises(DataFileError, match=f"there are results in {folder}"):
+    with refused(DataFileError, "no-results"):
         vf.open_results(tmp_path)
 
 
@@ -119,16 +120,16 @@ def test_what_is_no_name_of_a_file_is_told(tmp_path: Path, wrong: Any) -> None:
         with pytest.raises(InputError, match="is not the name of a file"):
             verb(wrong)
     if wrong not in (None, 1.5):
-        with pytest.raises(InputError, match=r"tolerance = .*: must be a number"):
+        with pytest.raises(InputError, match="tolerance"):
             vf.compare_results(made, made, tolerance=wrong)
 
 
 def test_missing_results_are_told_and_what_helps(tmp_path: Path) -> None:
-    with pytest.raises(DataFileError, match="run the study first"):
+    with refused(DataFileError, "no-results"):
         vf.open_results(tmp_path)
     (tmp_path / "cases").mkdir()
     (tmp_path / "cases" / "a.json").touch()
-    with pytest.raises(DataFileError, match=r"not been finished.  Contacts solved so far: 1\.  .*--resume"):
+    with refused(DataFileError, "unfinished"):
         vf.open_results(tmp_path)
 
 
@@ -143,7 +144,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 @given(share=st.floats(0.0, 1.0, exclude_max=True))
 def test_a_file_cut_short_anywhere_is_one_sentence(whole: bytes, tmp_path: Path, share: float) -> None:
     (tmp_path / "results.nc").write_bytes(whole[: int(share * len(whole))])
-    with pytest.raises(DataFileError, match=r"results\.nc: is damaged"):
+    with refused(DataFileError, "damaged"):
         vf.open_results(tmp_path)
 
 
@@ -157,8 +158,9 @@ def test_pages_that_a_power_cut_left_empty_are_never_taken_for_numbers(
     (tmp_path / "results.nc").write_bytes(cut)
     if cut == whole:  # what was lost is the room that HDF5 leaves at the end
         return
-    with pytest.raises(DataFileError, match=r"is damaged|not one of results"):
+    with pytest.raises(DataFileError) as caught:
         vf.open_results(tmp_path)
+    assert caught.value.code in ("damaged", "not-results")
 
 
 def test_a_changed_number_is_noticed(whole: bytes, tmp_path: Path) -> None:
@@ -167,7 +169,7 @@ def test_a_changed_number_is_noticed(whole: bytes, tmp_path: Path) -> None:
     place = whole.find(np.float64(friction).tobytes())
     assert place > 0
     (tmp_path / "results.nc").write_bytes(whole[:place] + number.tobytes() + whole[place + 8 :])
-    with pytest.raises(DataFileError, match="does not hold what was written into it"):
+    with refused(DataFileError, "damaged"):
         vf.open_results(tmp_path)
 
 
@@ -176,7 +178,7 @@ def test_results_that_cannot_be_written_are_told(tmp_path: Path) -> None:
     made = made_results(tmp_path / "made")
     (tmp_path / "made").chmod(0o500)
     try:
-        with pytest.raises(DataFileError, match="cannot be written"):
+        with refused(DataFileError, "not-written"):
             save_results(made.tree, tmp_path / "made")
     finally:
         (tmp_path / "made").chmod(0o700)

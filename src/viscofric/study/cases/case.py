@@ -220,7 +220,8 @@ class Rubbers:
         if not 1 <= case.sample <= len(drawn):
             raise InputError(
                 f"sample {case.sample} of material {case.material} does not exist; there are {len(drawn)}, "
-                "numbered from 1."
+                "numbered from 1.",
+                code="no-sample",
             )
         return drawn[case.sample - 1]
 

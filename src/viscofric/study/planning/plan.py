@@ -71,7 +71,8 @@ class Plan:
         known = [outcome for outcome in self._outcomes if outcome is not None]
         if len(known) < self.total:
             raise InputError(
-                f"{self.total - len(known)} of {self.total} cases have no result yet; solve the wanted tasks first."
+                f"{self.total - len(known)} of {self.total} cases have no result yet; solve the wanted tasks first.",
+                code="unfinished",
             )
         return known
 

@@ -82,7 +82,10 @@ class NoSolver(Executor):
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
         """Give up every task; see `Executor`."""
         for task in tasks:
-            yield task.key, Lost("not solved yet; run the study again with --resume to solve it.", task.label)
+            yield (
+                task.key,
+                Lost("not solved yet; run the study again with --resume to solve it.", task.label, "not-solved"),
+            )
 
 
 class Processes(Executor):
