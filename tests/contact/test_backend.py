@@ -14,6 +14,7 @@ import pytest
 
 import viscofric as vf
 from contact.made_surfaces import self_affine
+from refusals import refused
 from viscofric.contact.arrays.backend import THREADS_VARIABLE, Backend
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Window
@@ -193,20 +194,20 @@ def test_solver_leaves_what_it_is_given(backend: Backend) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "words"),
+    ("name", "code"),
     [
-        ("jax", "not known; right would be 'scipy'"),
-        ("", "not known"),
-        (None, "not known"),
-        (3, "not known"),
-        ("scipy:cuda", "takes no device; give 'scipy'"),
-        ("ducc0:", "takes no device; give 'ducc0'"),
+        ("jax", "unknown-backend"),
+        ("", "unknown-backend"),
+        (None, "unknown-backend"),
+        (3, "unknown-backend"),
+        ("scipy:cuda", "no-device"),
+        ("ducc0:", "no-device"),
     ],
 )
-def test_unknown_backends_are_refused(name: str, words: str) -> None:
-    with pytest.raises(InputError, match=words):
+def test_unknown_backends_are_refused(name: str, code: str) -> None:
+    with refused(code):
         ball(name)
-    with pytest.raises(InputError, match=words):
+    with refused(code):
         rough(name, speed=0.0)
 
 
@@ -234,19 +235,19 @@ def test_missing_libraries_are_named_with_their_installation(
 
 def test_unknown_device_is_refused() -> None:
     pytest.importorskip("torch")
-    with pytest.raises(InputError, match="no such device"):
+    with refused("no-device"):
         Backend("torch:abacus")
 
 
 def test_cupy_without_a_gpu_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cupy", SimpleNamespace(is_available=lambda: False))
-    with pytest.raises(InputError, match="finds no GPU here"):
+    with refused("no-device"):
         Backend("cupy")
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, True, "2"])
 def test_threads_are_whole_numbers(threads: int) -> None:
-    with pytest.raises(InputError, match=r"^threads = .*: must be a whole number from 1"):
+    with refused("threads"):
         Backend("scipy", threads=threads)
 
 
@@ -257,9 +258,9 @@ def test_ffts_have_one_thread_unless_told_otherwise(monkeypatch: pytest.MonkeyPa
     assert Backend().threads == 2
     assert Backend("scipy", threads=3).threads == 3
     monkeypatch.setenv(THREADS_VARIABLE, "many")
-    with pytest.raises(InputError, match=rf"{THREADS_VARIABLE} = 'many'"):
+    with refused(THREADS_VARIABLE):
         Backend()
-    with pytest.raises(InputError, match="FFTs on NumPy arrays"):
+    with refused("no-threads"):
         Backend("array_api_strict", threads=2)
 
 

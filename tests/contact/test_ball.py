@@ -31,6 +31,7 @@ from gallery import (
     standard_linear_solid,
 )
 from marks import slow
+from refusals import refused
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.free import problem as free_problem
 from viscofric.contact.free.grids import Window
@@ -39,7 +40,7 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import ConvergenceError, InputError
+from viscofric.errors import ConvergenceError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF
@@ -442,12 +443,12 @@ def test_second_attempt_solves_for_the_same_material(monkeypatch: pytest.MonkeyP
 
 
 def test_unreachable_accuracy_raises() -> None:
-    with pytest.raises(ConvergenceError, match="128 cells"):
+    with refused("accuracy-not-reached", ConvergenceError):
         SLS.solve(accuracy=1e-7, tolerance=1e-10, finest=128)
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "about"),
     [
         ({"load": 0.0}, "load"),
         ({"load": -1.0}, "load"),
@@ -462,7 +463,7 @@ def test_unreachable_accuracy_raises() -> None:
         ({"accuracy": math.nan}, "accuracy"),
         ({"accuracy": 1e-11}, "accuracy"),
         ({"accuracy": "1e-3"}, "accuracy"),
-        ({"accuracy": 1e-9}, "1e-12 for accuracy = 1e-09"),
+        ({"accuracy": 1e-9}, "tolerance"),
         ({"tolerance": "1e-9"}, "tolerance"),
         ({"tolerance": 1e-5}, "tolerance"),
         ({"finest": 64}, "finest"),
@@ -470,18 +471,15 @@ def test_unreachable_accuracy_raises() -> None:
         ({"finest": math.nan}, "finest"),
         ({"material": "rubber.json"}, "material"),
         ({"speed": 1e160}, "speed"),
-        ({"temperature": "30 degC"}, "temperature = '30 degC'"),
-        ({"load": 1e6, "speed": 0.0}, "wider than the ball"),
+        ({"temperature": "30 degC"}, "temperature"),
+        ({"load": 1e6, "speed": 0.0}, "beyond-indenter"),
     ],
     ids=str,
 )
-def test_unusable_input_is_refused_in_one_sentence(change: dict[str, float | str], told: str) -> None:
+def test_unusable_input_is_refused_in_one_sentence(change: dict[str, float | str], about: str) -> None:
     arguments: dict[str, Any] = {"material": SLS.material, "speed": SPEED, "load": LOAD, **change}
-    with pytest.raises(InputError, match=told) as caught:
+    with refused(about):
         solve_steady(indenter=SLS.ball, **arguments)
-    message = str(caught.value)
-    assert "\n" not in message
-    assert message.endswith(".")
 
 
 def test_a_solution_shows_its_numbers_and_not_its_fields() -> None:
@@ -492,7 +490,7 @@ def test_a_solution_shows_its_numbers_and_not_its_fields() -> None:
 
 @pytest.mark.parametrize("radius", [0.0, -1.0, "3 s", "9.525", math.inf])
 def test_ball_without_a_size_is_refused(radius: float | str) -> None:
-    with pytest.raises(InputError, match="radius"):
+    with refused("radius"):
         Ball(radius=radius)
 
 

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from refusals import refused
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.contact.reference import hertz_ellipse
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 
 if TYPE_CHECKING:
@@ -142,13 +142,13 @@ def test_elastic_footprint_is_the_turned_ellipse() -> None:
 def test_contact_is_compared_with_the_map_along_the_maps_own_axes() -> None:
     slim = HeightMap(LONG.height(np.linspace(-3e-3, 3e-3, 61)[:, None], np.linspace(-1.1e-3, 1.1e-3, 23)), spacing=1e-4)
     assert solve(slim, (0.0, 1.0)).half_width > 1.1e-3  # longer than the map is wide
-    with pytest.raises(InputError, match="edge of the height map"):
+    with refused("beyond-indenter"):
         solve(slim, (0.0, 1.0), load=3.0)
 
 
 @pytest.mark.parametrize("indenter", [Cylinder(radius=10e-3), Profile(np.linspace(-1.0, 1.0, 9) ** 2, spacing=1e-4)])
 def test_line_contact_moves_along_x_only(indenter: Indenter) -> None:
-    with pytest.raises(InputError, match=f"a {indenter.noun} makes a line contact"):
+    with refused("line-direction"):
         solve(indenter, (1.0, 0.1))
 
 
@@ -162,5 +162,5 @@ def test_line_contact_moves_both_ways() -> None:
 
 @pytest.mark.parametrize("direction", [(0.0, 0.0), (1.0,), "north", (math.nan, 1.0)])
 def test_direction_must_be_one(direction: object) -> None:
-    with pytest.raises(InputError, match=r"direction = .*must be two numbers, not both zero"):
+    with refused("direction"):
         solve_steady(RUBBER, LONG, speed=1.0, load=1.0, direction=direction)  # type: ignore[arg-type]

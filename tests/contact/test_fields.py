@@ -12,6 +12,7 @@ from scipy.optimize import minimize_scalar
 from contact.dense_reference import displacement_coefficients, displacement_matrix
 from gallery import standard_linear_solid
 from marks import slow
+from refusals import refused
 from viscofric.contact.fields import (
     Stress,
     highest_von_mises,
@@ -244,21 +245,21 @@ def test_line_stresses_are_those_below_a_very_long_rectangle() -> None:
 @pytest.mark.parametrize("depth", [0.0, -1.0, math.nan])
 def test_depth_must_be_below_the_surface(depth: float) -> None:
     x = np.arange(3.0)
-    with pytest.raises(InputError, match="depth"):
+    with refused("depth"):
         stress_layer(x, x, np.ones((3, 3)), depth, 0.3)
-    with pytest.raises(InputError, match="depth"):
+    with pytest.raises(InputError, match=r"^depths?"):
         line_stress(x, np.ones(3), [1.0, depth], 0.3)
 
 
 def test_fields_refuse_arrays_that_do_not_fit() -> None:
     x, ones = np.arange(3.0), np.ones((3, 3))
-    with pytest.raises(InputError, match="pressure"):
+    with refused("pressure"):
         stress_layer(x, x, np.ones((3, 4)), 1.0, 0.3)
     with pytest.raises(InputError, match="equal steps"):
         stress_plane(np.array([0.0, 1.0, 3.0]), x, ones, 1.0, 0.3)
-    with pytest.raises(InputError, match="three columns"):
+    with refused("not-on-points"):
         stress_at(x, x, ones, [1.0, 2.0, 3.0], 0.3)
-    with pytest.raises(InputError, match="positive"):
+    with refused("no-contact"):
         highest_von_mises(x, x, 0.0 * ones, 0.3)
     with pytest.raises(InputError, match="finite"):
         surface_power(x, ones, np.full((3, 3), math.nan), 1.0)

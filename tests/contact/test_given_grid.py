@@ -9,7 +9,7 @@ import pytest
 
 import viscofric as vf
 from gallery import HERTZ_RADIUS, cylinder_on_standard_linear_solid, standard_linear_solid
-from viscofric.errors import InputError
+from refusals import refused
 
 PROBLEM = standard_linear_solid(10.0, 1.0)
 A0 = HERTZ_RADIUS
@@ -74,29 +74,30 @@ def test_line_contact_takes_rear_and_front() -> None:
 
 
 def test_contact_beyond_the_window_is_told_in_millimetres() -> None:
-    with pytest.raises(InputError, match=r"window: the contact reaches about 0\.\d+ mm behind the axis"):
+    with refused("beyond-window") as caught:
         solve(window=(0.1 * A0, 1.5 * A0, 1.25 * A0))
+    assert "mm behind the axis" in str(caught.value)
 
 
 def test_contact_that_touches_the_window_is_refused() -> None:
     free = solve(accuracy=1e-2)
-    with pytest.raises(InputError, match="window: the contact"):
+    with refused("window"):
         solve(window=(1.5 * free.rear, free.front, 1.5 * free.half_width), grid=256)
 
 
 @pytest.mark.parametrize(
-    ("wrong", "message"),
+    ("wrong", "about"),
     [
-        ({"grid": 64}, "grid = 64: must be the number of cells"),
-        ({"grid": 512.0}, "grid = 512.0: must be the number of cells"),
-        ({"grid": True}, "grid = True: must be the number of cells"),
-        ({"window": (1e-3, 1e-3)}, "must be 3 lengths"),
-        ({"window": "1 mm"}, "must be 3 lengths"),
-        ({"window": (1e-3, -2e-3, 1e-3)}, "is empty"),
-        ({"window": (1e-3, 1e-3, 0.0)}, "is empty"),
-        ({"window": (1e-3, "1 N", 1e-3)}, "front of the window"),
+        ({"grid": 64}, "grid"),
+        ({"grid": 512.0}, "grid"),
+        ({"grid": True}, "grid"),
+        ({"window": (1e-3, 1e-3)}, "not-a-window"),
+        ({"window": "1 mm"}, "not-a-window"),
+        ({"window": (1e-3, -2e-3, 1e-3)}, "not-a-window"),
+        ({"window": (1e-3, 1e-3, 0.0)}, "not-a-window"),
+        ({"window": (1e-3, "1 N", 1e-3)}, "front"),
     ],
 )
-def test_senseless_windows_and_grids_are_refused(wrong: dict[str, Any], message: str) -> None:
-    with pytest.raises(InputError, match=message):
+def test_senseless_windows_and_grids_are_refused(wrong: dict[str, Any], about: str) -> None:
+    with refused(about):
         solve(**wrong)

@@ -9,6 +9,7 @@ import pytest
 
 import viscofric as vf
 from marks import slow
+from refusals import refused
 from viscofric.contact.fields import surface_displacement
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
@@ -156,7 +157,7 @@ def test_elastic_indenter_on_a_layer_that_hardly_yields_is_hertzian() -> None:
 
 
 def test_elastic_cylinder_on_a_layer_has_no_far_field() -> None:
-    with pytest.raises(vf.InputError, match="no meaning in plane strain"):
+    with refused("no-level"):
         vf.solve_steady(
             rubber(0.5), vf.Cylinder(RADIUS), speed=1.0, indentation=1e-5, layer=vf.Layer(1e-3), indenter_modulus=1e7
         )
@@ -208,13 +209,13 @@ def test_surface_of_a_layer_is_that_of_the_solution_and_at_rest_far_away(line: b
 
 
 def test_layer_too_thin_for_any_grid_is_refused() -> None:
-    with pytest.raises(vf.ConvergenceError, match="thinner than the grid resolves"):
+    with refused("layer-too-thin", vf.ConvergenceError):
         vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), speed=1.0, load=10.0, layer=vf.Layer(1e-8))
 
 
 def test_surface_of_a_layer_needs_cells_that_resolve_it() -> None:
     x = 1e-4 * np.arange(4.0)
-    with pytest.raises(vf.InputError, match="too large for the layer"):
+    with refused("layer-too-thin"):
         surface_displacement(
             x,
             x,
@@ -229,5 +230,5 @@ def test_surface_of_a_layer_needs_cells_that_resolve_it() -> None:
 
 
 def test_layer_must_be_a_layer() -> None:
-    with pytest.raises(vf.InputError, match="must be a Layer"):
+    with refused("layer"):
         vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), speed=1.0, load=1.0, layer=1e-3)  # type: ignore[arg-type]

@@ -22,6 +22,7 @@ from gallery import (
     cylinder_problem,
 )
 from marks import slow
+from refusals import refused
 from viscofric.contact.free.grids import Strip
 from viscofric.contact.indenters.height_map import Profile
 from viscofric.contact.indenters.shapes import Cylinder
@@ -30,7 +31,6 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import LineOperator
 from viscofric.contact.reference import HunterContact, high_speed_line_friction, hunter_line
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
@@ -392,7 +392,7 @@ def test_profile_of_a_cylinder_is_a_cylinder() -> None:
     solution = solve_steady(SLS.material, profile, speed=SPEED, load=CYLINDER_LOAD)
     # A cubic spline through a parabola is the parabola, but for the rounding of heights of 7 m: 1e-15/1e-5.
     assert solution.friction_coefficient == pytest.approx(SLS.solve().friction_coefficient, rel=1e-6)
-    with pytest.raises(InputError, match="longer one"):
+    with refused("beyond-indenter"):
         solve_steady(SLS.material, profile, speed=SPEED, load=20.0 * CYLINDER_LOAD)
 
 
@@ -409,18 +409,18 @@ def test_asymmetric_profile_mirrors_with_the_motion() -> None:
 
 
 def test_indentation_of_a_line_contact_is_refused() -> None:
-    with pytest.raises(InputError, match="no meaning in plane strain"):
+    with refused("no-level"):
         solve_steady(SLS.material, SLS.cylinder, speed=SPEED, indentation="10 um")
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
-    [({"load": "5 N"}, "load"), ({"load": -1.0}, "load"), ({"load": 1e7, "speed": 0.0}, "wider than the cylinder")],
+    ("change", "about"),
+    [({"load": "5 N"}, "load"), ({"load": -1.0}, "load"), ({"load": 1e7, "speed": 0.0}, "beyond-indenter")],
     ids=str,
 )
-def test_unusable_line_load_is_refused(change: dict[str, float | str], told: str) -> None:
+def test_unusable_line_load_is_refused(change: dict[str, float | str], about: str) -> None:
     arguments: dict[str, float | str] = {"speed": SPEED, "load": CYLINDER_LOAD, **change}
-    with pytest.raises(InputError, match=told):
+    with refused(about):
         solve_steady(SLS.material, SLS.cylinder, **arguments)  # type: ignore[arg-type]
 
 

@@ -12,6 +12,7 @@ import viscofric as vf
 from contact.dense_reference import solve_dense_contact
 from contact.made_surfaces import refined, self_affine
 from marks import slow
+from refusals import refused
 from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.solve import solve_periodic
@@ -491,7 +492,7 @@ def test_work_does_not_grow_with_the_grid(kind: str, speed: float) -> None:
 
 
 def test_failure_is_an_error() -> None:
-    with pytest.raises(vf.ConvergenceError, match="64 x 64"):
+    with refused("not-converged", vf.ConvergenceError):
         solve_periodic(broad(), rough(64), speed=1.0, pressure=0.1, most_products=2)
 
 
@@ -503,23 +504,23 @@ def test_interpolation_keeps_the_points_it_has() -> None:
 
 
 @pytest.mark.parametrize(
-    ("settings", "message"),
+    ("settings", "about"),
     [
-        ({}, "neither given"),
-        ({"pressure": 1.0, "gap": 1.0}, "both given"),
+        ({}, "give-one"),
+        ({"pressure": 1.0, "gap": 1.0}, "give-one"),
         ({"pressure": -1.0}, "pressure"),
-        ({"gap": 10.0}, "do not touch"),
+        ({"gap": 10.0}, "no-contact"),
         ({"pressure": 1.0, "direction": (0.0, 0.0)}, "direction"),
         ({"pressure": 1.0, "direction": (1.0,)}, "direction"),
         ({"pressure": 1.0, "tolerance": 0.5}, "tolerance"),
         ({"pressure": 1.0, "tolerance": "1e-8"}, "tolerance"),
-        ({"pressure": 1.0, "temperature": "30 degC"}, "temperature = '30 degC'"),
+        ({"pressure": 1.0, "temperature": "30 degC"}, "temperature"),
         ({"pressure": 1.0, "layer": 0.1}, "layer"),
         ({"pressure": 1.0, "indenter_modulus": 1.0, "indenter_poisson_ratio": 0.6}, "indenter_poisson_ratio"),
     ],
 )
-def test_wrong_values_are_refused(settings: dict[str, object], message: str) -> None:
-    with pytest.raises(vf.InputError, match=message):
+def test_wrong_values_are_refused(settings: dict[str, object], about: str) -> None:
+    with refused(about):
         solve_periodic(broad(), rough(16), speed=1.0, **settings)  # type: ignore[arg-type]
 
 

@@ -10,12 +10,12 @@ import pytest
 
 from gallery import BALL_RADIUS, HERTZ_RADIUS, LOAD, POISSON_RATIO, RUBBER_MODULUS, SPEED, standard_linear_solid
 from marks import slow
+from refusals import refused
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ellipse, sneddon_cone
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
@@ -168,7 +168,7 @@ def test_friction_and_dissipated_energy_agree(name: str) -> None:
 
 @pytest.mark.parametrize("speed", [1e-6 * SPEED, SPEED, -1e3 * SPEED])
 def test_a_sharp_edge_is_refused_in_motion(speed: float) -> None:
-    with pytest.raises(InputError, match="sharp edge"):
+    with refused("sharp-edge"):
         solve_steady(RUBBER, PUNCH, speed=speed, load=LOAD)
 
 
@@ -306,60 +306,56 @@ def test_contacts_are_solved_in_units_of_their_own_size(indenter: Indenter, leng
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "about"),
     [
-        ({}, "neither given"),
-        ({"load": 1.0, "indentation": 1e-5}, "both given"),
+        ({}, "give-one"),
+        ({"load": 1.0, "indentation": 1e-5}, "give-one"),
         ({"indentation": 0.0}, "indentation"),
         ({"indentation": "5 N"}, "indentation"),
-        ({"indentation": 0.1, "speed": 0.0}, "wider than the ball"),
+        ({"indentation": 0.1, "speed": 0.0}, "beyond-indenter"),
         ({"load": 1.0, "indenter_modulus": -1.0}, "indenter_modulus"),
         ({"load": 1.0, "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.7}, "indenter_poisson_ratio"),
         ({"load": 1.0, "finest": 16}, "finest"),
     ],
     ids=str,
 )
-def test_unusable_ways_to_hold_a_ball_are_refused(arguments: dict[str, float | str], told: str) -> None:
-    with pytest.raises(InputError, match=told) as caught:
+def test_unusable_ways_to_hold_a_ball_are_refused(arguments: dict[str, float | str], about: str) -> None:
+    with refused(about):
         solve_steady(RUBBER, Ball(BALL_RADIUS), **{"speed": SPEED, **arguments})  # type: ignore[arg-type]
-    message = str(caught.value)
-    assert "\n" not in message
-    assert message.endswith(".")
 
 
 @pytest.mark.parametrize(
-    ("make", "told"),
+    ("make", "about"),
     [
         (lambda: Ellipsoid(0.0, 1.0), "radius_x"),
         (lambda: Ellipsoid(1.0, "3 s"), "radius_y"),
         (lambda: Cylinder("-1 mm"), "radius"),
-        (lambda: Cone("95 deg"), "right angle"),
+        (lambda: Cone("95 deg"), "angle"),
         (lambda: Cone(0.0), "angle"),
         (lambda: FlatPunch(math.nan), "radius"),
-        (lambda: HeightMap(np.zeros(9), 1.0), "2-dimensional"),
-        (lambda: HeightMap(np.zeros((9, 3)), 1.0), "at least 4 points"),
-        (lambda: HeightMap(np.full((9, 9), np.nan), 1.0), "finite"),
-        (lambda: HeightMap([["a", "b"]], 1.0), "array of numbers"),
+        (lambda: HeightMap(np.zeros(9), 1.0), "z"),
+        (lambda: HeightMap(np.zeros((9, 3)), 1.0), "z"),
+        (lambda: HeightMap(np.full((9, 9), np.nan), 1.0), "z"),
+        (lambda: HeightMap([["a", "b"]], 1.0), "z"),
         (lambda: HeightMap(np.zeros((9, 9)), (1.0, 1.0, 1.0)), "spacing"),
         (lambda: HeightMap(np.zeros((9, 9)), -1.0), "spacing"),
-        (lambda: Profile(np.zeros((9, 9)), 1.0), "1-dimensional"),
+        (lambda: Profile(np.zeros((9, 9)), 1.0), "z"),
         (lambda: Profile(np.zeros(9), "1 N"), "spacing"),
     ],
 )
-def test_indenters_without_a_shape_are_refused(make, told: str) -> None:
-    with pytest.raises(InputError, match=told) as caught:
+def test_indenters_without_a_shape_are_refused(make, about: str) -> None:
+    with refused(about):
         make()
-    assert str(caught.value).endswith(".")
 
 
 def test_flat_surface_is_refused() -> None:
-    with pytest.raises(InputError, match=r"edge of the height map|does not rise"):
+    with refused("flat"):
         solve_steady(RUBBER, HeightMap(np.zeros((9, 9)), 1e-4), speed=SPEED, load=LOAD)
 
 
 def test_contact_beyond_the_height_map_is_refused() -> None:
     small = HeightMap(rough_map()[20:-20, 20:-20], MAP_STEP)
-    with pytest.raises(InputError, match="edge of the height map"):
+    with refused("beyond-indenter"):
         solve_steady(RUBBER, small, speed=SPEED, load=LOAD)
 
 

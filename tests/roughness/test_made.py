@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from refusals import refused
 
 GRID = {"shape": (128, 96), "spacing": (1e-6, 1.5e-6), "shortest": "9 um"}
 
@@ -181,26 +182,26 @@ def test_a_function_may_be_the_spectrum():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "about"),
     [
-        ({"hurst": 0.0}, "hurst = 0: must lie above 0"),
-        ({"rms_height": 1e-6}, "both given"),
-        ({"rms_slope": None}, "neither given"),
-        ({"shortest": "2 um"}, "two points of the grid"),
-        ({"aspect": 4.0, "shortest": "8 um"}, "as the lay stretches"),
-        ({"rolloff": "1 m"}, "must grow in this order"),
-        ({"seed": -1}, "seed = -1"),
-        ({"seed": 1.5}, "seed = 1.5"),
-        ({"shape": (2, 2)}, "four at least"),
-        ({"shape": (64,)}, "must be the points"),
-        ({"shape": (10**6, 10**6)}, r"1e\+12 points"),
-        ({"longest": "9.1 um", "rolloff": "9.1 um"}, "no wave of the period"),
-        ({"shape": 64, "aspect": 2.0}, "a profile has no lay"),
+        ({"hurst": 0.0}, "hurst"),
+        ({"rms_height": 1e-6}, "give-one"),
+        ({"rms_slope": None}, "give-one"),
+        ({"shortest": "2 um"}, "shortest"),
+        ({"aspect": 4.0, "shortest": "8 um"}, "shortest"),
+        ({"rolloff": "1 m"}, "wavelengths-out-of-order"),
+        ({"seed": -1}, "seed"),
+        ({"seed": 1.5}, "seed"),
+        ({"shape": (2, 2)}, "shape"),
+        ({"shape": (64,)}, "shape"),
+        ({"shape": (10**6, 10**6)}, "shape"),
+        ({"longest": "9.1 um", "rolloff": "9.1 um"}, "no-wave"),
+        ({"shape": 64, "aspect": 2.0}, "line-scan"),
     ],
 )
-def test_what_cannot_be_made_is_refused(arguments, words):
+def test_what_cannot_be_made_is_refused(arguments, about):
     asked = {"hurst": 0.8, "shape": (16, 16), "spacing": "2 um", "shortest": "9 um", "rms_slope": 0.1, "seed": 0}
-    with pytest.raises(vf.InputError, match=words):
+    with refused(about):
         vf.self_affine(**{**asked, **arguments})
 
 
@@ -214,9 +215,9 @@ def test_spectra_that_are_none_are_refused():
         with pytest.raises(vf.InputError, match=words):
             vf.PowerSpectrum(*rows)
     line = vf.LineSpectrum([1.0, 2.0], [1.0, 0.5])
-    with pytest.raises(vf.InputError, match="must be a PowerSpectrum for this shape"):
+    with refused("spectrum"):
         vf.surface_from_spectrum(line, shape=(16, 16), spacing=1.0, seed=0)
-    with pytest.raises(vf.InputError, match="no wave between"):
+    with refused("no-wave"):
         vf.surface_from_spectrum(line, shape=16, spacing=1e-3, seed=0)
     with pytest.raises(vf.InputError, match="not below zero"):
         vf.surface_from_spectrum(lambda q: -q, shape=16, spacing=1.0, seed=0)
@@ -224,10 +225,10 @@ def test_spectra_that_are_none_are_refused():
         with pytest.raises(vf.InputError, match=words):
             vf.surface_from_spectrum(wrong, shape=16, spacing=1.0, seed=0)
     for measure in (vf.power_spectrum, vf.line_spectrum):
-        with pytest.raises(vf.InputError, match="must be a Topography"):
+        with refused("topography"):
             measure(np.zeros((8, 8)))
     flat = vf.Topography(np.zeros((8, 8)), 1.0)
-    with pytest.raises(vf.InputError, match="flat"):
+    with refused("flat"):
         vf.power_spectrum(flat)
-    with pytest.raises(vf.InputError, match="line_spectrum takes line scans"):
+    with refused("line-scan"):
         vf.power_spectrum(vf.Topography(np.zeros(8), 1.0))

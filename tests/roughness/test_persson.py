@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from scipy.special import erf
 
 import viscofric as vf
+from refusals import refused
 from viscofric.roughness.flash import Flash
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "30 MPa", "1 ms", poisson_ratio=0.4)
@@ -217,22 +218,22 @@ def test_flash_temperature_lowers_the_friction_of_fast_sliding_and_not_that_of_s
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "about"),
     [
-        ({"spectrum": 1.0}, "must be a PowerSpectrum"),
-        ({"speeds": []}, "at least one value"),
-        ({"temperatures": []}, "at least one value"),
-        ({"speeds": -1.0}, "none of them below zero"),
-        ({"pressure": 0.0}, "above zero"),
-        ({"gamma": 1.5}, "between 0 and 1"),
-        ({"accuracy": 1.0}, "between 1e-08 and 0.1"),
-        ({"thermal": 1.0}, "must be ThermalProperties"),
-        ({"thermal": THERMAL}, "needs a material with a shift"),
-        ({"temperatures": 300.0}, "no shift"),
-        ({"material": 1.0}, "must be a Material"),
+        ({"spectrum": 1.0}, "spectrum"),
+        ({"speeds": []}, "speeds"),
+        ({"temperatures": []}, "temperatures"),
+        ({"speeds": -1.0}, "speeds"),
+        ({"pressure": 0.0}, "pressure"),
+        ({"gamma": 1.5}, "gamma"),
+        ({"accuracy": 1.0}, "accuracy"),
+        ({"thermal": 1.0}, "thermal"),
+        ({"thermal": THERMAL}, "no-shift"),
+        ({"temperatures": 300.0}, "temperature"),
+        ({"material": 1.0}, "material"),
     ],
 )
-def test_what_cannot_be_predicted_is_refused(arguments, words):
+def test_what_cannot_be_predicted_is_refused(arguments, about):
     asked = {"material": RUBBER, "spectrum": ROAD, "speeds": 1.0, "pressure": 1e5, **arguments}
-    with pytest.raises(vf.InputError, match=words):
+    with refused(about):
         vf.persson_theory(asked.pop("material"), asked.pop("spectrum"), **asked)

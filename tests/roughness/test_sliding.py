@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from refusals import refused
 from viscofric.roughness.ensemble import solve_one
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "20 MPa", "1 ms")
@@ -123,7 +124,7 @@ def test_an_ensemble_is_solved_surface_by_surface_and_says_how_they_scatter():
     assert upper[0, 0] - lower[0, 0] == pytest.approx(2.0 * 3.18245 * one.std(ddof=1) / 2.0, rel=1e-5)
     assert 0.5 * (lower + upper) == pytest.approx(found.mean_friction, rel=1e-12)
     assert found.to_dataset()["friction_coefficient"].dims == ("temperature", "speed", "surface")
-    with pytest.raises(vf.InputError, match="one surface does not show"):
+    with refused("one-surface"):
         vf.predict_rough_friction(RUBBER, roads[0], speeds=0.01, pressure="20 kPa").interval()
 
 
@@ -152,15 +153,15 @@ def test_temperature_shifts_speed_on_rough_surfaces_too():
 
 def test_what_cannot_be_predicted_is_refused_and_what_fails_is_named():
     surface = road(32, 0, waves=6)
-    for arguments, words in (
-        ({"surfaces": []}, "or a list of them"),
-        ({"surfaces": [surface, 1.0]}, "number 2 is 1.0"),
-        ({"surfaces": vf.Topography(surface.heights, 1.0)}, "is not periodic"),
-        ({"speeds": []}, "at least one value"),
-        ({"pressure": -1.0}, "above zero"),
+    for arguments, about in (
+        ({"surfaces": []}, "surfaces"),
+        ({"surfaces": [surface, 1.0]}, "surfaces"),
+        ({"surfaces": vf.Topography(surface.heights, 1.0)}, "not-periodic"),
+        ({"speeds": []}, "speeds"),
+        ({"pressure": -1.0}, "pressure"),
     ):
         asked = {"surfaces": surface, "speeds": 0.1, "pressure": "20 kPa", **arguments}
-        with pytest.raises(vf.InputError, match=words):
+        with refused(about):
             vf.predict_rough_friction(RUBBER, **asked)
     with pytest.raises(TypeError, match="'gap'"):
         vf.predict_rough_friction(RUBBER, surface, speeds=0.1, pressure=1.0, gap=1.0)
@@ -175,19 +176,14 @@ def test_what_cannot_be_predicted_is_refused_and_what_fails_is_named():
             tolerance=1e-9,
         )
     for describes in (vf.contact_statistics, vf.friction_by_wavelength, vf.pressure_distribution):
-        with pytest.raises(vf.InputError, match="what solve_periodic gave"):
+        with refused("solution"):
             describes(surface)
     solution = vf.solve_periodic(RUBBER, surface.to_surface(), speed=0.1, pressure="20 kPa")
     for edges in (["1 mm"], [1e-3, 1e-3], [1e-3, -1.0]):
-        with pytest.raises(vf.InputError, match="two wavelengths at least"):
+        with refused("edges"):
             vf.friction_by_wavelength(solution, edges)
-    for edges, words in (
-        (0, "number of classes above zero"),
-        ("many", "edges = .*array of numbers"),
-        ([2.0, 1.0], "two pressures at least"),
-        ([1.0, math.nan], "edges = .*finite numbers"),
-    ):
-        with pytest.raises(vf.InputError, match=words):
+    for edges in (0, "many", [2.0, 1.0], [1.0, math.nan]):
+        with refused("edges"):
             vf.pressure_distribution(solution, edges)
 
 

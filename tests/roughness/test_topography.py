@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
+from refusals import refused
 
 N, M = 48, 32
 X, Y = np.meshgrid(np.arange(N) / N, np.arange(M) / M, indexing="ij")
@@ -34,7 +35,7 @@ def test_tilt_and_curvature_are_removed_to_rounding_and_nothing_else_of_a_plane_
 def test_a_surface_without_its_tilt_does_not_repeat_itself_any_more():
     surface = periodic(waves((1, 1), (2, 0)))
     assert surface.remove("mean").periodic
-    with pytest.raises(vf.InputError, match="is not periodic"):
+    with refused("not-periodic"):
         surface.remove("tilt").to_surface()
 
 
@@ -84,11 +85,11 @@ def test_missing_heights_are_refused_by_what_needs_them_and_filling_is_recorded(
     holes[0, 0] = np.nan
     surface = vf.Topography(holes, 1.0, periodic=True, name="road")
     for needs in (surface.to_surface, surface.window, surface.mirror, lambda: surface.resample(2.0)):
-        with pytest.raises(vf.InputError, match="'road': 1 of its 1536 heights are missing; fill them first"):
+        with refused("missing-heights"):
             needs()
     assert surface.fill("nearest").history == ("1 missing heights (0.065 %) filled: nearest",)
     assert surface.fill().fill() is not surface
-    with pytest.raises(vf.InputError, match="all heights"):
+    with refused("missing-heights"):
         vf.Topography([[np.nan, np.nan], [np.nan, np.nan]], 1.0).fill()
 
 
@@ -101,11 +102,11 @@ def test_band_pass_keeps_just_the_waves_in_between():
     high = surface.keep_wavelengths(longest=1.0 / 4.0)
     np.testing.assert_allclose(high.heights, waves((0, 5)), atol=1e-13)
     assert high.history == ("waves left out: longer than 0.25 m",)
-    with pytest.raises(vf.InputError, match="no wave in between"):
+    with refused("no-wave"):
         surface.keep_wavelengths(longest=1e-3)
-    with pytest.raises(vf.InputError, match="neither given"):
+    with refused("give-one"):
         surface.keep_wavelengths()
-    with pytest.raises(vf.InputError, match="not periodic"):
+    with refused("not-periodic"):
         vf.Topography(surface.heights, 1.0).keep_wavelengths(shortest=1.0)
 
 
@@ -155,7 +156,7 @@ def test_window_and_mirror_make_a_scan_that_repeats_itself_without_steps():
     shift = scan.window(0.2).heights[middle] - scan.heights[middle]
     np.testing.assert_allclose(shift, 0.0, atol=1e-13)
     for edge in (0.0, 0.6):
-        with pytest.raises(vf.InputError, match="above 0 and be"):
+        with refused("edge"):
             scan.window(edge)
 
 
@@ -166,7 +167,7 @@ def test_a_piece_is_cut_out_by_positions():
     assert piece.is_line
     assert "x from 0.2083 to 0.4167 m" in piece.history[0]
     for wrong in ((2.0, 3.0), (0.1, 0.1), 5.0):
-        with pytest.raises(vf.InputError, match=r"x = |x of the piece"):
+        with refused("x"):
             scan.crop(x=wrong)
 
 
@@ -218,27 +219,27 @@ def test_a_line_scan_is_roughness_on_a_cylinder_and_a_map_on_a_ball():
     line = vf.Topography(1e-7 * np.cos(np.arange(200)), 1e-5)
     assert isinstance(line.to_indenter(vf.Cylinder("5 mm")), vf.Profile)
     assert isinstance(line.to_indenter(), vf.Profile)
-    with pytest.raises(vf.InputError, match="a line scan is roughness on a shape such as a Cylinder"):
+    with refused("line-or-map"):
         line.to_indenter(vf.Ball("5 mm"))
-    with pytest.raises(vf.InputError, match="a map of heights is roughness on a shape such as a Ball"):
+    with refused("line-or-map"):
         vf.Topography(np.zeros((9, 9)), 1e-5).to_indenter(vf.Cylinder("5 mm"))
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "about"),
     [
-        ({"heights": [[1.0, 2.0]], "spacing": 1.0}, "two at least along x"),
-        ({"heights": "abc", "spacing": 1.0}, "array of numbers"),
-        ({"heights": [1.0, np.inf], "spacing": 1.0}, "1 are infinite"),
-        ({"heights": [1.0, 2.0], "spacing": (1.0, 1.0, 1.0)}, "one length or two"),
-        ({"heights": [1.0, 2.0], "spacing": 0.0}, "above zero"),
-        ({"heights": [1.0, 2.0j], "spacing": 1.0}, "array of numbers"),
+        ({"heights": [[1.0, 2.0]], "spacing": 1.0}, "heights"),
+        ({"heights": "abc", "spacing": 1.0}, "heights"),
+        ({"heights": [1.0, np.inf], "spacing": 1.0}, "heights"),
+        ({"heights": [1.0, 2.0], "spacing": (1.0, 1.0, 1.0)}, "spacing"),
+        ({"heights": [1.0, 2.0], "spacing": 0.0}, "spacing"),
+        ({"heights": [1.0, 2.0j], "spacing": 1.0}, "heights"),
     ],
 )
-def test_what_is_no_topography_is_refused(arguments, words):
-    with pytest.raises(vf.InputError, match=words):
+def test_what_is_no_topography_is_refused(arguments, about):
+    with refused(about):
         vf.Topography(**arguments)
-    with pytest.raises(vf.InputError, match=r"1e\+18 points"):
+    with refused("spacing"):
         vf.Topography(np.zeros((100, 100)), 1.0).resample(1e-7)
 
 

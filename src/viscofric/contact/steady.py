@@ -287,7 +287,8 @@ def _toward(settings: ContactSettings, indenter: Indenter) -> tuple[float, float
     if settings.toward[1] != 0.0 and indenter.geometry.dimension == 1:
         raise InputError(
             f"direction = {brief(settings.direction)}: a {indenter.noun} makes a line contact, which moves along x "
-            "only; give (1.0, 0.0) or (-1.0, 0.0)."
+            "only; give (1.0, 0.0) or (-1.0, 0.0).",
+            code="line-direction",
         )
     return settings.toward
 
@@ -296,7 +297,8 @@ def _check_derivatives(velocity: float) -> None:
     if velocity == 0.0 or math.isinf(velocity):
         raise InputError(
             f"derivatives = True: an elastic limit, speed = {velocity:g}, has no friction to differentiate; "
-            "give a speed other than zero and infinity."
+            "give a speed other than zero and infinity.",
+            code="elastic-limit",
         )
 
 
@@ -307,7 +309,7 @@ def _held(
     geometry = indenter.geometry
     if (load is None) == (indentation is None):
         both = "neither" if load is None else "both"
-        raise InputError(f"load and indentation: {both} given; give exactly one of them.")
+        raise InputError(f"load and indentation: {both} given; give exactly one of them.", code="give-one")
     if load is not None:
         force = positive(load, geometry.load_unit, "load")
         control = Control(load=geometry.parabolic_load)
@@ -316,7 +318,8 @@ def _held(
     if not levelled:
         raise InputError(
             f"indentation = {indentation!r}: has no meaning in plane strain, where the surface far away is infinitely "
-            f"high above the contact; give the load ({geometry.load_unit})."
+            f"high above the contact; give the load ({geometry.load_unit}).",
+            code="no-level",
         )
     depth = positive(indentation, "m", "indentation")  # type: ignore[arg-type]
     scale = Scale.for_indentation(indenter, stiffness, depth)
@@ -345,7 +348,8 @@ def _steady_material(
     if speed > LONGEST_MEMORY / max(spectrum.tau):
         raise InputError(
             f"speed: the memory would be more than {LONGEST_MEMORY:g} contact radii long; give an infinite speed "
-            "(math.inf), at which the solid is elastic."
+            "(math.inf), at which the solid is elastic.",
+            code="too-fast",
         )
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 

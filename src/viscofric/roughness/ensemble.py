@@ -161,7 +161,9 @@ def interval_of_mean(found: Array, probability: float = 0.95) -> tuple[Array, Ar
 
     wanted, count = share(probability, "probability", example=0.95), found.shape[-1]
     if count < 2:
-        raise InputError("interval: one surface does not show how friction scatters from surface to surface.")
+        raise InputError(
+            "interval: one surface does not show how friction scatters from surface to surface.", code="one-surface"
+        )
     mean = found.mean(axis=-1)
     reach = float(stdtrit(count - 1, 0.5 + 0.5 * wanted)) * found.std(axis=-1, ddof=1) / math.sqrt(count)
     return mean - reach, mean + reach

@@ -100,7 +100,8 @@ def self_affine(
     short = positive(shortest, "m", "shortest")
     if not short < roll <= long:
         raise InputError(
-            f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order."
+            f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order.",
+            code="wavelengths-out-of-order",
         )
     power = -1.0 - 2.0 * H if points[1] == 1 else -2.0 - 2.0 * H
 
@@ -113,7 +114,10 @@ def self_affine(
     waves.hold(short)
     series = waves.series(density, exact)
     if (found := waves.expected(density, order)) == 0.0:
-        raise InputError(f"longest = {long:g} m: no wave of the period lies between it and the shortest, {short:g} m.")
+        raise InputError(
+            f"longest = {long:g} m: no wave of the period lies between it and the shortest, {short:g} m.",
+            code="no-wave",
+        )
     heights = scipy.fft.irfft2(series * (wanted / math.sqrt(found)), points, norm="forward")
     rms = f"rms height {wanted:.4g} m" if order == 0.0 else f"rms slope {wanted:.4g}"
     told = f"made: self-affine, Hurst exponent {H:g}, wavelengths {long:.4g} to {short:.4g} m, "
@@ -177,7 +181,7 @@ def surface_from_spectrum(
         raise InputError(f"spectrum = {brief(spectrum)}: must be a {wanted.__name__} for this shape, or a function.")
     waves = _Waves(points, steps, seed, aspect, angle)
     if not waves.expected(spectrum, 0.0) > 0.0:
-        raise InputError("the spectrum has no wave between the period and two points of the grid.")
+        raise InputError("the spectrum has no wave between the period and two points of the grid.", code="no-wave")
     heights = scipy.fft.irfft2(waves.series(spectrum, exact), points, norm="forward")
     told = f"made: from a power spectrum{'' if exact else ', amplitudes in the mean'}, {waves.told}"
     return Topography(heights, steps, periodic=True, name=f"from a spectrum, seed {seed}", history=(told,))
@@ -205,7 +209,7 @@ class _Waves:
         self.stretch = math.sqrt(positive(aspect, "dimensionless", "aspect"))
         turn = to_si(angle, "rad", "angle")
         if points[1] == 1 and self.stretch != 1.0:
-            raise InputError("aspect: a profile has no lay; leave it out.")
+            raise InputError("aspect: a profile has no lay; leave it out.", code="line-scan")
         qx, qy = wave_number(points, steps)
         self.q = np.hypot(qx, qy)
         if self.stretch != 1.0:
@@ -226,7 +230,8 @@ class _Waves:
         if shortest <= 2.0 * step * most * (1.0 + _ROUNDING):
             raise InputError(
                 f"shortest = {shortest:g} m: must be longer than {2.0 * step * most:g} m, two points of the grid "
-                f"{'as the lay stretches them ' if most > 1.0 else ''}(eight are good for a contact)."
+                f"{'as the lay stretches them ' if most > 1.0 else ''}(eight are good for a contact).",
+                code="wave-too-short",
             )
 
     def variance(self, density: Density) -> Array:

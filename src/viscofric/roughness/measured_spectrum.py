@@ -55,7 +55,7 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
     """
     _insist(topography)
     if topography.is_line:
-        raise InputError("power_spectrum needs a map of heights; line_spectrum takes line scans.")
+        raise InputError("power_spectrum needs a map of heights; line_spectrum takes line scans.", code="line-scan")
     shape = topography.shape
     waves = scipy.fft.rfft2(_windowed(topography, (0, 1))) / (shape[0] * shape[1])
     q = np.hypot(*wave_number(shape, topography.spacing))
@@ -144,7 +144,7 @@ def _rings(
     # Rounding in what a surface was made without is no roughness.
     loud = (q >= first * (1.0 - 1e-9)) & (q <= last * (1.0 + 1e-9)) & (density > 1e-24 * density.max(initial=0.0))
     if not loud.any():
-        raise InputError("the surface is flat: its power spectrum is zero.")
+        raise InputError("the surface is flat: its power spectrum is zero.", code="flat")
     q, density, counts = q[loud], density[loud], counts[loud]
     ring = np.floor(per_decade * np.log10(q / first) + 1e-6).astype(int)
     weight = np.bincount(ring, counts)

@@ -192,7 +192,9 @@ def persson_theory(
         if not isinstance(thermal, ThermalProperties):
             raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.")
         if material.shift is None or temperatures is None:
-            raise InputError("thermal: a flash temperature needs a material with a shift, and temperatures.")
+            raise InputError(
+                "thermal: a flash temperature needs a material with a shift, and temperatures.", code="no-shift"
+            )
         flash = Flash(thermal, spots)
     solver = Theory(material, spectrum, positive(pressure, "Pa", "pressure"), sharing, flash)
     cases = [Case(kelvin, float(speed)) for kelvin in kelvins for speed in velocities]

@@ -127,7 +127,9 @@ def filled(heights: Array, spacing: tuple[float, float], periodic: bool, method:
     """Return heights without NaN; see `viscofric.Topography.fill`."""
     holes = np.isnan(heights)
     if holes.all():
-        raise InputError("all heights of the topography are missing; there is nothing to fill them from.")
+        raise InputError(
+            "all heights of the topography are missing; there is nothing to fill them from.", code="missing-heights"
+        )
     return (_harmonic if method == "harmonic" else _nearest)(heights, spacing, periodic, holes)
 
 
@@ -197,13 +199,15 @@ def rough_indenter(heights: Array, spacing: tuple[float, float], shape: Indenter
         if (shape.geometry is LINE) != is_line:
             wanted = "a Cylinder" if is_line else "a Ball"
             noun = "a line scan" if is_line else "a map of heights"
-            raise InputError(f"shape = {shape!r}: {noun} is roughness on a shape such as {wanted}.")
+            raise InputError(f"shape = {shape!r}: {noun} is roughness on a shape such as {wanted}.", code="line-or-map")
         # The middle of one row is the row itself.
         x = np.asarray(dx * (np.arange(nx) - nx // 2), dtype=np.float64)
         y = np.asarray(dy * (np.arange(ny) - ny // 2), dtype=np.float64)
         smooth = np.asarray(shape.height(x[:, None], y[None, :]))
         smooth = np.broadcast_to(smooth, z.shape)
         if not np.all(np.isfinite(smooth)):
-            raise InputError("the topography reaches beyond the shape that it is roughness on; crop it.")
+            raise InputError(
+                "the topography reaches beyond the shape that it is roughness on; crop it.", code="beyond-indenter"
+            )
         z = z + smooth
     return Profile(z[:, 0], dx) if is_line else HeightMap(z, (dx, dy))

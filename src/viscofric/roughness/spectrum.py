@@ -129,7 +129,8 @@ class PowerSpectrum(_Spectrum):
         roll = long if rolloff is None else positive(rolloff, "m", "rolloff")
         if not short < roll <= long:
             raise InputError(
-                f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order."
+                f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order.",
+                code="wavelengths-out-of-order",
             )
         lengths = [long, roll, short] if roll < long else [long, short]
         q = 2.0 * math.pi / np.array(lengths)
@@ -202,7 +203,7 @@ def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[fl
     """Return the rms asked for and the order of its moment: 0 for heights (m), 2 for slopes."""
     if (rms_height is None) == (rms_slope is None):
         both = "neither" if rms_height is None else "both"
-        raise InputError(f"rms_height and rms_slope: {both} given; give exactly one of them.")
+        raise InputError(f"rms_height and rms_slope: {both} given; give exactly one of them.", code="give-one")
     if rms_height is not None:
         return positive(rms_height, "m", "rms_height"), 0.0
     return positive(rms_slope, "dimensionless", "rms_slope"), 2.0  # type: ignore[arg-type]
@@ -310,7 +311,8 @@ def _cut_out(q: Array, density: Array, first: float, last: float) -> tuple[Array
     if not first < last:
         raise InputError(
             f"the power spectrum reaches from wavelength {2.0 * np.pi / q[-1]:.4g} to {2.0 * np.pi / q[0]:.4g} m; "
-            "nothing of it lies between the cut-offs."
+            "nothing of it lies between the cut-offs.",
+            code="no-wave",
         )
     within = q[(q > first) & (q < last)]
     kept = np.concatenate([[first], within, [last]])

@@ -140,7 +140,8 @@ class Topography:
         if self.missing:
             raise InputError(
                 f"{self._noun}: {self.missing} of its {self.heights.size} heights are missing; fill them first, with "
-                "fill('harmonic') or fill('nearest')."
+                "fill('harmonic') or fill('nearest').",
+                code="missing-heights",
             )
         return self.heights
 
@@ -283,7 +284,8 @@ class Topography:
         if not self.periodic:
             raise InputError(
                 f"{self._noun} is not periodic, so that its Fourier series would ring at the edges; use window() or "
-                "mirror() first."
+                "mirror() first.",
+                code="not-periodic",
             )
         heights, told = waves.passed(self.complete(), self.spacing, shortest, longest)
         return self._with(heights, told)
@@ -296,7 +298,7 @@ class Topography:
         """Exchange x and y, so that the motion along x goes along what was y."""
         heights, spacing = np.array(self.heights.T), (self.spacing[1], self.spacing[0])
         if self.is_line:
-            raise InputError(f"{self._noun} is a line scan; its other axis has one point only.")
+            raise InputError(f"{self._noun} is a line scan; its other axis has one point only.", code="line-scan")
         return self._with(heights, "x and y exchanged", spacing=spacing)
 
     def to_surface(self) -> PeriodicSurface:
@@ -312,7 +314,8 @@ class Topography:
         if not self.periodic:
             raise InputError(
                 f"{self._noun} is not periodic; window() lets its edges fall to the mean, mirror() sets it beside its "
-                "mirror images."
+                "mirror images.",
+                code="not-periodic",
             )
         return PeriodicSurface(self.complete(), self.spacing)
 

@@ -52,7 +52,8 @@ def passed(
     """Return the waves between two lengths, with the mean height, and what was done."""
     if shortest is None and longest is None:
         raise InputError(
-            "shortest, longest: neither given; give the shortest wavelength to keep, the longest, or both."
+            "shortest, longest: neither given; give the shortest wavelength to keep, the longest, or both.",
+            code="give-one",
         )
     q = np.hypot(*wave_number((heights.shape[0], heights.shape[1]), spacing))
     keep = q > 0.0
@@ -66,7 +67,9 @@ def passed(
         keep &= q <= 2.0 * np.pi / length * (1.0 + _ROUNDING)
         told.append(f"shorter than {length:.4g} m")
     if not keep.any():
-        raise InputError(f"shortest = {shortest!r}, longest = {longest!r}: the surface has no wave in between.")
+        raise InputError(
+            f"shortest = {shortest!r}, longest = {longest!r}: the surface has no wave in between.", code="no-wave"
+        )
     keep[0, 0] = True
     series = np.where(keep, scipy.fft.rfft2(heights), 0.0)
     return scipy.fft.irfft2(series, heights.shape), f"waves left out: {' and '.join(told)}"

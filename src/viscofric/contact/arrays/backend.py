@@ -77,11 +77,15 @@ class Backend:
 
     def __post_init__(self) -> None:
         if self._library not in (*_ON_NUMPY, *_OTHERS):
-            raise InputError(f"backend = {self.name!r}: not known; right would be {_KNOWN}.")
+            raise InputError(f"backend = {self.name!r}: not known; right would be {_KNOWN}.", code="unknown-backend")
         if ":" in self.name and self._library != "torch":
-            raise InputError(f"backend = {self.name!r}: {self._library} takes no device; give {self._library!r}.")
+            raise InputError(
+                f"backend = {self.name!r}: {self._library} takes no device; give {self._library!r}.", code="no-device"
+            )
         if self.threads is not None and self._library not in _ON_NUMPY:
-            raise InputError(f"threads = {self.threads!r}: is for FFTs on NumPy arrays, not for {self._library}.")
+            raise InputError(
+                f"threads = {self.threads!r}: is for FFTs on NumPy arrays, not for {self._library}.", code="no-threads"
+            )
         if self._library in _ON_NUMPY:
             object.__setattr__(self, "threads", _threads(self.threads))
         _ = self.device, self.xp, self.transforms  # now rather than in the middle of a solve
@@ -133,7 +137,9 @@ class Backend:
     def device(self) -> Any:
         """Device of PyTorch's arrays; None for the only one, or the current one, of other libraries."""
         if self._library == "cupy" and not self._imported("cupy").is_available():
-            raise InputError("backend = 'cupy': CuPy finds no GPU here; choose another backend, such as 'scipy'.")
+            raise InputError(
+                "backend = 'cupy': CuPy finds no GPU here; choose another backend, such as 'scipy'.", code="no-device"
+            )
         return _torch_device(self._imported("torch"), self._device_name) if self._library == "torch" else None
 
     def _imported(self, module: str) -> Any:
@@ -141,7 +147,7 @@ class Backend:
             return importlib.import_module(module)
         except Exception as error:
             why = not_imported(module.partition(".")[0], error, _HOW_TO_INSTALL[self._library])
-            raise InputError(f"backend = {self.name!r}: {why}.") from error
+            raise InputError(f"backend = {self.name!r}: {why}.", code="not-installed") from error
 
     @cached_property
     def is_numpy(self) -> bool:
@@ -266,5 +272,6 @@ def _torch_device(torch: Any, name: str) -> Any:
         # A device that is not there, and one (such as mps) without double precision.
         raise InputError(
             f"backend = 'torch:{name}': PyTorch computes in double precision on no such device here; choose another, "
-            "such as 'torch:cpu', or install PyTorch for it (https://pytorch.org/get-started)."
+            "such as 'torch:cpu', or install PyTorch for it (https://pytorch.org/get-started).",
+            code="no-device",
         ) from error

@@ -93,7 +93,7 @@ def highest_von_mises(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, poisson_r
     load = pressure_on(x, y, pressure)
     loaded = np.count_nonzero(load > 0.0)
     if loaded == 0:
-        raise InputError("pressure must be positive somewhere.")
+        raise InputError("pressure must be positive somewhere.", code="no-contact")
     is_line = load.shape[1] == 1
     step_x = spacing(x, "x")
     step_y = step_x if is_line else spacing(y, "y")

@@ -211,7 +211,9 @@ def stress_at(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, points: ArrayLike
     load = pressure_on(x, y, pressure)
     where = numbers(points, "points")
     if where.ndim != 2 or where.shape[1] != 3:
-        raise InputError(f"points must have three columns, x, y and depth; their shape is {where.shape}.")
+        raise InputError(
+            f"points must have three columns, x, y and depth; their shape is {where.shape}.", code="not-on-points"
+        )
     half_x, half_y = 0.5 * spacing(x, "x"), 0.5 * spacing(y, "y")
     i, j = np.nonzero(load)
     cell_x, cell_y, loads = numbers(x, "x")[i], numbers(y, "y")[j], load[i, j]

@@ -202,7 +202,10 @@ def _cell(layer: Layer | None, is_line: bool, step: float, aspect: float, poisso
         return HalfSpaceCell(aspect)
     thickness = float(layer.thickness) / step
     if thickness < THINNEST * max(1.0, aspect):
-        raise InputError(f"the cells are too large for the layer: it must be at least {THINNEST} of them thick.")
+        raise InputError(
+            f"the cells are too large for the layer: it must be at least {THINNEST} of them thick.",
+            code="layer-too-thin",
+        )
     if is_line:
         return LayerStrip(thickness, layer.bonded, poisson_ratio)
     return LayerCell(thickness, layer.bonded, poisson_ratio, aspect)

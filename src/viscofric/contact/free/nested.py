@@ -98,7 +98,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
         if window.cuts(stage.result.pressure > 0.0):
             # The coarse contact was a little too small: start again from a window around the finer one.
             if given.window is not None:
-                raise InputError(_TOUCHES)
+                raise InputError(_TOUCHES, code="touches-window")
             if restarts == _MOST_RESTARTS:
                 raise ConvergenceError(_NO_WINDOW, code="no-window")
             stages, restarts = [_start(_solve_in_window(_around(stage), stage), given)], restarts + 1
@@ -170,7 +170,7 @@ def _start(found: Stage, given: GivenGrid) -> Stage:
     cells = given.start(_coarsest(found.problem))
     stage = _solve_in_window(found.problem.geometry.grid.around(*kept, cells, aspect), found)
     if given.window is not None and stage.window.cuts(stage.result.pressure > 0.0):
-        raise InputError(_TOUCHES)
+        raise InputError(_TOUCHES, code="touches-window")
     return stage
 
 
@@ -300,7 +300,8 @@ class GivenGrid:
             sides = f" and {side:.4g} mm to either side" if self.window.side > 0.0 else ""
             raise InputError(
                 f"window: the contact reaches about {rear:.4g} mm behind the axis, {front:.4g} mm ahead of it{sides}; "
-                "give a window that leaves some space around it."
+                "give a window that leaves some space around it.",
+                code="beyond-window",
             )
 
 
@@ -308,11 +309,16 @@ def _extent(window: Sequence[Quantity], scale: Scale) -> Extent:
     names = ("rear", "front", "side")[: scale.geometry.dimension + 1]
     each = list(window) if isinstance(window, (list, tuple)) or np.ndim(window) == 1 else []
     if len(each) != len(names):
-        raise InputError(f"window = {brief(window)}: must be {len(names)} lengths ({', '.join(names)}).")
+        raise InputError(
+            f"window = {brief(window)}: must be {len(names)} lengths ({', '.join(names)}).", code="not-a-window"
+        )
     lengths = [
         to_si(length, "m", f"{name} of the window") / scale.length for length, name in zip(each, names, strict=True)
     ]
     found = Extent(*lengths, *([0.0] if len(lengths) == 2 else []))
     if not (found.rear + found.front > 0.0 and (len(lengths) == 2 or found.side > 0.0)):
-        raise InputError(f"window = {brief(window)}: is empty; the front must lie ahead of the rear, the sides apart.")
+        raise InputError(
+            f"window = {brief(window)}: is empty; the front must lie ahead of the rear, the sides apart.",
+            code="not-a-window",
+        )
     return found

@@ -185,7 +185,9 @@ def _crossing(function: Callable[[float], float], target: float) -> float:
             break
         high *= 8.0
     if not function(low) < target <= function(high):
-        raise InputError("the indenter's height does not rise from its lowest point; give a surface that does.")
+        raise InputError(
+            "the indenter's height does not rise from its lowest point; give a surface that does.", code="flat"
+        )
     for _ in range(_BISECTIONS):
         middle = math.sqrt(low * high)
         if not low < middle < high:

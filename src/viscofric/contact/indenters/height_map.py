@@ -89,7 +89,8 @@ class HeightMap(Indenter):
         if contact.rear > rear or contact.front > front or contact.side > side:
             raise InputError(
                 f"{held} the contact reaches the edge of the height map; give a map of a larger piece of the surface, "
-                "or press less."
+                "or press less.",
+                code="beyond-indenter",
             )
 
     def doubt(self, contact: Extent, indentation: float) -> str | None:
@@ -192,7 +193,10 @@ class Profile(Indenter):
         """Refuse a contact that reaches the outermost points of the profile."""
         x, step = self._points, float(self.spacing)
         if contact.rear > -x[0] - step or contact.front > x[-1] - step:
-            raise InputError(f"{held} the contact reaches the end of the profile; give a longer one, or press less.")
+            raise InputError(
+                f"{held} the contact reaches the end of the profile; give a longer one, or press less.",
+                code="beyond-indenter",
+            )
 
     def doubt(self, contact: Extent, indentation: float) -> str | None:
         """Return what is doubtful about small strain, if anything."""

@@ -91,7 +91,8 @@ class Indenter(ABC):
         if contact.longest > 2.0 * self.reach:
             raise InputError(
                 f"{held} the contact would be {1e3 * contact.longest:.3g} mm wide, wider than the {self.noun} "
-                f"({2e3 * self.reach:.3g} mm): the material is too soft for this; press less."
+                f"({2e3 * self.reach:.3g} mm): the material is too soft for this; press less.",
+                code="beyond-indenter",
             )
 
 
@@ -109,6 +110,7 @@ def insist_on_round_edges(indenter: Indenter) -> None:
             "is, at any speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the "
             "solid is elastic.",
             field="indenter",
+            code="sharp-edge",
         )
 
 

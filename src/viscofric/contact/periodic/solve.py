@@ -132,7 +132,9 @@ def solve_periodic(
     sliding, toward = velocity(speed), unit_direction(direction)
     if (pressure is None) == (gap is None):
         both = "neither" if pressure is None else "both"
-        raise InputError(f"pressure and gap: {both} given; give exactly one of them, mean pressure or mean gap.")
+        raise InputError(
+            f"pressure and gap: {both} given; give exactly one of them, mean pressure or mean gap.", code="give-one"
+        )
     if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST:
         raise InputError(f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.")
     if not (layer is None or isinstance(layer, Layer)):
@@ -192,7 +194,8 @@ class _Given(NamedTuple):
         if distance >= first:
             raise InputError(
                 f"gap = {gap!r}: the surfaces do not touch; right would be a mean gap below that at the first touch, "
-                f"{first:.4g} m."
+                f"{first:.4g} m.",
+                code="no-contact",
             )
         return cls(None, distance)
 

@@ -71,7 +71,9 @@ class PeriodicSurface:
                 f"the shape {np.shape(z)}."
             )
         if np.ptp(heights) == 0.0:
-            raise InputError("z of a periodic surface is flat: all its heights are equal; a contact needs roughness.")
+            raise InputError(
+                "z of a periodic surface is flat: all its heights are equal; a contact needs roughness.", code="flat"
+            )
         heights.flags.writeable = False
         object.__setattr__(self, "z", heights)
         object.__setattr__(self, "spacing", two_lengths(spacing))
