@@ -49,8 +49,8 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         lambda: solve(CYLINDER, load=None, indentation=1e-5),
         "no-level",
         (
-            "indentation = 1e-05: has no meaning in plane strain, where the surface far away is infinitely high above the "
-            "contact; give the load (N/m)."
+            "indentation = 1e-05: has no meaning in plane strain, where the surface far away is infinitely high above "
+            "the contact; give the load (N/m)."
         ),
     ),
     (
@@ -66,15 +66,16 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         "sharp-edge",
         (
             "indenter: a punch has a sharp edge, whose friction in motion is decided by how round it really is, at any "
-            "speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the solid is elastic."
+            "speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the solid is "
+            "elastic."
         ),
     ),
     (
         lambda: solve(speed=math.inf, derivatives=True),
         "elastic-limit",
         (
-            "derivatives = True: an elastic limit, speed = inf, has no friction to differentiate; give a speed other than "
-            "zero and infinity."
+            "derivatives = True: an elastic limit, speed = inf, has no friction to differentiate; give a speed other "
+            "than zero and infinity."
         ),
     ),
     (
