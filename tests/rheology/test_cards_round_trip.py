@@ -10,6 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from friction.refused import refused
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import codes, warned
 from viscofric.rheology.cards import open_card, read_card, write_card
@@ -98,9 +99,9 @@ def test_a_table_of_shift_factors_becomes_a_law_where_one_is_asked_for(tmp_path,
     with warned() as notes:
         write_card(material, tmp_path / "card", program, density=1100.0, law="arrhenius")
     assert codes(notes) == {"card-law-misfit"}  # by 0.14 decades
-    with pytest.raises(InputError, match="no table of shift factors"):
+    with refused("no-table"):
         write_card(rubber(), tmp_path / "card", program, density=1100.0, law="best")
-    with pytest.raises(InputError, match="must be one of best, wlf, vft, arrhenius"):
+    with refused("unknown-law"):
         write_card(material, tmp_path / "card", program, density=1100.0, law="polynomial")
 
 
@@ -124,7 +125,7 @@ def test_an_incompressible_material_comes_back_incompressible(tmp_path, program)
 @pytest.mark.parametrize("program", ["ansys", "ls-dyna"])
 def test_programs_that_need_a_bulk_modulus_say_so(tmp_path, program):
     material = rubber(poisson_ratio=0.5)
-    with pytest.raises(InputError, match=r"poisson_ratio=0\.4995"):
+    with refused("incompressible"):
         write_card(material, tmp_path / "card", program, density=1100.0)
     path = write_card(material, tmp_path / "card", program, density=1100.0, poisson_ratio=0.4999)
     assert "Poisson ratio is 0.5; this card" in path.read_text().replace("\n! ", " ").replace("\n$ ", " ")
@@ -192,7 +193,7 @@ def test_sixty_modes_come_back_and_ls_dyna_tells_its_limit(tmp_path):
     for program in ("abaqus", "ansys", "comsol", "csv", "json"):
         path = write_card(material, tmp_path / "card", program)
         assert read_card(path).complex_modulus(OMEGA) == pytest.approx(material.complex_modulus(OMEGA), rel=1e-12)
-    with pytest.raises(InputError, match=r"at most 18 terms.*60 modes; fit it with at most 17"):
+    with refused("too-many-modes"):
         write_card(material, tmp_path / "card", "ls-dyna", density=1e3)
 
 
@@ -245,13 +246,13 @@ def test_a_table_of_moduli_is_kept_to_the_last_digit(tmp_path, program):
 
 @pytest.mark.parametrize("program", FINITE_ELEMENTS)
 def test_a_table_of_moduli_is_no_prony_series(tmp_path, program):
-    with pytest.raises(InputError, match="fit a spectrum first"):
+    with refused("no-modes"):
         write_card(table_material(), tmp_path / "card", program, density=1e3)
 
 
 @pytest.mark.parametrize("program", FINITE_ELEMENTS)
 def test_an_elastic_solid_is_no_prony_series(tmp_path, program):
-    with pytest.raises(InputError, match="it has no mode"):
+    with refused("no-modes"):
         write_card(Material(RetardationSpectrum(1e6, 1e6, [], [])), tmp_path / "card", program, density=1e3)
 
 
@@ -314,7 +315,7 @@ def test_damaged_comments_are_told(tmp_path, program):
     lines = path.read_text().splitlines()
     first = next(index for index, line in enumerate(lines) if "viscofric>" in line)
     path.write_text("\n".join(lines[:first] + lines[first + 1 :]))
-    with pytest.raises(DataFileError, match="are damaged"):
+    with refused("damaged", DataFileError):
         read_card(path)
 
 
@@ -353,13 +354,13 @@ def test_unknown_formats_and_files_are_refused(tmp_path):
     with pytest.raises(InputError, match="must be 'abaqus', 'ansys'"):
         read_card(tmp_path / "card", "nastran")
     (tmp_path / "letter").write_text("Dear colleague,\nthe rubber is soft.\n")
-    with pytest.raises(DataFileError, match="is no material card that viscofric knows"):
+    with refused("unknown-card", DataFileError):
         read_card(tmp_path / "letter")
-    with pytest.raises(DataFileError, match="is not an Abaqus card"):
+    with refused("other-card", DataFileError):
         read_card(tmp_path / "letter", "abaqus")
     with pytest.raises(DataFileError, match="no such file"):
         read_card(tmp_path / "nothing")
-    with pytest.raises(DataFileError, match="cannot be written"):
+    with refused("not-written", DataFileError):
         write_card(rubber(), tmp_path / "no folder" / "card", "json")
 
 
@@ -373,7 +374,7 @@ def test_impossible_wishes_are_refused(tmp_path):
     ):
         with pytest.raises(InputError, match=says):
             write_card(rubber(), tmp_path / "card", "abaqus", **wish)
-    with pytest.raises(InputError, match="needs a density"):
+    with refused("no-density"):
         write_card(rubber(), tmp_path / "card", "ls-dyna")
 
 
@@ -409,15 +410,15 @@ def test_a_wrong_material_file_is_told_what_is_wrong(tmp_path, change, says):
 def test_broken_json_and_csv_name_the_line(tmp_path):
     path = tmp_path / "card"
     path.write_text('{"format": "viscofric material",\n "version": }')
-    with pytest.raises(DataFileError, match="line 2"):
+    with refused("damaged", DataFileError):
         read_card(path)
     path.write_text('{"format": "viscofric material", "poisson_ratio": NaN}')
-    with pytest.raises(DataFileError, match="must be finite"):
+    with refused("damaged", DataFileError):
         read_card(path)
     text = write_card(rubber(), path, "csv").read_text()
     path.write_text(text + "1.0\n")
-    with pytest.raises(DataFileError, match="1 numbers where 2 are wanted"):
+    with refused("damaged", DataFileError):
         read_card(path)
     path.write_text(text.replace("# poisson_ratio = 0.49", "# poisson_ratio = about a half"))
-    with pytest.raises(DataFileError, match="value of poisson_ratio is damaged"):
+    with refused("damaged", DataFileError):
         read_card(path)

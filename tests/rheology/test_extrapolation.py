@@ -7,6 +7,7 @@ import pickle
 import numpy as np
 import pytest
 
+from friction.refused import refused
 from viscofric.errors import InputError
 from viscofric.rheology import ShiftFactors
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
@@ -27,11 +28,11 @@ def test_a_well_known_law_reaches_fifty_kelvin_up_and_twenty_down():
     assert law.extrapolation_limits == pytest.approx((LOW - 20.0, HIGH + 50.0))
     assert np.isfinite(law.log10(HIGH + 49.9))
     assert np.isfinite(law.log10(LOW - 19.9))
-    with pytest.raises(InputError, match=r"180\.0 °C lies 60 K above the 0\.0 to 120\.0 °C .* up to 170\.0 °C only"):
+    with refused("outside-fitted"):
         law.log10("180 degC")
-    with pytest.raises(InputError, match=r"-25\.0 °C lies 25 K below .* down to -20\.0 °C only, because .*20 K"):
+    with refused("outside-fitted"):
         law.log10("-25 degC")
-    with pytest.raises(InputError, match=r"unbounded\(\)"):
+    with refused("outside-fitted"):
         law(["20 degC", "180 degC"])
 
 
@@ -42,7 +43,7 @@ def test_a_poorly_known_law_reaches_as_far_as_it_is_known_to_half_a_decade():
     # The uncertainty of the step from the end of the fit: that of a law with its reference there.
     doubt = 1.96 * law.unbounded().at_reference(LOW).standard_error(low)
     assert doubt == pytest.approx(0.5, rel=0.01)  # interpolated between points 0.2 K apart
-    with pytest.raises(InputError, match="95 % uncertainty"):
+    with refused("outside-fitted"):
         law.log10(low - 1.0)
 
 
@@ -55,7 +56,7 @@ def test_limits_do_not_depend_on_the_reference():
 def test_a_law_does_not_come_near_its_pole():
     law = fitted(law=WLF(9.0, 70.0, "30 degC"), error=0.001)  # the pole is 40 K below the coldest isotherm
     assert law.extrapolation_limits[0] == pytest.approx(law.pole + 30.0)
-    with pytest.raises(InputError, match="is a glass"):
+    with refused("outside-fitted"):
         law.log10(law.pole + 25.0)
     close = fitted(law=WLF(9.0, 50.0, "30 degC"), error=0.001)  # 20 K
     assert close.extrapolation_limits[0] == pytest.approx(LOW)
@@ -68,7 +69,7 @@ def test_who_knows_better_lifts_the_limit():
     assert law.log10("300 degC") < law.log10("170 degC")
     assert law.fitted_range == (LOW, HIGH)
     assert law.extrapolates("300 degC")
-    with pytest.raises(InputError, match="diverges"):
+    with refused("below-pole"):
         law.log10(law.pole - 1.0)
 
 
@@ -78,7 +79,7 @@ def test_a_law_that_was_typed_in_is_bounded_by_its_pole_alone():
     assert Arrhenius("120 kJ/mol", "30 degC").extrapolation_limits == (0.0, np.inf)
     assert law.log10("400 degC") < 0.0
     assert not law.extrapolates("400 degC")
-    with pytest.raises(InputError, match="without a covariance"):
+    with refused("no-covariance"):
         law.standard_error("40 degC")
 
 
@@ -132,20 +133,20 @@ def test_a_polynomial_is_silent_outside_its_temperatures():
     # Half a kelvin is the difference of a nominal temperature from a measured one.
     assert law.extrapolation_limits == (LOW - 0.5, HIGH + 0.5)
     assert np.isfinite(law.log10(HIGH + 0.4))
-    with pytest.raises(InputError, match="says nothing beyond its data"):
+    with refused("outside-fitted"):
         law.log10(HIGH + 0.6)
-    with pytest.raises(InputError, match="take a WLF or an Arrhenius law"):
+    with refused("polynomial-without-range"):
         law.unbounded()
-    with pytest.raises(InputError, match="fitted_range"):
+    with refused("polynomial-without-range"):
         InversePolynomial([5e3], 303.15, None)
 
 
 def test_a_polynomial_that_turns_is_refused():
-    with pytest.raises(InputError, match="rises with temperature"):
+    with refused("law-rises"):
         InversePolynomial([1e3, 3e6], "30 degC", ("0 degC", "120 degC"))
     # The derivative c1 + 2 c2 x has its zero at x = −1e3/6e6: between 1/T at 30 and at 46 °C.
     InversePolynomial([1e3, 3e6], "30 degC", ("0 degC", "45 degC"))
-    with pytest.raises(InputError, match="rises with temperature"):
+    with refused("law-rises"):
         InversePolynomial([1e3, 3e6], "30 degC", ("0 degC", "48 degC"))
 
 
@@ -163,7 +164,7 @@ def test_wlf_and_vft_turn_into_each_other_exactly():
     assert vft.at_reference("60 degC").log10("90 degC") == pytest.approx(
         wlf.at_reference("60 degC").log10("90 degC"), abs=1e-12
     )
-    with pytest.raises(InputError, match=r"too straight for a VFT law.*use a WLF or an Arrhenius law"):
+    with refused("no-law"):
         WLF(50.0, 400.0, 300.0).to_vft()
 
 

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from friction.refused import refused
 from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
@@ -176,9 +177,9 @@ def test_a_liquid_relaxes_and_dissipates_but_has_no_retardation_spectrum():
     liquid = RelaxationSpectrum(0.0, [1e6], [2.0])
     assert liquid.complex_modulus(0.5) == pytest.approx(0.5e6 + 0.5e6j)  # at ωτ = 1 halves of E1
     assert liquid.relaxation_modulus(2.0) == pytest.approx(1e6 / math.e)
-    with pytest.raises(InputError, match="a liquid has no rubber plateau and creeps without end"):
+    with refused("liquid"):
         liquid.to_retardation()
-    with pytest.raises(InputError, match="flows without bound at rest"):
+    with refused("liquid"):
         liquid.compliance([0.0, 1.0])
 
 

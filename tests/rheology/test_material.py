@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from friction.refused import refused
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.vertical_shift import DensityShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
@@ -20,7 +21,7 @@ def test_standard_linear_solid_relaxes_in_tau_times_E0_over_E_inf():
     maxwell = 1e6 + 9e6 * 1j * omega * relaxation / (1 + 1j * omega * relaxation)
     assert rubber.complex_modulus(omega) == pytest.approx(maxwell, rel=1e-12)
     assert rubber.reference is None
-    with pytest.raises(InputError, match="must be below E_inf"):
+    with refused("modulus-order"):
         vf.Material.standard_linear_solid(E0=2e7, E_inf=1e7, tau=1.0)
 
 
@@ -38,7 +39,7 @@ def test_temperature_shifts_the_frequency():
 def test_without_a_shift_no_temperature_can_be_chosen():
     solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
     assert solid.at() is solid.spectrum
-    with pytest.raises(InputError, match="has no shift"):
+    with refused("no-shift"):
         solid.at("60 degC")
 
 
@@ -50,15 +51,15 @@ def test_impossible_poisson_ratios_are_refused(ratio):
 
 def test_wrong_parts_are_refused():
     solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1.0)
-    with pytest.raises(InputError, match="must be a RetardationSpectrum or a ModulusTable"):
+    with refused("wrong-type"):
         vf.Material(solid)
-    with pytest.raises(InputError, match="must be a law"):
+    with refused("wrong-type"):
         vf.Material(solid.spectrum, shift=1.0)
-    with pytest.raises(InputError, match=r"not RelaxationSpectrum; .*to_retardation"):
+    with refused("wrong-type"):
         vf.Material(solid.spectrum.to_relaxation())
-    with pytest.raises(InputError, match="must be a VerticalShift"):
+    with refused("wrong-type"):
         vf.Material(solid.spectrum, shift=LAW, vertical_shift=1.1)
-    with pytest.raises(InputError, match="needs a shift too"):
+    with refused("no-shift"):
         vf.Material(solid.spectrum, vertical_shift=DensityShift("30 degC"))
 
 
@@ -84,7 +85,7 @@ def test_a_material_about_another_reference_is_the_same_material():
     for celsius in (0.0, 30.0, 80.0, 120.0):
         expected = rubber.complex_modulus(omega, celsius + 273.15)
         assert other.complex_modulus(omega, celsius + 273.15) == pytest.approx(expected, rel=1e-10)
-    with pytest.raises(InputError, match="has no shift"):
+    with refused("no-shift"):
         solid.at_reference("80 degC")
 
 

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from friction.refused import refused
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
@@ -56,7 +57,7 @@ def test_negative_frequencies_give_the_conjugate():
 
 @pytest.mark.parametrize("omega", [0.0, 1e-5, 1e9, -1e9, np.inf])
 def test_beyond_its_ends_a_table_refuses(omega):
-    with pytest.raises(InputError, match=r"lies outside the table's 0\.0001 to 1e\+08 rad/s"):
+    with refused("outside-table"):
         table().complex_modulus([1.0, omega])
 
 
@@ -73,7 +74,7 @@ def test_ends_taken_for_plateaus_keep_storage_and_lose_loss():
     assert one.complex_modulus(1e-6) == pytest.approx(low.real + 0.01j * low.imag, rel=1e-12)
     assert one.complex_modulus(1e10) == pytest.approx(high.real + 0.01j * high.imag, rel=1e-12)
     assert (one.E0, one.E_inf) == (low.real, high.real)
-    with pytest.raises(InputError, match="outside"):
+    with refused("outside-table"):
         _ = table().E0
     with pytest.raises(InputError, match="angular_frequency = nan"):
         one.complex_modulus(np.nan)

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from friction.refused import refused
 from viscofric.errors import InputError
 from viscofric.rheology import WLF, Arrhenius, ShiftFactors, WLFArrhenius
 from viscofric.rheology.shifts.laws import VFT, InversePolynomial
@@ -51,9 +52,9 @@ def test_wlf_keeps_its_invariants_when_the_reference_moves():
 
 
 def test_wlf_is_refused_at_its_pole():
-    with pytest.raises(InputError, match=r"diverges at -69\.6 °C"):
+    with refused("below-pole"):
         LAWS[0]("-70 degC")
-    with pytest.raises(InputError, match="diverges"):
+    with refused("below-pole"):
         LAWS[0].at_reference("-80 degC")
 
 
@@ -103,7 +104,7 @@ def test_meaningless_constants_are_refused(make):
 def test_measured_shift_factors_are_exact_at_their_nodes_and_silent_outside():
     table = LAWS[3]
     assert table.log10(table.temperatures) == pytest.approx([2.5, 0.0, -1.5, -2.5], abs=ROUNDING)
-    with pytest.raises(InputError, match="fit a law"):
+    with refused("outside-measured"):
         table("120 degC")
 
 
@@ -146,9 +147,9 @@ def test_what_no_law_describes_is_refused():
     for kind in ("wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"):
         with pytest.raises(InputError):
             rising.law(kind)
-    with pytest.raises(InputError, match="too few"):
+    with refused("too-few-temperatures"):
         ShiftFactors([290.0, 300.0], [1.0, 0.0], 300.0).law("wlf")
-    with pytest.raises(InputError, match="must be 'wlf'"):
+    with refused("unknown-law"):
         rising.law("power")
 
 
@@ -173,7 +174,7 @@ def test_uncertainty_of_wlf_constants_follows_the_reference():
 
 
 def test_celsius_given_as_a_plain_number_is_met_with_help():
-    with pytest.raises(InputError, match=r"measured 0\.0 to 100\.0 °C; .*plain numbers are kelvin.*'60 degC'\.$"):
+    with refused("outside-measured"):
         LAWS[3](60.0)
     with pytest.raises(InputError, match="write '60 degC'"):
         LAWS[0](60.0)
@@ -192,7 +193,7 @@ def test_standard_error_between_temperatures_is_carried_through_the_interpolatio
     assert table.standard_error(half) == pytest.approx(0.15, rel=1e-9)
     moved = table.at_reference("60 degC")
     assert moved.standard_error("0 degC") == pytest.approx(np.sqrt(0.04 + 0.09 - 2 * 0.01), rel=1e-9)
-    with pytest.raises(InputError, match="outside the measured"):
+    with refused("outside-measured"):
         table.standard_error("70 degC")
 
 
@@ -212,9 +213,9 @@ def test_a_factor_corrected_by_hand_is_what_it_was_told():
     corrected = between.with_value("60 degC", -0.9)
     assert corrected.log10("60 degC") == pytest.approx(-0.9, abs=ROUNDING)
     assert corrected.log10("45 degC") == pytest.approx(0.0, abs=ROUNDING)
-    with pytest.raises(InputError, match="no shift factor to correct"):
+    with refused("no-such-temperature"):
         table.with_value("50 degC", 0.0)
-    with pytest.raises(InputError, match="is the reference"):
+    with refused("is-reference"):
         table.with_value("30 degC", 0.1)
     with pytest.raises(InputError, match="standard_error"):
         table.with_value("60 degC", 0.1, standard_error=-1.0)
@@ -249,7 +250,7 @@ def test_half_a_kelvin_beyond_its_ends_a_table_goes_straight_on():
     assert -0.04 < (table.log10("60 degC") - table.log10_values[-1]) / 0.02 < -0.03
     assert table.log10(292.75) > table.log10_values[0]
     assert table.at_reference("60 degC").log10("60 degC") == pytest.approx(0.0, abs=1e-12)
-    with pytest.raises(InputError, match=r"60\.6 °C lies outside the measured 20\.0 to 60\.0 °C"):
+    with refused("outside-measured"):
         table.log10("60.6 degC")
     vertical = VerticalShiftFactors([293.15, 333.13], [0.0, 0.02], 293.15)
     assert vertical.log10("60 degC") == pytest.approx(0.02, abs=1e-12)

@@ -91,7 +91,7 @@ def catalogue_entry(name: str) -> CatalogueEntry:
         near = difflib.get_close_matches(_plain(name), known, n=1, cutoff=0.5)
         hint = f"did you mean {known[near[0]].name!r}?" if near else "the names are"
         names = "" if near else f" {', '.join(repr(one.name) for one in _ENTRIES)}."
-        raise InputError(f"name = {name!r}: the catalogue has no such material; {hint}{names}")
+        raise InputError(f"name = {name!r}: the catalogue has no such material; {hint}{names}", code="unknown-material")
     return entry
 
 

@@ -72,16 +72,24 @@ class Material:
             hint = "; a Prony series is turned into one by its to_retardation()"
             raise InputError(
                 "spectrum of a material must be a RetardationSpectrum or a ModulusTable, not "
-                f"{type(self.spectrum).__name__}{hint if hasattr(self.spectrum, 'to_retardation') else ''}."
+                f"{type(self.spectrum).__name__}{hint if hasattr(self.spectrum, 'to_retardation') else ''}.",
+                code="wrong-type",
             )
         if not (self.shift is None or isinstance(self.shift, ShiftLaw)):
-            raise InputError(f"shift of a material must be a law or ShiftFactors, not {type(self.shift).__name__}.")
+            raise InputError(
+                f"shift of a material must be a law or ShiftFactors, not {type(self.shift).__name__}.",
+                code="wrong-type",
+            )
         if self.vertical_shift is not None:
             if not isinstance(self.vertical_shift, VerticalShift):
                 kind = type(self.vertical_shift).__name__
-                raise InputError(f"vertical_shift of a material must be a VerticalShift, not {kind}.")
+                raise InputError(
+                    f"vertical_shift of a material must be a VerticalShift, not {kind}.", code="wrong-type"
+                )
             if self.shift is None:
-                raise InputError("vertical_shift of a material needs a shift too, which tells its reference.")
+                raise InputError(
+                    "vertical_shift of a material needs a shift too, which gives its reference.", code="no-shift"
+                )
             about = self.vertical_shift.at_reference(self.shift.reference)
             object.__setattr__(self, "vertical_shift", about)
         object.__setattr__(self, "poisson_ratio", checked_poisson_ratio(self.poisson_ratio))
@@ -110,7 +118,7 @@ class Material:
         """
         rubber, glass = positive(E0, "Pa", "E0"), positive(E_inf, "Pa", "E_inf")
         if not rubber < glass:
-            raise InputError(f"E0 = {rubber:g} Pa must be below E_inf = {glass:g} Pa.")
+            raise InputError(f"E0 = {rubber:g} Pa must be below E_inf = {glass:g} Pa.", code="modulus-order")
         time = positive(tau, "s", "tau")
         spectrum = RetardationSpectrum(rubber, glass, [1.0 / rubber - 1.0 / glass], [time])
         return cls(spectrum, poisson_ratio=poisson_ratio, name="standard linear solid")
@@ -141,7 +149,8 @@ class Material:
         if self.shift is None:
             raise InputError(
                 f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be "
-                "chosen; give Material(spectrum, shift=WLF(…)) or leave the temperature out."
+                "chosen; give Material(spectrum, shift=WLF(…)) or leave the temperature out.",
+                code="no-shift",
             )
         kelvin = positive(temperature, "K", "temperature")
         alpha = float(self.shift(kelvin))

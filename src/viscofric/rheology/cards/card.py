@@ -210,11 +210,14 @@ def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:
     if not isinstance(spectrum, RetardationSpectrum):
         raise InputError(
             f"{program} holds a Prony series, and this material is a table of moduli without one; fit a spectrum "
-            'first, or write format="csv" or "json".'
+            'first, or write format="csv" or "json".',
+            code="no-modes",
         )
     relaxation = spectrum.to_relaxation()
     if not len(relaxation):
-        raise InputError(f"{program} holds a Prony series, and this material is elastic: it has no mode.")
+        raise InputError(
+            f"{program} holds a Prony series, and this material is elastic: it has no mode.", code="no-modes"
+        )
     return relaxation
 
 
@@ -236,7 +239,8 @@ def written_poisson_ratio(material: Material, writing: Writing, program: str, in
     if ratio == 0.5 and incompressible:
         raise InputError(
             f"poisson_ratio = 0.5: {program} {incompressible}; choose a nearly incompressible one for the card, "
-            "write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G changes with it)."
+            "write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G changes with it).",
+            code="incompressible",
         )
     return ratio
 

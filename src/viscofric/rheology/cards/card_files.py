@@ -145,8 +145,9 @@ def write_card(
     check_choice(unit_system, "unit_system", *get_args(UnitSystem))
     if unit_system != "Pa" and format not in _WITHOUT_UNITS:
         raise InputError(
-            f"unit_system = {unit_system!r}: {format} holds SI units, and says so; leave unit_system out (it is for "
-            f"{', '.join(_WITHOUT_UNITS)})."
+            f"unit_system = {unit_system!r}: {format} holds SI units; leave unit_system out (it is for "
+            f"{', '.join(_WITHOUT_UNITS)}).",
+            code="unit-system",
         )
     whole_number(material_id, "material_id", 1)
     notes: list[Note] = []
@@ -180,10 +181,12 @@ def write_card(
 def _with_law(material: Material, law: str, notes: list[Note]) -> Material:
     """Return the material with a law fitted to its table of shift factors, and note where that misses them."""
     if law not in get_args(CardLaw):
-        raise InputError(f"law = {law!r}: must be one of {', '.join(get_args(CardLaw))}.")
+        raise InputError(f"law = {law!r}: must be one of {', '.join(get_args(CardLaw))}.", code="unknown-law")
     factors: Any = material.shift
     if not isinstance(factors, ShiftFactors):
-        raise InputError(f"law = {law!r}: the material has no table of shift factors to fit a law to; leave it out.")
+        raise InputError(
+            f"law = {law!r}: the material has no table of shift factors to fit a law to; leave it out.", code="no-table"
+        )
     fitted = _best_law(factors) if law == "best" else factors.law(law)
     missed = _missed(factors, fitted)
     if missed > LARGEST_SCATTER:
@@ -298,12 +301,13 @@ def open_card(
         found: str = format or next((key for key, one in _PROGRAMS.items() if one.recognises(text)), "")
         if not found:
             raise InputError(
-                "is no material card that viscofric knows: wanted is an Abaqus, ANSYS or LS-DYNA card with a Prony "
-                "series, COMSOL parameters, or a material file of viscofric (JSON or CSV); `viscofric material "
-                "fit` makes one of DMA sweeps."
+                "is not a material card. Supported are Abaqus, ANSYS and LS-DYNA cards with a Prony series, COMSOL "
+                "parameters, and material files of viscofric (JSON or CSV); `viscofric material fit` makes one from "
+                "DMA sweeps.",
+                code="unknown-card",
             )
         if format is not None and not _PROGRAMS[found].recognises(text):
-            raise InputError(f"is not {_PROGRAMS[found].name}.")
+            raise InputError(f"is not {_PROGRAMS[found].name}.", code="other-card")
         content = stored_content(text)
         reading = Reading(modulus_unit or modulus_unit_of(content), time_unit, temperature_unit)
         solid = _PROGRAMS[found].read(text, reading, content)
@@ -312,7 +316,7 @@ def open_card(
     except DataFileError:
         raise
     except InputError as error:
-        raise DataFileError(path, str(error)) from None
+        raise DataFileError(path, error.note) from None
 
 
 def read_card(

@@ -77,7 +77,7 @@ def number_of(content: dict[str, Any] | None, name: str) -> float | None:
     value = None if content is None else content["card"].get(name)
     if value is None or (isinstance(value, (int, float)) and np.isfinite(value)):
         return value
-    raise InputError(f"the lines marked {_MARK!r} are damaged: {name} is no number.")
+    raise InputError(f"the lines marked {_MARK!r} are damaged: {name} is no number.", code="damaged")
 
 
 def modulus_unit_of(content: dict[str, Any] | None) -> str | None:
@@ -85,7 +85,9 @@ def modulus_unit_of(content: dict[str, Any] | None) -> str | None:
     unit = None if content is None else content["card"].get("unit_system")
     if unit is None or unit in _UNITS:
         return unit
-    raise InputError(f"the lines marked {_MARK!r} are damaged: unit_system is not {' or '.join(_UNITS)}.")
+    raise InputError(
+        f"the lines marked {_MARK!r} are damaged: unit_system is not {' or '.join(_UNITS)}.", code="damaged"
+    )
 
 
 def comment_lines(mark: str, sentences: list[str], content: dict[str, Any]) -> list[str]:
@@ -124,7 +126,9 @@ def stored_content(text: str) -> dict[str, Any] | None:
         if mark:
             piece = rest.strip()
             if len(piece) < 2 or piece[0] != "|" or piece[-1] != "|":
-                raise InputError(f"a line marked {_MARK!r} is damaged; restore it, or delete all lines so marked.")
+                raise InputError(
+                    f"a line marked {_MARK!r} is damaged; restore it, or delete all lines so marked.", code="damaged"
+                )
             pieces.append(piece[1:-1])
     if not pieces:
         return None
@@ -133,7 +137,9 @@ def stored_content(text: str) -> dict[str, Any] | None:
     except ValueError:
         content = None
     if not isinstance(content, dict) or not isinstance(content.get("card"), dict):
-        raise InputError(f"the lines marked {_MARK!r} are damaged; restore them, or delete all lines so marked.")
+        raise InputError(
+            f"the lines marked {_MARK!r} are damaged; restore them, or delete all lines so marked.", code="damaged"
+        )
     if content.get("version") != VERSION:
         raise InputError(f"the lines marked {_MARK!r} are of version {content.get('version')!r}, not {VERSION}.")
     return content

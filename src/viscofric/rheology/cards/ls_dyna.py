@@ -59,11 +59,14 @@ def write(material: Material, writing: Writing) -> str:
     if len(relaxation) + 1 > _TERMS:
         raise InputError(
             f"{NAME} takes at most {_TERMS} terms, one of them the long-term modulus, and this material has "
-            f"{len(relaxation)} modes; fit it with at most {_TERMS - 1}."
+            f"{len(relaxation)} modes; fit it with at most {_TERMS - 1}.",
+            code="too-many-modes",
         )
     ratio = written_poisson_ratio(material, writing, NAME, "needs a finite bulk modulus")
     if writing.written_density is None:
-        raise InputError(f"{NAME} needs a density; right would be write_card(…, density=1100) for 1100 kg/m³.")
+        raise InputError(
+            f"{NAME} needs a density, such as write_card(…, density=1100) for 1100 kg/m³.", code="no-density"
+        )
     law = card_law(material.shift)
     if writing.temperature_unit != "K" and isinstance(law, Arrhenius):
         raise InputError(f"{NAME} counts temperatures of an Arrhenius law in K; leave temperature_unit out.")

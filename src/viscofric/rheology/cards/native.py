@@ -222,14 +222,14 @@ def read_json(text: str) -> Material:
     except InputError:
         raise
     except json.JSONDecodeError as error:
-        raise InputError(f"line {error.lineno}: is not JSON ({error.msg}).") from None
+        raise InputError(f"line {error.lineno}: is not JSON ({error.msg}).", code="damaged") from None
     except ValueError as error:  # nested too deeply, or with numbers of thousands of digits
         raise InputError(f"is no JSON of a material ({error}).") from None
     return from_plain(content)
 
 
 def _no_constant(name: str) -> float:
-    raise InputError(f"holds {name}; numbers of a material must be finite.")
+    raise InputError(f"holds {name}; numbers of a material must be finite.", code="damaged")
 
 
 def recognises_csv(text: str) -> bool:
@@ -274,7 +274,9 @@ def read_csv(text: str) -> Material:
         except InputError:
             raise
         except ValueError:
-            raise InputError(f"line {number}: the value of {name} is damaged; text wants quotation marks.") from None
+            raise InputError(
+                f"line {number}: the value of {name} is damaged; text wants quotation marks.", code="damaged"
+            ) from None
     columns = _COLUMNS.get(str(spectrum.get("kind")))
     if columns is None:
         raise InputError(
@@ -295,7 +297,7 @@ def _table(rows: list[tuple[int, str]], columns: dict[str, str]) -> dict[str, li
         except ValueError:
             raise InputError(f"line {number}: {line[:40]!r} is not a row of numbers parted by commas.") from None
         if len(values) != len(columns):
-            raise InputError(f"line {number}: {len(values)} numbers where {len(columns)} are wanted.")
+            raise InputError(f"line {number}: {len(values)} numbers where {len(columns)} are wanted.", code="damaged")
         for name, value in zip(columns, values, strict=True):
             table[name].append(value)
     return table

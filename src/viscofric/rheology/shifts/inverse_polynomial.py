@@ -86,7 +86,8 @@ class InversePolynomial(ParametricLaw):
             low, high = (celsius(end) for end in self.fitted_range)
             raise InputError(
                 f"the polynomial of degree {self.degree} rises with temperature somewhere between {low:z.1f} and "
-                f"{high:z.1f} °C, which no shift factor does; take a lower degree, or another law."
+                f"{high:z.1f} °C, which no shift factor does; take a lower degree, or another law.",
+                code="law-rises",
             )
 
     @property
@@ -112,14 +113,15 @@ class InversePolynomial(ParametricLaw):
         return InversePolynomial(moved @ self.parameters, kelvin, self.fitted_range, covariance)
 
     def unbounded(self) -> NoReturn:
-        """Raise `InputError`: a polynomial says nothing beyond its data."""
+        """Raise `InputError`: a polynomial is not valid beyond its data."""
         self._refuse_to_extrapolate()
 
     @staticmethod
     def _refuse_to_extrapolate() -> NoReturn:
         raise InputError(
-            "a polynomial law says nothing outside the temperatures that it was fitted on, so that it needs "
-            "their range (fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to go beyond."
+            "a polynomial law is valid only between the temperatures that it was fitted on: it needs their range "
+            "(fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to go beyond.",
+            code="polynomial-without-range",
         )
 
     def _shown_constants(self) -> list[str]:
@@ -136,10 +138,10 @@ class InversePolynomial(ParametricLaw):
         return np.stack([inverse**power for power in range(1, self.degree + 1)], axis=-1)
 
     def _cold(self) -> Reach:
-        return Reach(self.fitted_range[0] - NOMINAL, "a polynomial says nothing beyond its data")
+        return Reach(self.fitted_range[0] - NOMINAL, "a polynomial is not valid beyond its data")
 
     def _hot(self) -> Reach:
-        return Reach(self.fitted_range[1] + NOMINAL, "a polynomial says nothing beyond its data")
+        return Reach(self.fitted_range[1] + NOMINAL, "a polynomial is not valid beyond its data")
 
     def _remedy(self) -> str:
         return "measure isotherms there, or take a WLF or an Arrhenius law to go beyond"

@@ -169,7 +169,7 @@ def compare_laws(table: FactorTable) -> LawComparison:
     rows = [_row(kind, table) for kind in _COMPARED]
     fitted = [row for row in rows if row.law is not None]
     if not fitted:
-        raise InputError(f"no shift law describes these factors: {rows[0].refusal}")
+        raise InputError(f"no shift law describes these factors: {rows[0].refusal}", code="no-law")
     kind = _chosen(fitted).kind
     physical = [row for row in fitted if row.kind != "polynomial" or row.kind == kind]
     lowest = min(row.aic for row in physical)

@@ -71,7 +71,8 @@ class Family:
         shape = "rise with temperature" if factor <= 0.0 else "bend too little, or the wrong way"
         raise InputError(
             f"the shift factors from {low:z.1f} to {high:z.1f} °C {shape}: they do not fix the constants of the "
-            f"{title} law; take the measured ones, an Arrhenius law, or those of a narrower range of temperatures."
+            f"{title} law; take the measured ones, an Arrhenius law, or those of a narrower range of temperatures.",
+            code="no-law",
         )
 
 
@@ -101,7 +102,7 @@ class _Arrhenius(Family):
         unit = GAS_CONSTANT * LN10
         factor, _ = _scaled(self.values(np.array([unit])), values)
         if factor <= 0.0:
-            raise InputError("the shift factors rise with temperature: no Arrhenius law describes them.")
+            raise InputError("the shift factors rise with temperature: no Arrhenius law describes them.", code="no-law")
         return np.array([factor * unit])
 
 

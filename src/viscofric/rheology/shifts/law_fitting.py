@@ -107,13 +107,18 @@ def fit(kind: str, table: FactorTable, degree: int | None = None) -> ParametricL
 def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
     """Fit a law as `fit` does, and return its misfit too."""
     if kind not in LAWS:
-        raise InputError(f"law = {kind!r}: must be {', '.join(repr(one) for one in LAWS[:-1])} or {LAWS[-1]!r}.")
+        raise InputError(
+            f"law = {kind!r}: must be {', '.join(repr(one) for one in LAWS[:-1])} or {LAWS[-1]!r}.", code="unknown-law"
+        )
     if kind == "vft":  # the same curve, whose constants and covariance follow exactly
         wlf = fitted("wlf", table)
         return wlf._replace(law=wlf.law.to_vft())  # type: ignore[attr-defined]
     family = family_of(kind, table.temperatures, table.reference, degree)
     if len(table) < family.size:
-        raise InputError(f"{len(table) + 1} temperatures are too few to fit {kind!r}; give {family.size + 1} or more.")
+        raise InputError(
+            f"{len(table) + 1} temperatures are too few to fit {kind!r}; give {family.size + 1} or more.",
+            code="too-few-temperatures",
+        )
     try:
         bare = _least_squares(family, table, family.start(table.values), 0.0)
         found, scatter = _with_misfit(family, table, bare)
@@ -165,7 +170,8 @@ def _not_described(table: FactorTable, kind: str) -> InputError:
     low, high = celsius(float(table.temperatures[0])), celsius(float(table.temperatures[-1]))
     return InputError(
         f"the shift factors from {low:z.1f} to {high:z.1f} °C do not fix the constants of the {TITLES[kind]} law; "
-        "take the measured ones, another law, or the factors of a narrower range of temperatures."
+        "take the measured ones, another law, or the factors of a narrower range of temperatures.",
+        code="no-law",
     )
 
 

@@ -126,7 +126,8 @@ class WLF(ParametricLaw):
         if self.pole <= 0.0:
             raise InputError(
                 "the shift factors are too straight for a VFT law, whose pole would lie below absolute zero; use a WLF "
-                "or an Arrhenius law instead."
+                "or an Arrhenius law instead.",
+                code="no-law",
             )
         covariance = self._transformed([[self.C2, self.C1], [0.0, -1.0]])
         return VFT(self.C1 * self.C2, self.pole, self.reference, covariance, self.fitted_range, self.bounded)

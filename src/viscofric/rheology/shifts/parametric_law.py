@@ -190,8 +190,9 @@ class ParametricLaw(ShiftLaw):
         """Delta method: the gradient by the constants, through their covariance."""
         if self.covariance is None:
             raise InputError(
-                f"the constants of this {self.title} law were given without a covariance, so that its uncertainty is "
-                "not known; fit the law to measured shift factors, or give the covariance of its constants."
+                f"the uncertainty of this {self.title} law is not known, because its constants have no covariance; fit "
+                "the law to measured shift factors, or give the covariance.",
+                code="no-covariance",
             )
         return _spread(self._gradient(kelvin), self.covariance)
 
@@ -239,7 +240,7 @@ class ParametricLaw(ShiftLaw):
 
     def _known(self, end: float, farthest: float) -> Reach:
         """Go from an end of the fit as far as the law is known to half a decade, and at most some kelvin."""
-        reach = Reach(end + farthest, f"it is trusted no more than {abs(farthest):g} K beyond its data")
+        reach = Reach(end + farthest, f"it is used no more than {abs(farthest):g} K beyond its data")
         if self.covariance is None:
             return reach
         steps = np.linspace(0.0, farthest, 101)
@@ -277,7 +278,8 @@ class ParametricLaw(ShiftLaw):
             coldest = float(kelvin.min())
             raise InputError(
                 f"temperature = {celsius(coldest):z.1f} °C: the {self.title} law diverges at "
-                f"{celsius(self._divergence):z.1f} °C and holds above it only{kelvin_hint(coldest)}."
+                f"{celsius(self._divergence):z.1f} °C and is valid above it only{kelvin_hint(coldest)}.",
+                code="below-pole",
             )
         if not self.bounded or self.fitted_range is None or not np.any(self._outside(kelvin)):
             return
@@ -295,12 +297,13 @@ class ParametricLaw(ShiftLaw):
         low, high = self.fitted_range or (asked, asked)
         return InputError(
             f"temperature = {celsius(asked):z.1f} °C lies {gap:.3g} K {side} the {celsius(low):z.1f} to "
-            f"{celsius(high):z.1f} °C that this {self.title} law was fitted on, and it answers {direction} to "
-            f"{celsius(reach.limit):z.1f} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(asked)}."
+            f"{celsius(high):z.1f} °C that this {self.title} law was fitted on. It is valid {direction} to "
+            f"{celsius(reach.limit):z.1f} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(asked)}.",
+            code="outside-fitted",
         )
 
     def _remedy(self) -> str:
-        return "measure isotherms there, or lift the limit knowingly (unbounded() of the law, in Python)"
+        return "measure isotherms there, or lift the limit with unbounded() of the law, in Python"
 
 
 def shown_constant(constant: Constant, value: float, error: float) -> str:

@@ -211,13 +211,15 @@ class ShiftFactors(ShiftLaw):
         if abs(self.temperatures[place] - kelvin) > _NAMED_TEMPERATURE:
             shown = ", ".join(f"{celsius(one):z.1f}" for one in self.temperatures)
             raise InputError(
-                f"temperature = {celsius(kelvin):z.1f} °C has no shift factor to correct; there are those at {shown} °C"
-                f"{kelvin_hint(kelvin)}."
+                f"temperature = {celsius(kelvin):z.1f} °C has no shift factor to correct; the table has those at "
+                f"{shown} °C{kelvin_hint(kelvin)}.",
+                code="no-such-temperature",
             )
         if abs(self.temperatures[place] - self.reference) <= _SAME_TEMPERATURE * self.reference:
             raise InputError(
                 f"temperature = {celsius(kelvin):z.1f} °C is the reference, where the shift factor is 1; correct the "
-                "others, or choose another reference with at_reference(…) first."
+                "others, or choose another reference with at_reference(…) first.",
+                code="is-reference",
             )
         before = float(self.log10_values[place])
         covariance = self.covariance.copy()
@@ -310,7 +312,10 @@ class ShiftFactors(ShiftLaw):
         if above is not None:
             keep = self.temperatures >= positive(above, "K", "above")
         if np.count_nonzero(keep) < 2:
-            raise InputError(f"{np.count_nonzero(keep)} temperatures are too few to fit a law; give 2 or more.")
+            raise InputError(
+                f"{np.count_nonzero(keep)} temperatures are too few to fit a law; give 2 or more.",
+                code="too-few-temperatures",
+            )
         return law_fitting.FactorTable.of(
             self.temperatures[keep], self.log10_values[keep], self.covariance[np.ix_(keep, keep)], self.reference
         )

@@ -120,7 +120,7 @@ def read_vendor_law(path: str | PathLike[str]) -> WLF:
     found = _eplexor_list(source) if is_workbook(source) else None
     if found is None or found.wlf is None or found.reference is None:
         problem = f"is no Eplexor workbook whose sheet {SHIFT_LIST!r} states a reference temperature, C1 and C2."
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, problem, code="no-shift-list")
     try:
         return WLF(*found.wlf, found.reference)
     except InputError as error:
@@ -135,7 +135,7 @@ def _from_workbook(source: Source) -> ShiftTable:
     found = _eplexor_list(source)
     if found is None:
         problem = f"is a workbook without a sheet {SHIFT_LIST!r}; save its table of shift factors as CSV."
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, problem, code="no-shift-list")
     # The stated reference is the programmed temperature; α is 1 at the measured one.
     measured = found.measured_reference
     return ShiftTable(found.temperatures, found.log10_shifts, found.reference if measured is None else measured)
@@ -153,12 +153,15 @@ def _falling(path: str, kelvin: Array, values: Array, inverse: bool) -> Array:
     if np.polyfit(kelvin - kelvin.mean(), values, 1)[0] > 0.0:
         if inverse:
             raise DataFileError(
-                path, "the shift factors fall as the temperature rises already; leave out inverse=True."
+                path,
+                "the shift factors fall as the temperature rises already; leave out inverse=True.",
+                code="factors-fall",
             )
         raise DataFileError(
             path,
             "the shift factors rise with temperature, but α must fall, E(ω, T) = E(α(T) ω, T0); flip the sign of the "
             "logarithm, or give inverse=True.",
+            code="factors-rise",
         )
     return values
 
@@ -176,7 +179,9 @@ def _zero(path: str, kelvin: Array, values: Array, wanted: float | None) -> floa
         return wanted
     span = f"{celsius(kelvin[0]):z.1f} and {celsius(kelvin[-1]):z.1f} °C"
     how_often = "nowhere" if exact.size + between.size == 0 else "at more than one temperature"
-    raise DataFileError(path, f"log10 aT is zero {how_often} between {span}; say with reference= where α is 1.")
+    raise DataFileError(
+        path, f"log10 aT is zero {how_often} between {span}; say with reference= where α is 1.", code="no-reference"
+    )
 
 
 def _crossing(kelvin: Array, values: Array, place: int) -> float:

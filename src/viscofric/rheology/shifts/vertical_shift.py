@@ -229,7 +229,8 @@ class VerticalShiftFactors(VerticalShift):
             wanted = float(kelvin[outside][0])
             raise InputError(
                 f"temperature = {celsius(wanted):z.1f} °C lies outside {celsius(low):z.1f} to {celsius(high):z.1f} °C, "
-                f"where the vertical shift was measured; the density's, ρT/(ρ0 T0), goes beyond{kelvin_hint(wanted)}."
+                f"where the vertical shift was measured; the density's, ρT/(ρ0 T0), goes beyond{kelvin_hint(wanted)}.",
+                code="outside-measured",
             )
 
     def to_dataset(self, temperatures: Any = None) -> xarray.Dataset:

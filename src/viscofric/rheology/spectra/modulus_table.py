@@ -191,7 +191,8 @@ class ModulusTable(FrequencyResponse):
             wanted = float(np.ravel(omega[outside])[0])
             raise InputError(
                 f"angular frequency = {wanted:.4g} rad/s lies outside the table's {low:.4g} to {high:.4g} rad/s; "
-                "ModulusTable(…, extrapolate='plateau') takes its ends for plateaus, a spectrum is fitted to go beyond."
+                "extrapolate='plateau' takes its ends for plateaus, and a fitted spectrum goes beyond.",
+                code="outside-table",
             )
         inside = np.clip(omega, low, high)
         log_inside = np.clip(np.log(inside), np.log(low), np.log(high))
@@ -267,7 +268,8 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
     curve = _as_curve(table)
     if len(table) < 4:
         raise InputError(
-            f"a modulus table of {len(table)} frequencies is too short for retardation modes; give 4 or more."
+            f"a modulus table of {len(table)} frequencies is too short for retardation modes; give 4 or more.",
+            code="too-short",
         )
     misfit = ModulusMisfit(curve.angular_frequency, curve.complex_modulus)
     modes = nonnegative_modes(misfit, lattice(misfit, RATIOS[0]))
@@ -285,7 +287,8 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
         raise InputError(
             f"no retardation modes describe this table of moduli: the best leave an rms error of {error:.2g} decades "
             f"of E' and E'', more than {LARGEST_ERROR:g}, so that they are not one material's; smooth the table, or "
-            "fit a spectrum to its master curve with fit_retardation_spectrum(…)."
+            "fit a spectrum to its master curve with fit_retardation_spectrum(…).",
+            code="no-modes",
         )
     return judged(as_spectrum(modes), curve, method="non-negative")
 

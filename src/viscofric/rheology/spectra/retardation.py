@@ -80,7 +80,7 @@ class RetardationSpectrum(FrequencyResponse):
         self, E0: Quantity, E_inf: Quantity, C: ArrayLike, tau: ArrayLike, fit: SpectrumFit | None = None
     ) -> None:
         if to_si(E0, "Pa", "E0") == 0.0:
-            raise InputError("E0 = 0: a liquid has no rubber plateau; a spectrum needs E0 above zero.")
+            raise InputError("E0 = 0: a liquid has no rubber plateau; a spectrum needs E0 above zero.", code="liquid")
         object.__setattr__(self, "E0", positive(E0, "Pa", "E0"))
         object.__setattr__(self, "E_inf", positive(E_inf, "Pa", "E_inf"))
         object.__setattr__(self, "C", mode_column(C, "C", "1/Pa"))
@@ -283,7 +283,7 @@ class RelaxationSpectrum(FrequencyResponse):
         """
         modulus = self.complex_modulus(angular_frequency)
         if np.any(modulus == 0.0):
-            raise InputError("compliance at frequency 0: E0 = 0, a liquid flows without bound at rest.")
+            raise InputError("compliance at frequency 0: E0 = 0, a liquid flows without bound at rest.", code="liquid")
         return np.asarray(1.0 / modulus)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
@@ -310,8 +310,9 @@ class RelaxationSpectrum(FrequencyResponse):
         """
         if self.E0 == 0.0:
             raise InputError(
-                "E0 = 0: a liquid has no rubber plateau and creeps without end, so that it has no retardation spectrum "
-                "that a contact could use; give E0 above zero."
+                "E0 = 0: a liquid has no rubber plateau and creeps without end, so that it has no retardation "
+                "spectrum; give E0 above zero.",
+                code="liquid",
             )
         C, tau = reciprocal_modes(self.E0, self.E, self.tau)
         return RetardationSpectrum(self.E0, self.E_inf, C, tau)

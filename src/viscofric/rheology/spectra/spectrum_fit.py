@@ -152,7 +152,8 @@ def _regularised(
     if len(tau) < LEAST_SMOOTH:
         raise InputError(
             f"a smooth spectrum needs {LEAST_SMOOTH} retardation times, and tau_ratio = {tau_ratio:g} puts only "
-            f"{len(tau)} into the measured frequencies; give a smaller ratio, or method='non-negative'."
+            f"{len(tau)} into the measured frequencies; give a smaller ratio, or method='non-negative'.",
+            code="too-few-modes",
         )
     if not (regularisation is None or isinstance(regularisation, str)):
         return regularised.smooth_modes(misfit, tau, float(regularisation)), float(regularisation), ()
@@ -181,7 +182,8 @@ def _check(
         raise InputError(f"tau_ratio = {tau_ratio!r}: must be above 1.")
     if len(master_curve) < 4:
         raise InputError(
-            f"a master curve of {len(master_curve)} points is too short to fit a spectrum; give 4 or more."
+            f"a master curve of {len(master_curve)} points is too short to fit a spectrum; give 4 or more.",
+            code="too-short",
         )
     if method != "sparse":
         for name, value in (("modes", modes), ("largest_error", largest_error)):

@@ -151,7 +151,8 @@ def kramers_kronig(master_curve: MasterCurve) -> KramersKronig:
     span = float(np.log10(omega[-1] / omega[0])) if len(omega) else 0.0
     if span < 3.0 * EDGE:
         raise InputError(
-            f"a master curve over {span:.2g} decades is too short to test E' against E''; give {3 * EDGE:g} or more."
+            f"a master curve over {span:.2g} decades is too short to test E' against E''; give {3 * EDGE:g} or more.",
+            code="too-short",
         )
     weight = np.sqrt(count)
     tau = 10.0 ** np.arange(-np.log10(omega[-1]) - BEYOND, -np.log10(omega[0]) + BEYOND, 1.0 / MODES)

@@ -1,0 +1,256 @@
+"""Messages of the room: what is done, and the sentence that follows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+KELVIN = np.arange(0.0, 121.0, 10.0) + 273.15
+WLF = vf.WLF(8.0, 120.0, "30 degC")
+FITTED = vf.WLF(8.0, 120.0, "30 degC", covariance=np.diag([1e-6, 1e-4]), fitted_range=("0 degC", "120 degC"))
+FACTORS = vf.ShiftFactors(KELVIN, WLF.log10(KELVIN), 303.15)
+TWO = vf.ShiftFactors([273.15, 303.15], [1.0, 0.0], 303.15)
+SOLID = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+TABLE = vf.ModulusTable([1.0, 10.0], [3e6, 4e6], [3e5, 4e5])
+LIQUID = vf.RelaxationSpectrum(0.0, [1e6], [1.0])
+
+
+def written(name: str, text: str) -> str:
+    Path(name).write_text(text, encoding="utf-8")
+    return name
+
+
+SAID = [
+    (
+        lambda: FITTED("180 degC"),
+        "outside-fitted",
+        (
+            "temperature = 180.0 °C lies 60 K above the 0.0 to 120.0 °C that this WLF law was fitted on. It is "
+            "valid up to 170.0 °C only, because it is used no more than 50 K beyond its data; measure isotherms "
+            "there, or lift the limit with unbounded() of the law, in Python."
+        ),
+    ),
+    (
+        lambda: FITTED("-25 degC"),
+        "outside-fitted",
+        (
+            "temperature = -25.0 °C lies 25 K below the 0.0 to 120.0 °C that this WLF law was fitted on. It is "
+            "valid down to -20.0 °C only, because it is used no more than 20 K beyond its data; measure isotherms"
+            " there, or lift the limit with unbounded() of the law, in Python."
+        ),
+    ),
+    (
+        lambda: WLF("-100 degC"),
+        "below-pole",
+        "temperature = -100.0 °C: the WLF law diverges at -90.0 °C and is valid above it only.",
+    ),
+    (
+        lambda: WLF.standard_error("60 degC"),
+        "no-covariance",
+        (
+            "the uncertainty of this WLF law is not known, because its constants have no covariance; fit the law "
+            "to measured shift factors, or give the covariance."
+        ),
+    ),
+    (
+        lambda: vf.InversePolynomial([5000.0], "30 degC", None),
+        "polynomial-without-range",
+        (
+            "a polynomial law is valid only between the temperatures that it was fitted on: it needs their range "
+            "(fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to go beyond."
+        ),
+    ),
+    (
+        lambda: vf.InversePolynomial([-5000.0], "30 degC", ("0 degC", "60 degC")),
+        "law-rises",
+        (
+            "the polynomial of degree 1 rises with temperature somewhere between 0.0 and 60.0 °C, which no shift "
+            "factor does; take a lower degree, or another law."
+        ),
+    ),
+    (
+        lambda: FACTORS("130 degC"),
+        "outside-measured",
+        (
+            "temperature = 130.0 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
+            "Arrhenius) to go beyond."
+        ),
+    ),
+    (
+        lambda: FACTORS(60.0),
+        "outside-measured",
+        (
+            "temperature = -213.1 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
+            "Arrhenius) to go beyond; plain numbers are kelvin: for 60 °C write '60 degC'."
+        ),
+    ),
+    (
+        lambda: TWO.with_value("15 degC", 1.0),
+        "no-such-temperature",
+        "temperature = 15.0 °C has no shift factor to correct; the table has those at 0.0, 30.0 °C.",
+    ),
+    (
+        lambda: FACTORS.with_value("30 degC", 1.0),
+        "is-reference",
+        (
+            "temperature = 30.0 °C is the reference, where the shift factor is 1; correct the others, or choose "
+            "another reference with at_reference(…) first."
+        ),
+    ),
+    (
+        lambda: FACTORS.law("cubic"),
+        "unknown-law",
+        "law = 'cubic': must be 'wlf', 'arrhenius', 'vft', 'wlf+arrhenius' or 'polynomial'.",
+    ),
+    (lambda: TWO.law("wlf"), "too-few-temperatures", "2 temperatures are too few to fit 'wlf'; give 3 or more."),
+    (
+        lambda: vf.ShiftFactors(KELVIN, 0.01 * (KELVIN - 300), 303.15).law("arrhenius"),
+        "no-law",
+        "the shift factors rise with temperature: no Arrhenius law describes them.",
+    ),
+    (
+        lambda: vf.WLF(8.0, 400.0, "30 degC").to_vft(),
+        "no-law",
+        (
+            "the shift factors are too straight for a VFT law, whose pole would lie below absolute zero; use a "
+            "WLF or an Arrhenius law instead."
+        ),
+    ),
+    (
+        lambda: vf.VerticalShiftFactors(["0 degC", "60 degC"], [0.0, 0.04], "0 degC")("61 degC"),
+        "outside-measured",
+        (
+            "temperature = 61.0 °C lies outside 0.0 to 60.0 °C, where the vertical shift was measured; the "
+            "density's, ρT/(ρ0 T0), goes beyond."
+        ),
+    ),
+    (
+        lambda: TABLE.complex_modulus(100.0),
+        "outside-table",
+        (
+            "angular frequency = 100 rad/s lies outside the table's 1 to 10 rad/s; extrapolate='plateau' takes "
+            "its ends for plateaus, and a fitted spectrum goes beyond."
+        ),
+    ),
+    (
+        lambda: vf.Material(TABLE).modes_at(),
+        "too-short",
+        "a modulus table of 2 frequencies is too short for retardation modes; give 4 or more.",
+    ),
+    (
+        lambda: LIQUID.to_retardation(),
+        "liquid",
+        (
+            "E0 = 0: a liquid has no rubber plateau and creeps without end, so that it has no retardation "
+            "spectrum; give E0 above zero."
+        ),
+    ),
+    (
+        lambda: LIQUID.compliance(0.0),
+        "liquid",
+        "compliance at frequency 0: E0 = 0, a liquid flows without bound at rest.",
+    ),
+    (
+        lambda: vf.Material.standard_linear_solid("10 MPa", "1 MPa", "1 ms"),
+        "modulus-order",
+        "E0 = 1e+07 Pa must be below E_inf = 1e+06 Pa.",
+    ),
+    (
+        lambda: SOLID.at("60 degC"),
+        "no-shift",
+        (
+            "temperature = '60 degC': this material has no shift, so its temperature cannot be chosen; give "
+            "Material(spectrum, shift=WLF(…)) or leave the temperature out."
+        ),
+    ),
+    (
+        lambda: vf.Material(vf.RelaxationSpectrum("1 MPa", [9e6], [1e-4])),
+        "wrong-type",
+        (
+            "spectrum of a material must be a RetardationSpectrum or a ModulusTable, not RelaxationSpectrum; a "
+            "Prony series is turned into one by its to_retardation()."
+        ),
+    ),
+    (
+        lambda: vf.Material(SOLID.spectrum, vertical_shift=vf.DensityShift(303.15)),
+        "no-shift",
+        "vertical_shift of a material needs a shift too, which gives its reference.",
+    ),
+    (
+        lambda: vf.catalogue_material("VHB 4911"),
+        "unknown-material",
+        "name = 'VHB 4911': the catalogue has no such material; did you mean 'VHB 4910'?",
+    ),
+    (
+        lambda: vf.write_card(SOLID, "card", "abaqus", law="best"),
+        "no-table",
+        "law = 'best': the material has no table of shift factors to fit a law to; leave it out.",
+    ),
+    (
+        lambda: vf.write_card(SOLID, "card", "ansys"),
+        "incompressible",
+        (
+            "poisson_ratio = 0.5: ANSYS needs a Poisson ratio below 0.5 (MP,PRXY); choose a nearly incompressible"
+            " one for the card, write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G "
+            "changes with it)."
+        ),
+    ),
+    (
+        lambda: vf.write_card(SOLID, "card", "ls-dyna", poisson_ratio=0.49),
+        "no-density",
+        "LS-DYNA needs a density, such as write_card(…, density=1100) for 1100 kg/m³.",
+    ),
+    (
+        lambda: vf.write_card(SOLID, "card", "comsol", unit_system="MPa"),
+        "unit-system",
+        ("unit_system = 'MPa': comsol holds SI units; leave unit_system out (it is for abaqus, ansys, ls-dyna)."),
+    ),
+    (
+        lambda: vf.write_card(vf.Material(TABLE), "card", "abaqus"),
+        "no-modes",
+        (
+            "Abaqus holds a Prony series, and this material is a table of moduli without one; fit a spectrum "
+            'first, or write format="csv" or "json".'
+        ),
+    ),
+    (
+        lambda: vf.read_card(written("letter", "Dear colleague,\n")),
+        "unknown-card",
+        (
+            "letter: is not a material card. Supported are Abaqus, ANSYS and LS-DYNA cards with a Prony series, "
+            "COMSOL parameters, and material files of viscofric (JSON or CSV); `viscofric material fit` makes one"
+            " from DMA sweeps."
+        ),
+    ),
+    (
+        lambda: vf.read_shift_factors(written("a.csv", "T_C,log10_aT\n0,-1\n20,0\n40,1\n")),
+        "factors-rise",
+        (
+            "a.csv: the shift factors rise with temperature, but α must fall, E(ω, T) = E(α(T) ω, T0); flip the "
+            "sign of the logarithm, or give inverse=True."
+        ),
+    ),
+    (
+        lambda: vf.read_shift_factors(written("a.csv", "T_C,log10_aT\n0,3\n20,2\n40,1\n")),
+        "no-reference",
+        "a.csv: log10 aT is zero nowhere between 0.0 and 40.0 °C; say with reference= where α is 1.",
+    ),
+]
+
+
+@pytest.mark.parametrize(("does", "code", "message"), SAID, ids=[code for _, code, _ in SAID])
+def test_message(
+    does: Callable[[], object], code: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(vf.ViscofricError) as caught:
+        does()
+    assert (caught.value.code, str(caught.value)) == (code, message)
