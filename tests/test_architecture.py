@@ -98,13 +98,15 @@ def belongs(module: str, package: str) -> bool:
     return module == package or module.startswith(package + ".")
 
 
-def walk(node: ast.AST, at_run_time: bool = True) -> Iterator[tuple[ast.AST, bool]]:
-    yield node, at_run_time
-    typing_only = isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
-    for field, value in ast.iter_fields(node):
-        for child in value if isinstance(value, list) else [value]:
-            if isinstance(child, ast.AST):
-                yield from walk(child, at_run_time and not (typing_only and field == "body"))
+def walk(tree: ast.AST) -> Iterator[tuple[ast.AST, bool]]:
+    """Yield every node, and whether it belongs to the program when it runs."""
+    stack = [(tree, True)]
+    while stack:
+        node, at_run_time = stack.pop()
+        yield node, at_run_time
+        typing_only = isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+        body = set(map(id, node.body)) if typing_only and isinstance(node, ast.If) else set()
+        stack += [(child, at_run_time and id(child) not in body) for child in ast.iter_child_nodes(node)]
 
 
 def own_imports(module: str, text: str, is_package: bool = False) -> Iterator[Import]:
@@ -312,10 +314,10 @@ def test_no_file_names_a_place_on_one_machine() -> None:
         if path.resolve() == this_file:
             continue
         try:
-            lines = path.read_text("utf-8").splitlines()
+            text = path.read_text("utf-8")
         except UnicodeDecodeError:
             continue  # an instrument's or another binary file
-        found += [f"{path.relative_to(ROOT)}:{number}" for number, line in enumerate(lines, 1) if place.search(line)]
+        found += [f"{path.relative_to(ROOT)}: {one[0]}" for one in place.finditer(text)]
     assert not found
 
 
@@ -359,12 +361,16 @@ SEARCHES = ("startswith", "endswith", "partition", "rpartition", "removeprefix",
 def looks_into_sentences(text: str) -> Iterator[int]:
     """Yield the lines that search text for several words, an error's for any, compare it with many, or import `re`."""
     for node in ast.walk(ast.parse(text)):
+        if not isinstance(node, (ast.Import, ast.ImportFrom, ast.Compare, ast.Call)):
+            continue
         sought: list[ast.expr] = []
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             if "re" in [getattr(node, "module", None), *(alias.name for alias in node.names)]:
                 yield node.lineno
         elif isinstance(node, ast.Compare) and isinstance(node.ops[0], (ast.In, ast.NotIn)):
-            sought, least = [node.left], 1 if ast.unparse(node.comparators[0]) in ("str(error)", "str(note)") else 3
+            sought, least = [node.left], 3
+            if isinstance(node.left, ast.Constant) and ast.unparse(node.comparators[0]) in ("str(error)", "str(note)"):
+                least = 1
         elif isinstance(node, ast.Compare):
             sought, least = [node.left, *node.comparators], 5
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in SEARCHES:

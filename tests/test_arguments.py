@@ -325,6 +325,7 @@ CALLS: dict[str, Any] = {
         "workers": 1},
     "IdentifiedMaterial.standard_error": lambda: (identified(), {"angular_frequency": np.array([60.0]), "relative":
         None}),
+    "IdentifiedMaterial.to_dataset": lambda: (identified(), {"angular_frequency": np.array([60.0])}),
     "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":
         [300.0], "load": 1e3, "samples": None, "accuracy": 3e-2, "workers": 1, "progress": None, "finest": 2048},
     "shift_friction": lambda: {"curves": shifting(), "shift": None, "reference": 300.0, "vertical_shift": None,
@@ -469,7 +470,14 @@ def call(function, arguments):
 #: Names that take no argument, classes to derive from, and what needs a workbook of an instrument.
 WITHOUT_CALL = {"catalogue", "synthetic_fluoroelastomer", "ShiftLaw", "VerticalShift", "read_vendor_law"}
 #: What takes seconds, for what its good call needs.
-SLOW = {"IdentifiedMaterial.standard_error", "StudyResults.export", "StudyResults.to_csv", "open_results", "run_study"}
+SLOW = {
+    "IdentifiedMaterial.standard_error",
+    "IdentifiedMaterial.to_dataset",
+    "StudyResults.export",
+    "StudyResults.to_csv",
+    "open_results",
+    "run_study",
+}
 #: argument -> what it may be, where its annotation does not say it
 KINDS = {
     "fitted_range": "numbers", "coefficients": "numbers", "log10_values": "numbers", "levels": "numbers",

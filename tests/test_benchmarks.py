@@ -47,6 +47,7 @@ def numbers_of(results: dict[str, Any], start: str) -> list[dict[str, Any]]:
     return rows
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("benchmark_path")
 def test_benchmark_without_peers_and_without_real_data(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -136,6 +137,7 @@ def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: p
     assert row["relative_error"] < 2e-3
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     import stated_errors
@@ -157,6 +159,7 @@ def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys
     assert 0.0 < row["apart"] < 0.01 * row["size"]  # nearly in full contact
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_backend_benchmark_measures_what_is_there_and_names_what_is_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -202,6 +205,7 @@ def test_residual_of_the_rough_benchmark_is_that_of_the_pressures() -> None:
     assert rough.residual(spoilt, surface) > 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
     import scaling
@@ -215,6 +219,7 @@ def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
     assert large["megabytes"] > small["megabytes"]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_random_rough_contacts_are_all_counted(tmp_path: Path) -> None:
     import random_rough
@@ -259,6 +264,7 @@ def test_maxwell_benchmark_without_its_peer(tmp_path: Path, capsys: pytest.Captu
     assert "error" in peer
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_curve_benchmark_measures_its_true_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     import curve

@@ -104,7 +104,14 @@ def examples() -> list[doctest.DocTest]:
     return [one for one in found if one.examples]
 
 
-@pytest.mark.parametrize("example", examples(), ids=lambda one: one.name)
+#: Examples that take more than a second.
+LONG = {"identify_material", "open_results", "run_study"}
+
+
+@pytest.mark.parametrize(
+    "example",
+    [pytest.param(one, id=one.name, marks=[pytest.mark.slow] if one.name in LONG else []) for one in examples()],
+)
 def test_examples_of_docstrings_print_what_they_show(example, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")

@@ -204,6 +204,7 @@ def test_senseless_numbers_of_workers_are_refused(workers: Any) -> None:
         call_all(statistics.fmean, [], workers=workers)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="processes that lost their parent keep it there")
 def test_processes_end_with_the_one_that_started_them(tmp_path: Path) -> None:
     """Also where that is killed, and they are at work."""
@@ -274,6 +275,7 @@ def test_a_call_beyond_its_time_is_ended(children: list[Any]) -> None:
     assert children[0].returncode is not None
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems may have no limit of address space")
 def test_a_call_beyond_its_memory_fails_and_the_next_one_works(limited: LimitedProcess, children: list[Any]) -> None:
     with pytest.raises(MemoryError):

@@ -149,7 +149,8 @@ def check_study(block: Block, folder: Path) -> None:
 def as_case(page: Path) -> Any:
     """Return a page as a test's case: those of the site, which take a minute, are tests of their own step."""
     name = page.relative_to(ROOT).as_posix()
-    return pytest.param(page, id=name, marks=[pytest.mark.apart] if name.startswith("docs/") else [])
+    marks = [pytest.mark.apart] if name.startswith("docs/") else [pytest.mark.slow] if name == "README.md" else []
+    return pytest.param(page, id=name, marks=marks)
 
 
 @pytest.fixture

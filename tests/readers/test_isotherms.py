@@ -259,6 +259,7 @@ def test_strain_amplitudes_that_differ_by_a_third_are_told():
     assert notes_with(sweeps, "amplitudes-differ") != []
 
 
+@pytest.mark.slow
 def test_a_step_for_every_point_takes_no_time():
     count = 30_000
     hertz = np.geomspace(0.1, 10.0, count)

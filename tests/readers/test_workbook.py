@@ -120,6 +120,7 @@ def test_a_workbook_without_moduli_is_refused_with_its_sheets(tmp_path):
         read_dma(write(tmp_path / "a.xlsx", {"A": [["x"]], "B": []}))
 
 
+@pytest.mark.slow
 def test_an_ordinary_workbook_is_quick(tmp_path):
     path = one_sheet(tmp_path)
     read_dma(path)  # imports
@@ -161,6 +162,7 @@ def test_a_cell_far_off_is_refused_though_its_name_is_hidden(tmp_path):
         read_dma(path)
 
 
+@pytest.mark.slow
 def test_an_archive_that_unpacks_to_gigabytes_is_refused(tmp_path):
     path = write(tmp_path / "bomb.xlsx", {"DMA": rows()})
     changed(path, "xl/worksheets/sheet1.xml", lambda data: data + b" " * 60_000_000)
