@@ -100,7 +100,7 @@ def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:
     assert verdict["half-space"] == 0  # contacts of 4 mm across on 5 mm of rubber
     assert verdict["one temperature"] == 1
     (sentence,) = checked["sentence"].values[checked["assumption_name"].values == "half-space"]
-    assert "do not pass for a half-space" in sentence
+    assert "cannot be taken as a half-space" in sentence
     assert "friction on a bonded layer of 5 mm is about" in sentence
     (warning,) = (one for one in results.warnings if one.code == "half-space")
     assert sentence == warning.words("run_file")

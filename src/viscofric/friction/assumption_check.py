@@ -30,13 +30,13 @@ class AssumptionCheck:
     name : str
         "half-space", "small contact", "linearity", "uncoupled" or "one temperature".
     value : float or None
-        What is judged, a pure number, at most; None where something needed was not given.
+        The number compared with the limit, an upper bound; None where something needed was not given.
     limit : float
         Largest value at which the assumption holds well.
     holds : bool or None
-        Whether it does; None where it cannot be told.
+        Whether it holds; None where that is unknown.
     sentence : str
-        The same in words, with lengths in mm and temperatures in °C.
+        The check in words, with lengths in mm and temperatures in °C.
     """
 
     name: str
@@ -85,18 +85,18 @@ def verdict(low: float, high: float, limit: float) -> bool | None:
 
 @dataclass(frozen=True)
 class ContactSize:
-    """Size of one contact, in m and 1/m.
+    """Size of one contact, as solved or between two of Hertz's, in m and 1/m.
 
     Attributes
     ----------
     smallest, largest : float
-        Between what radii it lies; the same where it was solved.
+        Limits of its radius; the same where it was solved.
     relaxed : float
-        Hertz's at the rubber modulus E0, of a round contact: none is larger.
+        Hertz's at the relaxed modulus E0, of a round contact: none is larger.
     curvature : float
-        Of the paraboloid in the indenter's place.
+        Of the equivalent paraboloid.
     where : str
-        At what temperature, speed and load, in words.
+        Temperature, speed and load, in words.
     """
 
     smallest: float
@@ -109,7 +109,7 @@ class ContactSize:
     def of(
         cls, material: Material, indenter: Indenter, curves: FrictionCurves, row: int, solved: float | None
     ) -> ContactSize:
-        """Tell it for a point of friction curves, given the solved radius, if there is one."""
+        """Return the size at a point of friction curves, given the solved radius, if there is one."""
         spectrum = material.modes_at(float(curves.temperature[row]))
         plane_strain = 1.0 - material.poisson_ratio**2
         scale = Scale.for_load(indenter, spectrum.E0 / plane_strain, float(curves.load[row]))
@@ -131,7 +131,7 @@ class ContactSize:
             return f"The contact's radius is {1e3 * self.largest:.2g} mm ({self.where})"
         return (
             f"The contact's radius is about {1e3 * self.smallest:.2g} and at most {1e3 * self.largest:.2g} mm "
-            f"(Hertz's at |E(v/a)| and at the rubber modulus, {self.where})"
+            f"(Hertz's at |E(v/a)| and at the relaxed modulus, {self.where})"
         )
 
 

@@ -1,4 +1,4 @@
-"""Whether what the friction of a half-space takes for granted holds: thickness, small strain, one temperature."""
+"""Check of the assumptions behind predicted friction: half-space, small strain, no coupling, one temperature."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 #: Representative strain under a ball over a/R (D. Tabor, The Hardness of Metals (1951); K. L. Johnson, Contact
 #: Mechanics (1985), section 6.3).
 REPRESENTATIVE_STRAIN = 0.2
-#: Change of friction by warming or by the rubber's thickness that passes, relative: tribometers repeat no better.
+#: Acceptable relative change of friction by warming or by the rubber's thickness: tribometers repeat no better.
 CHANGE = 0.05
 _SOLVE = "solve the contact and give contact_radius"
 
@@ -40,7 +40,7 @@ def check_assumptions(
     rubber: ThermalProperties = FILLED_RUBBER,
     counterbody: ThermalProperties = PTFE,
 ) -> tuple[AssumptionCheck, ...]:
-    """Check for every point of friction curves what predicted friction takes for granted, and tell of the worst.
+    """Check the assumptions behind predicted friction at every point of friction curves; return the worst case of each.
 
     Parameters
     ----------
@@ -48,16 +48,16 @@ def check_assumptions(
         With a shift.
     indenter : Indenter
     curves : FrictionCurves
-        Measured or predicted: speeds, temperatures, loads and friction.  Measured ones also tell the Coulomb friction
+        Measured or predicted: speeds, temperatures, loads and friction.  Measured ones also have the Coulomb friction
         and the sliding velocity, and with them the heat on the surface.
     thickness : float, str or pint.Quantity, optional
-        Of the rubber, m; its base is taken for bonded, on which it is felt more than on a sliding one.
+        Of the rubber, m; its base is taken as bonded, which changes friction more than a sliding one.
     contact_radius : float, str, pint.Quantity, or one for each point, optional
-        Half width or half length of the contact, whichever is larger, where it was solved, m.  If not given, it lies
-        between Hertz's at |E(ω = v/a)|, an estimate, and at the rubber modulus E0: no contact on this rubber is wider.
+        Half width or half length of the solved contact, whichever is larger, m.  If not given, it lies between Hertz's
+        at |E(ω = v/a)|, an estimate, and Hertz's at the relaxed modulus E0, the largest possible on this material.
     rubber, counterbody : ThermalProperties
-        Of the rubber and of the indenter.  If not given, typical handbook values of a filled rubber and of PTFE, which
-        of the usual balls takes the least heat.
+        Of the rubber and of the indenter.  If not given, typical handbook values of a filled rubber and of PTFE, the
+        usual ball material that conducts the least heat.
 
     Returns
     -------
@@ -67,9 +67,9 @@ def check_assumptions(
         - "small contact": contact radius over the radius of a ball or cylinder (of the paraboloid that is as deep, for
           other shapes), at most 0.3.
         - "linearity": representative strain 0.2 a/R, at most that of the limit above, 6 %.
-        - "uncoupled", where Coulomb friction is known: what its shear moves the surface by, normal to it, over what the
-          pressure does, at most 0.02.  It vanishes on a half-space of ν = ½ only.
-        - "one temperature": relative change of friction by the heat that it makes itself, at most 5 %.
+        - "uncoupled", where Coulomb friction is known: normal displacement of the surface due to its shear, over that
+          due to the pressure, at most 0.02.  It vanishes on a half-space of ν = ½ only.
+        - "one temperature": relative change of friction by its own heat, at most 5 %.
 
     Raises
     ------
@@ -78,18 +78,19 @@ def check_assumptions(
 
     Notes
     -----
-    What the thickness changes is estimated from the waves that are longer than the layer is thick (see
-    `viscofric.friction.finite_thickness`), with the friction of the curves for that on the half-space.  Against layers
-    solved on four contact radii and more it is true to 8 % of the change under a ball, 20 % under a cylinder and half
-    of it under other shapes, or to 0.002 of friction (0.006 for other shapes) where that is more.  Broad spectra, and
-    memory longer than the layer is thick, vτ > H, feel the base farther than the contact's size does.
+    The effect of the thickness is estimated from the waves longer than the layer is thick (see
+    `viscofric.friction.finite_thickness`), taking the friction of the curves as that on the half-space.  Compared with
+    solved layers of four contact radii and more, it is accurate to 8 % of the change under a ball, 20 % under a
+    cylinder and 50 % under other shapes, or to 0.002 of friction (0.006 for other shapes) where that is more.  With
+    broad spectra, and with memory longer than the thickness, vτ > H, the base matters at larger thicknesses than the
+    contact's size suggests.
 
-    Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction by what the rubber's own, to first order
-    in the loss, changes by on that way, at every point by itself.  ΔT is the flash
-    temperature of the Coulomb heat μ_c F v_slip, shared between the bodies, and the warming of the bulk by the
-    viscoelastic loss (see `viscofric.friction.warming`), on a contact as small as it may be.
-    That is an upper bound on what matters: the Coulomb heat warms a thin skin only.  Heat left from one turn of the
-    disc to the next is not counted; a thermometer in the rubber tells of it.
+    Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction by the change of the material's own
+    friction along that shift, to first order in the loss, at each point separately.  ΔT is the flash temperature of the
+    Coulomb heat μ_c F v_slip, shared between the bodies, and the warming of the bulk by the viscoelastic loss (see
+    `viscofric.friction.warming`), on a contact of the smallest possible size.  It is an upper bound: the Coulomb heat
+    warms a thin skin only.  Heat that remains from one turn of the disc to the next is not included; measure it with a
+    thermometer in the rubber.
 
     Examples
     --------
@@ -106,13 +107,16 @@ def check_assumptions(
     insist_on_curves(curves, "curves")
     insist_on_material(material)
     if not len(curves):
-        raise InputError("friction curves hold no points; there are no contacts to check.")
+        raise InputError("friction curves hold no points; there are no contacts to check.", code="no-points")
     insist_on_indenter(indenter)
     if material.shift is None:
-        raise InputError("material has no shift; what friction makes of warming cannot be told without α(T).")
+        raise InputError("material has no shift; the effect of warming on friction needs α(T).", code="no-shift")
     for name, body in (("rubber", rubber), ("counterbody", counterbody)):
         if not isinstance(body, ThermalProperties):
-            raise InputError(f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.")
+            raise InputError(
+                f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.",
+                code="not-thermal-properties",
+            )
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))
     sizes = [
         ContactSize.of(material, indenter, curves, row, None if radii is None else float(radii[row]))
@@ -124,8 +128,8 @@ def check_assumptions(
         warming = Warming.of(material, indenter, curves, [size.smallest for size in sizes], rubber, counterbody)
         isothermal = _one_temperature(curves, [size.where for size in sizes], warming, rubber, counterbody)
     except InputError as error:  # the shift factors end where their slope is asked for
-        said = f"What warming changes in friction cannot be told: {error}"
-        isothermal = AssumptionCheck("one temperature", None, CHANGE, None, said)
+        sentence = f"The effect of warming on friction is unknown: {error}"
+        isothermal = AssumptionCheck("one temperature", None, CHANGE, None, sentence)
     thick = None if thickness is None else positive(thickness, "m", "thickness")
     coupled = check_coupling(curves, material.poisson_ratio, thick, sizes)
     return (
@@ -141,7 +145,8 @@ def _radii(given: Quantities, count: int) -> Array:
     radii = to_si_array(given, "m", "contact_radius")
     if radii.size not in (1, count) or not np.all(radii > 0.0):
         raise InputError(
-            f"contact_radius must hold one length above zero, or one for each of the {count} points, in m."
+            f"contact_radius must hold one length above zero, or one for each of the {count} points, in m.",
+            code="contact-radius",
         )
     return np.broadcast_to(radii, (count,))
 
@@ -150,11 +155,11 @@ def _small_contact(size: ContactSize, noun: str) -> AssumptionCheck:
     low, high = size.smallest * size.curvature, size.largest * size.curvature
     holds = verdict(low, high, SMALL_STRAIN)
     ratio = f"{high:.2f}" if low == high else f"{low:.2f} to {high:.2f}"
-    said = f"{size}, {ratio} of the {noun}'s radius: up to {SMALL_STRAIN:g} half-space and parabolic {noun} serve"
-    said += {True: ".", None: f"; {_SOLVE}.", False: ", beyond they are doubtful; press less or use a larger one."}[
-        holds
-    ]
-    return AssumptionCheck("small contact", high, SMALL_STRAIN, holds, said)
+    rest = {True: ".", None: f"; {_SOLVE}.", False: "; reduce the load, or use a larger one."}[holds]
+    sentence = (
+        f"{size}, {ratio} of the {noun}'s radius; half-space and parabolic {noun} hold up to {SMALL_STRAIN:g}{rest}"
+    )
+    return AssumptionCheck("small contact", high, SMALL_STRAIN, holds, sentence)
 
 
 def _linearity(size: ContactSize) -> AssumptionCheck:
@@ -162,13 +167,12 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
     limit = REPRESENTATIVE_STRAIN * SMALL_STRAIN
     holds = verdict(low, high, limit)
     strain = f"{100 * high:.2g} %" if low == high else f"{100 * low:.2g} to {100 * high:.2g} %"
-    beside = {True: "within", None: "about", False: "beyond"}[holds]
-    said = (
-        f"The rubber is strained by {strain} (0.2 a/R, {size.where}), {beside} the {100 * limit:.2g} % up to which "
-        "contact theory is linear; a filled rubber may soften from a tenth of a per cent on (Payne effect), which only "
-        "a strain sweep shows."
+    compared = {True: "within", None: "about", False: "beyond"}[holds]
+    sentence = (
+        f"The strain of the rubber is {strain} (0.2 a/R, {size.where}), {compared} the limit of linear contact theory, "
+        f"{100 * limit:.2g} %; filled rubber may soften above 0.1 % (Payne effect), which only a strain sweep shows."
     )
-    return AssumptionCheck("linearity", high, limit, holds, said)
+    return AssumptionCheck("linearity", high, limit, holds, sentence)
 
 
 def _one_temperature(
@@ -180,14 +184,14 @@ def _one_temperature(
 ) -> AssumptionCheck:
     worst = int(np.argmax(warming.change))
     surface, bulk, decades, change = (float(column[worst]) for column in warming)
-    counted = f"Coulomb heat warms the surface by {surface:.2g} K and the viscoelastic loss"
+    warmed = f"Coulomb heat warms the surface by {surface:.2g} K and the viscoelastic loss"
     if curves.coulomb is None or curves.slip is None:
-        counted = "Coulomb heat is not counted, for no Coulomb friction is known; the viscoelastic loss warms"
+        warmed = "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms"
     holds = change <= CHANGE
-    served = ": one temperature serves." if holds else f", above the {100 * CHANGE:.0f} % that pass: slide more slowly."
-    said = (
-        f"{counted} the rubber by {bulk:.2g} K at most ({places[worst]}; typical handbook values of {rubber.name} "
-        f"and {counterbody.name} are assumed). That shifts the speed by {decades:.2g} decades and friction by "
-        f"{plain(100 * change, 2)} %{served}"
+    limit = f"within {100 * CHANGE:.0f} %." if holds else f"above {100 * CHANGE:.0f} %; slide more slowly."
+    sentence = (
+        f"{warmed} the rubber by {bulk:.2g} K at most ({places[worst]}; typical handbook values of {rubber.name} "
+        f"and {counterbody.name} are assumed). This shifts the speed by {decades:.2g} decades and friction by "
+        f"{plain(100 * change, 2)} %, {limit}"
     )
-    return AssumptionCheck("one temperature", change, CHANGE, holds, said)
+    return AssumptionCheck("one temperature", change, CHANGE, holds, sentence)

@@ -1,7 +1,8 @@
-"""Whether Coulomb friction leaves the pressure alone: how far tangential and normal displacements are coupled.
+"""Coupling of tangential and normal displacements, by which Coulomb friction changes the pressure.
 
-Under a wave of shear of unit amplitude the surface of a layer of thickness H on a bonded base moves up and down by X
-times what a wave of pressure moves a half-space's, where it moves the layer's by Θ (see `viscofric.contact.bodies`).
+A wave of shear of unit amplitude moves the surface of a layer of thickness H on a bonded base in normal direction by
+X times the displacement of a half-space under a wave of pressure, which moves the layer's by Θ (see
+`viscofric.contact.bodies`).
 With Q = qH and κ = 3 − 4ν, by the same equations ::
 
     X = [2κ(κ−1)/(κ+1) (cosh 2Q − 1) − 8Q²/(κ+1)] / [2κ cosh 2Q + 1 + κ² + 4Q²]
@@ -28,15 +29,15 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
 
 
-#: Shear that changes the surface by a larger part of what pressure does is told: as much as of ν = 0.49 under μ_c = 1.
+#: Largest acceptable displacement by shear, over that by pressure: that of ν = 0.49 under μ_c = 1.
 LARGEST = 0.02
-# Waves times the contact's radius, from those that hold nothing of the pressure to those that hold nothing any more.
+# Wave numbers times the contact's radius, over the whole spectrum of the pressure.
 _WAVES = np.exp(np.arange(-5.0, 5.0, 0.05))
 _DEEP = 20.0  # qH from which on a layer is a half-space to 1e-15
 
 
 def coupling(poisson_ratio: float, thickness: float | None = None) -> float:
-    """Return what Coulomb friction 1 moves a contact's surface by, over what its pressure does.
+    """Return the normal displacement of a contact's surface by Coulomb friction 1, over that by its pressure.
 
     Parameters
     ----------
@@ -60,17 +61,9 @@ def coupling(poisson_ratio: float, thickness: float | None = None) -> float:
 def check_coupling(
     curves: FrictionCurves, poisson_ratio: float, thickness: float | None = None, sizes: Sequence[ContactSize] = ()
 ) -> AssumptionCheck | None:
-    """Check it for points of friction curves whose Coulomb friction is known, at the worst; None if none is.
+    """Check the coupling at points of friction curves of known Coulomb friction, at the worst; None if none is known.
 
-    Parameters
-    ----------
-    curves : FrictionCurves
-    poisson_ratio : float
-        Of the rubber.
-    thickness : float, optional
-        Of the rubber, m; a half-space without it.
-    sizes : sequence of ContactSize
-        Of the contact at each point; what the thickness is compared with.
+    `thickness` is that of the rubber, m (a half-space without it), compared with the sizes of the contacts.
     """
     if curves.coulomb is None or not np.any(np.isfinite(curves.coulomb)):
         return None
@@ -92,14 +85,15 @@ def check_coupling(
     size = f"{high:.2g}" if f"{low:.2g}" == f"{high:.2g}" else f"{low:.2g} to {high:.2g}"
     on = "a half-space" if thickness is None else f"a bonded layer of {1e3 * thickness:.3g} mm"
     said = (
-        f"Coulomb friction of {rubbed[row]:.2g} moves the surface of {on} (ν = {poisson_ratio:g}) up and down by about "
-        f"{size} of what the pressure does ({place_of(curves, row)}), which contacts solved without shear leave out"
+        f"Coulomb friction of {rubbed[row]:.2g} moves the surface of {on} (ν = {poisson_ratio:g}) in normal direction "
+        f"by about {size} of its displacement by the pressure ({place_of(curves, row)}); contacts solved without shear "
+        "neglect this"
     )
     said += {
-        True: f"; up to {LARGEST:g} counts as none.",
-        None: f"; up to {LARGEST:g} counts as none, and which it is depends on the contact's size: solve the contact "
-        "and give contact_radius.",
-        False: f". More than {LARGEST:g} is doubtful: viscoelastic friction may change by a part of that order, and "
-        "with the sense of slip; slip less, rub less (PTFE, lubricant), or use thicker rubber.",
+        True: f"; negligible up to {LARGEST:g}.",
+        None: f"; negligible up to {LARGEST:g}, which depends on the contact's size: solve the contact and give "
+        "contact_radius.",
+        False: f". Above {LARGEST:g} it is doubtful: viscoelastic friction may change by a part of that order, and "
+        "with the sense of slip; reduce slip or Coulomb friction (PTFE, lubricant), or use thicker rubber.",
     }[holds]
     return AssumptionCheck("uncoupled", high, LARGEST, holds, Note("tangential-coupling", said))

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
 
 
-#: Fewer second differences than these tell no scatter.
+#: Fewer second differences do not give a scatter.
 FEWEST_DIFFERENCES = 6
-#: Errors that are smaller than this are those of solved contacts, not of a measurement: nobody averaged them.
+#: Smaller relative errors are those of solved contacts, not of a measurement.
 SOLVED = 1e-3
-#: So many times the scatter of neighbours, that of all holds a course of the errors.
+#: Above so many times the scatter of neighbours, the scatter of all includes a trend of the errors.
 COURSE = 2.0
-#: Errors that scatter no more than those of so many degrees of freedom are taken for known.
+#: Errors that scatter no more than those of so many degrees of freedom are taken as known.
 MANY = 60.0
 #: The power μFv that is lost in a linear rubber does not fall as it is deformed faster, to first order in the loss:
 #: waves of frequency ω lose ω²τ/(1 + ω²τ²) in a mode, and a contact that becomes smaller presses harder.
@@ -33,15 +33,11 @@ _FEWEST_POINTS = 3
 
 
 def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
-    """Return the degrees of freedom behind the standard errors of viscoelastic friction, (n,), and a note if inferred.
+    """Return the degrees of freedom of the standard errors of viscoelastic friction, (n,), and a note if inferred.
 
-    As given; else one less than the replicates; and where neither is given, from how the errors scatter from one speed
-    to the next: ln s² of f degrees of freedom scatters by ψ′(f/2), and a smooth course of the errors has no second
-    differences.  Infinite where the errors are known, or nothing says that they are not.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
+    As given; else the replicates minus one; and where neither is given, from the scatter of the errors from one speed
+    to the next: ln s² of f degrees of freedom has the variance ψ′(f/2), and a smooth course of the errors has no second
+    differences.  Infinite where the errors are known, or do not appear to scatter.
     """
     if curves.viscoelastic_freedom is not None:
         return np.maximum(curves.viscoelastic_freedom, 1.0), ()
@@ -56,22 +52,22 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     if count < FEWEST_DIFFERENCES or np.median(relative[asked]) < SOLVED:
         return freedom, ()
     rough = squares / (6.0 * count)  # 1 + 4 + 1 variances in each
-    # Where no course is seen beside the scatter, the scatter of all tells it better than that of neighbours.
+    # Without a trend, the scatter of all is a better estimate than that of neighbours.
     everything = float(np.var(np.log(relative[asked] ** 2), ddof=1))
     seen = freedom_of_scatter(everything if everything < COURSE * rough else rough)
     if seen > MANY:
         return freedom, ()
     note = Note(
         "inferred-freedom",
-        f"The standard errors of friction scatter from one speed to the next as those of {seen + 1.0:.0f} replicates "
-        "do, whose number was not given: they are taken for that uncertain, and neighbours moderate them; give the "
+        "The standard errors of friction scatter from one speed to the next like those of "
+        f"{seen + 1.0:.0f} replicates, a number that was not given: it is assumed, and each error is averaged with its neighbours; give the "
         "replicates, or degrees of freedom.",
     )
     return np.where(asked, seen, freedom), (note,)
 
 
 def freedom_of_scatter(variance: float) -> float:
-    """Return the degrees of freedom f whose sample variances scatter so much: ψ′(f/2) is the variance of ln s²."""
+    """Return the degrees of freedom f of sample variances with a variance of ln s², which is ψ′(f/2)."""
     from scipy.optimize import brentq
     from scipy.special import polygamma
 
@@ -84,12 +80,9 @@ def freedom_of_scatter(variance: float) -> float:
 
 
 def implausible(curves: FrictionCurves) -> tuple[Note, ...]:
-    """Say what of friction curves no rubber does: notes "too-steep" and "constant-friction".
+    """Return notes on friction that no rubber has, "too-steep" and "constant-friction".
 
-    Parameters
-    ----------
-    curves : FrictionCurves
-        At one load; points of unknown error, or not above zero, are passed over.
+    The curves are at one load; points of unknown error, or not above zero, are ignored.
     """
     known = np.isfinite(curves.viscoelastic_error) & (curves.viscoelastic > 0.0)
     return (*_too_steep(curves.select(known)), *_constant(curves.select(known)))
@@ -112,8 +105,8 @@ def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
     if not np.isfinite(steepest):
         return ()
     said = (
-        f"Friction at {where} goes as v to the power {steepest:.2g}: faster than 1/v that of a linear rubber never "
-        "falls, because the power lost in it would fall as it is deformed faster; check speeds, forces and lubrication."
+        f"Friction at {where} falls as v to the power {steepest:.2g}. That of a linear rubber never falls faster than "
+        "1/v, because the power lost in it does not fall with speed; check speeds, forces and lubrication."
     )
     return (Note("too-steep", said),)
 
@@ -129,7 +122,7 @@ def _constant(curves: FrictionCurves) -> tuple[Note, ...]:
     if chdtrc(len(curves) - 1, float(weight @ away**2)) < CHANCE:
         return ()
     said = (
-        f"Friction of all {len(curves)} points is the same within its errors: so is Coulomb friction, and nothing "
-        "tells that it comes from the rubber's loss; measure over more speeds and temperatures, or separate the two."
+        f"Friction of all {len(curves)} points is the same within its errors, as Coulomb friction is; it may not come "
+        "from the rubber's loss; measure at more speeds and temperatures, or separate the two."
     )
     return (Note("constant-friction", said),)

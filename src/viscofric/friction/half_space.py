@@ -1,4 +1,4 @@
-"""Whether rubber of finite thickness passes for a half-space: by the contact's size, and by what friction changes."""
+"""Whether rubber of finite thickness can be taken as a half-space, by the contact's size and the change of friction."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.units import Quantity
 
-#: A layer thinner than so many contact radii never passes for a half-space.
+#: A layer thinner than so many contact radii is never taken as a half-space.
 THICK = 4.0
-# A change so small is told as that much at most.
+# Smaller changes are given as at most this.
 _SMALLEST = 1e-3
 
 
 @dataclass(frozen=True)
 class _OnLayers:
-    """A contact of friction curves, to be put on layers, and where it is."""
+    """A contact of friction curves on layers, and its conditions in words."""
 
     contact: ContactOnLayers
     where: str
@@ -38,7 +38,7 @@ class _OnLayers:
         contact = ContactOnLayers(
             material.modes_at(float(curves.temperature[row])),
             material.poisson_ratio,
-            # a long ellipse is felt, far away, as the circle that is no larger than that
+            # far away a long ellipse acts as a circle no larger than this
             min(size.smallest, size.relaxed),
             size.curvature,
             float(curves.speed[row]),
@@ -56,18 +56,10 @@ def check_half_space(
     thickness: Quantity | None,
     passes: float,
 ) -> AssumptionCheck:
-    """Check it for all points of friction curves, and tell of the worst.
+    """Check the half-space at all points of friction curves, of contacts of given sizes; return the worst case.
 
-    Parameters
-    ----------
-    material : Material
-    curves : FrictionCurves
-    sizes : sequence of ContactSize
-        Of the contact at each point.
-    thickness : float, str or pint.Quantity, optional
-        Of the rubber, m; how thick it had to be is told if not given.
-    passes : float
-        Relative change of friction up to which rubber passes for a half-space.
+    `thickness` is that of the rubber, m; if not given, the sentence names the one needed.  Rubber is taken as a
+    half-space if the relative change of friction is at most `passes`.
     """
     # By both bounds: the upper one, at E0, is often the same everywhere.
     widest = max(sizes, key=lambda size: size.largest * size.smallest)
@@ -81,9 +73,8 @@ def check_half_space(
     radii, percent = f"{THICK:.0f} contact radii, {1e3 * THICK * widest.largest:.2g} mm", f"{100.0 * passes:.0f} %"
     if given is None:
         said = (
-            f"{widest}. Rubber passes for a half-space from {radii}, on, if friction on it is that on the half-space "
-            f"within {percent}: on a bonded layer from about {_mm(enough)} on{there}. How thick it is was not "
-            "told."
+            f"{widest}. The half-space assumption needs a thickness above {radii}, and about {_mm(enough)} for "
+            f"friction within {percent} on a bonded layer{there}; no thickness was given."
         )
         return AssumptionCheck("half-space", None, limit, None, said)
     holds = verdict(widest.smallest / given, widest.largest / given, 1.0 / THICK)
@@ -91,17 +82,16 @@ def check_half_space(
     rubber, felt = f"{_mm(given)} of rubber{compared}", f"{_effect(effect, given, worst)}{there}"
     if abs(effect.friction) <= passes and holds is not False:
         said = {
-            True: f"{widest}, so that {rubber} pass for a half-space: {felt}.",
-            None: f"{widest}. Whether {rubber} pass for a half-space depends on it: solve the contact and give "
-            f"contact_radius. As it is estimated, {felt}.",
+            True: f"{widest}, so that {rubber} can be taken as a half-space: {felt}.",
+            None: f"{widest}. Whether {rubber} can be taken as a half-space depends on it: solve the contact and give "
+            f"contact_radius. With the estimate, {felt}.",
         }[holds]
     else:
         why = ":" if abs(effect.friction) > passes else ", although"
         called = Remedy("layer=Layer(…)", "--layer", "[layer]", "“Layer”", "layer")
         said = Note(
             "too-thin",
-            f"{widest}. {rubber} do not pass for a half-space{' all the same' if holds else ''}{why} {felt}. Solve the "
-            "contact on a layer (",
+            f"{widest}. {rubber} cannot be taken as a half-space{why} {felt}. Solve the contact on a layer (",
             remedy=called + f") or use thicker rubber: {radii}, and about {_mm(enough)} for friction within {percent}.",
         )
         holds = False
@@ -109,12 +99,12 @@ def check_half_space(
 
 
 def _effect(effect: ThicknessEffect, thickness: float, worst: _OnLayers) -> str:
-    """Say what a bonded layer changes."""
+    """Return the change on a bonded layer in words."""
     if thickness < THINNEST * worst.contact.radius:
-        return "it is thinner than the contact's radius, and nothing on such a layer is as on the half-space"
+        return "it is thinner than the contact's radius, and such a layer is unlike a half-space in all respects"
     friction = f"friction on a bonded layer of {_mm(thickness)} is {_change(effect.friction, 'lower', 'higher')}"
     if worst.contact.line:
-        return f"{friction} than on the half-space, with which the indentation of a line contact cannot be compared"
+        return f"{friction} than on the half-space; the indentation of a line contact cannot be compared with it"
     return f"{friction} than on the half-space, the indentation {_change(effect.indentation, 'smaller', 'larger')}"
 
 

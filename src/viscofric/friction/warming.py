@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 
 # The fast limit's largest ∫ √(1 − s²)/√(x − s) ds from −1 to x, over x.
 _FAST_HERTZ = 2.188
-# Loads whose logarithms differ by less are one, and parts of the way that are looked at: a maximum may lie on it.
+# Loads whose logarithms differ by less are one; parts of the shift that are checked, as a maximum may lie on it.
 _SAME_LOAD, _STEPS = 0.05, np.linspace(0.0, 1.0, 5)
 
 
@@ -80,7 +80,8 @@ def flash_temperature(
     if not (heat >= 0.0 and radius > 0.0 and speed >= 0.0):
         raise InputError(
             f"heat = {heat:g} W, radius = {radius:g} m, speed = {speed:g} m/s: heat and speed must not be below zero, "
-            "and the radius must be above it."
+            "and the radius must be above it.",
+            code="out-of-range",
         )
     conductivity = float(body.conductivity)
     if line:
@@ -118,7 +119,7 @@ def bulk_temperature(force: float, radius: float, body: ThermalProperties, *, li
 
 
 class Warming(NamedTuple):
-    """What warming does at every point of friction curves, (n,) each.
+    """Warming and its effect at every point of friction curves, (n,) each.
 
     Attributes
     ----------
@@ -145,7 +146,7 @@ class Warming(NamedTuple):
         rubber: ThermalProperties,
         counterbody: ThermalProperties,
     ) -> Warming:
-        """Find it for contacts of given radii, m, on a material with a shift; see `check_assumptions`.
+        """Return it for contacts of given radii, m, on a material with a shift; see `check_assumptions`.
 
         Raises
         ------
@@ -169,13 +170,13 @@ def _rise(
     if curves.coulomb is not None and curves.slip is not None:
         slip = float(curves.slip[row])
         heat = abs(float(curves.coulomb[row])) * load * slip
-        # Of the two senses of slip the one that leaves the indenter slower, and so warmer.
+        # The sense of slip with the slower, and so warmer, indenter.
         surface = shared_flash_temperature(
             flash_temperature(heat, radius, speed, rubber, line=line),
             flash_temperature(heat, radius, abs(speed - slip), counterbody, line=line),
         )
     force = abs(float(curves.viscoelastic[row])) * load
-    # Slow contacts lose their heat meanwhile: never warmer than with all of it on the surface.
+    # Slow contacts lose heat meanwhile: never warmer than with all heat on the surface.
     bulk = min(
         bulk_temperature(force, radius, rubber, line=line),
         flash_temperature(force * speed, radius, speed, rubber, line=line),
@@ -184,7 +185,7 @@ def _rise(
 
 
 def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
-    """|d log10 α/dT|, from within the temperatures at which α is known."""
+    """Return |d log10 α/dT|, from within the temperatures at which α is known."""
     known = {}
     for one in (kelvin - 0.5, kelvin, kelvin + 0.5):
         try:
@@ -194,14 +195,17 @@ def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
                 raise
     first, last = min(known), max(known)
     if first == last:
-        raise InputError(f"shift is known at {celsius(kelvin):.1f} °C alone; what warming does there cannot be told.")
+        raise InputError(
+            f"shift is known at {celsius(kelvin):.1f} °C alone; the effect of warming is unknown there.",
+            code="shift-of-one-temperature",
+        )
     return abs(known[last] - known[first]) / (last - first)
 
 
 def _change(material: Material, indenter: Indenter, curves: FrictionCurves, decades: Array) -> Array:
-    """Largest relative change of friction as the speed falls by decades (n,), to first order in the loss.
+    """Return the largest relative change of friction as the speed falls by decades (n,), to first order in the loss.
 
-    It is that of the rubber at each point by itself: a slope through points would depend on which others there are.
+    At each point separately, from the material: a slope through points would depend on the others.
     """
     change = np.zeros(len(curves))
     same_load = np.round(np.log(curves.load) / _SAME_LOAD)
