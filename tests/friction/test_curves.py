@@ -66,6 +66,7 @@ def test_prediction_covers_every_speed_and_temperature(predicted: FrictionCurves
     assert predicted.coulomb is None
 
 
+@pytest.mark.slow
 def test_processes_that_share_the_contacts_find_the_same_digits(rubber: vf.Material, predicted: FrictionCurves) -> None:
     shared = predict_friction(
         rubber,

@@ -150,6 +150,7 @@ def test_widened_steps_keep_the_reference_and_the_other_steps() -> None:
     np.testing.assert_allclose(wider, to_values @ np.diag([0.01, 0.16]) @ to_values.T, atol=1e-15)
 
 
+@pytest.mark.slow
 def test_shifts_of_marginal_overlap_are_told_and_their_errors_hold() -> None:
     """Of two temperatures that are found once in four times: when chance moved them together."""
     off, told = [], 0
@@ -168,6 +169,7 @@ def test_shifts_of_marginal_overlap_are_told_and_their_errors_hold() -> None:
     assert abs(np.mean(off)) < 0.7
 
 
+@pytest.mark.slow
 def test_errors_that_a_temperature_shares_are_counted_if_told() -> None:
     """Levels off by 1 % move α by many times what the scatter of the points does; told of, intervals hold again."""
     law = planted_law()
@@ -228,6 +230,7 @@ def test_friction_that_does_not_depend_on_speed_tells_no_shift(noise: float) -> 
         shift_friction(made(constant, 30.0, 40.0, noise=noise))
 
 
+@pytest.mark.slow
 def test_what_chance_makes_of_constant_friction_is_refused() -> None:
     """Of many pairs of curves without slope some seem to overlap: what they join must not be one constant."""
     for seed in range(40):

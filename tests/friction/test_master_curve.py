@@ -85,6 +85,7 @@ def test_friction_at_any_speed_and_temperature_comes_from_the_reduced_speed() ->
     assert master(["20 mm/s", "30 mm/s"]).shape == (2,)
 
 
+@pytest.mark.slow
 def test_smoothing_averages_noise_and_says_how_well() -> None:
     """Over many noisy tests the value at one place scatters by the standard error that is given there."""
     values, errors = [], []

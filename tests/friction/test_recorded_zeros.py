@@ -233,6 +233,7 @@ def test_the_disc_speeds_that_slip_parts_are_put_together_and_said() -> None:
         np.testing.assert_allclose(curves.speed, [0.02, 0.1], rtol=1e-12)
 
 
+@pytest.mark.slow
 @given(power=st.floats(-0.5, 0.5), slip_ratio=st.floats(0.06, 0.5))
 @settings(deadline=None, max_examples=15, derandomize=True)
 def test_viscoelastic_friction_that_changes_with_speed_does_not_reach_coulomb_friction(

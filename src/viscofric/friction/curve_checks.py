@@ -60,8 +60,8 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     note = Note(
         "inferred-freedom",
         "The standard errors of friction scatter from one speed to the next like those of "
-        f"{seen + 1.0:.0f} replicates, a number that was not given: it is assumed, and each error is averaged with its neighbours; give the "
-        "replicates, or degrees of freedom.",
+        f"{seen + 1.0:.0f} replicates, a number that was not given: it is assumed, and each error is averaged with its "
+        "neighbours; give the replicates, or degrees of freedom.",
     )
     return np.where(asked, seen, freedom), (note,)
 

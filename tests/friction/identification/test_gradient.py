@@ -65,7 +65,7 @@ def friction_on_its_cells(stage: Stage, way: str, scale: Scale, logarithms: Arra
     return scale.slope * (there.pressure_friction if way == "pressure" else there.balanced_friction)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", [*range(5), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(5, 20))])
 def test_adjoint_is_the_gradient_of_the_friction_on_its_cells(seed: int) -> None:
     name, contact = ("cylinder" if seed % 4 == 3 else "ball"), random_contact(seed)
     indenter, spectrum = {"ball": BALL, "cylinder": CYLINDER}[name], contact.spectrum

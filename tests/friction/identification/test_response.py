@@ -63,6 +63,7 @@ def test_stiffness_and_load_have_one_effect(response: FrictionResponse) -> None:
     assert np.all(np.abs(response.log_C.sum(axis=1) - response.log_E_inf - response.log_load) <= 1e-6 * size)
 
 
+@pytest.mark.slow
 def test_workers_give_the_same_digits(response: FrictionResponse) -> None:
     shared = friction_response(rubber(), 0.5, BALL, [0.1, 1.0, 3.0], [1.0, 1.0, 2.0], accuracy=ACCURACY, workers=2)
     for name in FIELDS:
