@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.forward import FirstOrder
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import celsius
 

@@ -11,7 +11,7 @@ import viscofric as vf
 from friction.identification.planted import BALL, LOAD, RUBBER
 from friction.synthetic_curves import curves_of
 from viscofric.errors import InputError
-from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.forward import FirstOrder
 from viscofric.friction.identification.known_moduli import known_part
 from viscofric.friction.identification.moduli import compliance, log_modulus
 from viscofric.friction.identification.points import moderated_variances, usable_points

@@ -12,7 +12,7 @@ import viscofric as vf
 from friction.identification.planted import BALL, REFERENCE, RUBBER, closed_form_curves, planted_anchor
 from viscofric.errors import ConvergenceError
 from viscofric.friction.identification import iteration
-from viscofric.friction.identification.corrected import CorrectedFriction, Solved
+from viscofric.friction.identification.forward import CorrectedFriction, Solved
 from viscofric.friction.identification.solving import Contacts
 
 if TYPE_CHECKING:

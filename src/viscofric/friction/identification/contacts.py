@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.steady import solve_steady
-from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.forward import FirstOrder
 from viscofric.rheology.material import Material
 
 if TYPE_CHECKING:

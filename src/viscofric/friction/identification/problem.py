@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.identification.contacts import SolvedContact
-    from viscofric.friction.identification.corrected import CorrectedFriction
+    from viscofric.friction.identification.forward import CorrectedFriction
     from viscofric.friction.identification.moduli import ModulusObservation
     from viscofric.friction.identification.points import Points
     from viscofric.friction.identification.shifts import Shifts

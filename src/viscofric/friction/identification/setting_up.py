@@ -10,8 +10,7 @@ import numpy as np
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
-from viscofric.friction.identification.corrected import CorrectedFriction
-from viscofric.friction.identification.first_order import FirstOrder
+from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.problem import Observations, Problem
 from viscofric.friction.identification.shifts import Shifts

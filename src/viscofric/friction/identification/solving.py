@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.errors import ConvergenceError
 from viscofric.friction.identification.contacts import SolvedContact
-from viscofric.friction.identification.corrected import CorrectedFriction, Solved
+from viscofric.friction.identification.forward import CorrectedFriction, Solved
 from viscofric.friction.identification.response import friction_response
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 

@@ -1,12 +1,7 @@
-"""Friction to first order in the loss: Hertz's contact at the modulus of its own frequency, in closed form.
-
-It starts an identification and carries a solved contact over to neighbouring rubbers; what it misses is put right by
-solved contacts (`viscofric.friction.identification.corrected`).
-"""
+"""Friction of a rubber in closed form, to first order in the loss, and corrected by solved contacts."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -45,9 +40,10 @@ class Friction(NamedTuple):
     radius_slope: Array
 
 
-@dataclass(frozen=True, eq=False)
 class FirstOrder:
     """Friction of an indenter by the energy that Hertz's pressure dissipates.
+
+    It starts an identification, and transfers solved contacts to neighbouring materials.
 
     Parameters
     ----------
@@ -62,41 +58,19 @@ class FirstOrder:
     Notes
     -----
     With p̂ the transform of Hertz's pressure, F_t v = ∫ d²q/(2π)² 2(1−ν²)/|q| (q·v) (−Im S(q·v)) |p̂|², the energy
-    balance of steady sliding to first order in −Im S; the contact radius a is that of an elastic contact of the
-    compliance that the same waves see, Re S averaged.  Then μ = F (1−ν²) Σ C_k K(τ_k v/a)/(2π² a²).
+    balance of steady sliding to first order in −Im S; the contact radius a is that of an elastic contact with the mean
+    compliance of the same waves, Re S.  Then μ = F (1−ν²) Σ C_k K(τ_k v/a)/(2π² a²).
     """
 
-    indenter: Indenter
-    load: float
-    plane_strain: float
-    tau: Array
-
-    def __post_init__(self) -> None:
-        dimension = self.indenter.geometry.dimension
-        loss, storage = _kernels(dimension)
-        middle = np.log(self.load * self.plane_strain / 1e6)
-        places = middle + np.arange(-_REACH, _REACH + 0.25, 0.5)
-        lengths = [
-            Scale.for_load(self.indenter, self.load / float(np.exp(place)), self.load).length for place in places
-        ]
-        numbers = {
-            "_loss": loss,
-            "_storage": storage,
-            "_dimension": dimension,
-            "_radius": _Table(places, np.log(lengths)),
-            "_log_tau": np.log(self.tau),
-            "_constant": np.log(self.load * self.plane_strain)
-            - (np.log(2.0 * np.pi**2) if dimension == 2 else np.log(0.5 * np.pi)),
-        }
-        for name, value in numbers.items():
-            object.__setattr__(self, name, value)
-
-    _loss: _Table = None  # type: ignore[assignment]
-    _storage: _Table = None  # type: ignore[assignment]
-    _radius: _Table = None  # type: ignore[assignment]
-    _log_tau: Array = None  # type: ignore[assignment]
-    _dimension: int = 2
-    _constant: float = 0.0
+    def __init__(self, indenter: Indenter, load: float, plane_strain: float, tau: Array) -> None:
+        self.tau = tau
+        self._log_tau, self._log_load = np.log(tau), np.log(load * plane_strain)
+        self._dimension = indenter.geometry.dimension
+        self._loss, self._storage = _kernels(self._dimension)
+        self._constant = self._log_load - (np.log(2.0 * np.pi**2) if self._dimension == 2 else np.log(0.5 * np.pi))
+        places = np.log(load * plane_strain / 1e6) + np.arange(-_REACH, _REACH + 0.25, 0.5)
+        lengths = [Scale.for_load(indenter, load / float(np.exp(place)), load).length for place in places]
+        self._radius = _Table(places, np.log(lengths))
 
     def __call__(self, compliances: Array, log_speed: Array) -> Friction:
         """Return friction at speeds.
@@ -109,15 +83,14 @@ class FirstOrder:
             ln v, m/s.
         """
         glass, C = np.exp(compliances[0]), np.exp(compliances[1:])
-        log_load = np.log(self.load * self.plane_strain)
-        # of the relaxed solid, which is too wide
-        radius = np.full(log_speed.shape, float(self._radius(log_load + np.log(glass + C.sum()))[0]))
+        # of the relaxed solid, which is too large
+        radius = np.full(log_speed.shape, float(self._radius(self._log_load + np.log(glass + C.sum()))[0]))
         for _ in range(_NEWTON):
             stored = self._storage((log_speed - radius)[:, None] + self._log_tau)
             kernel = C * np.exp(stored[0])
             total = glass + kernel.sum(axis=1)
             bend = np.sum(kernel * stored[1], axis=1) / total
-            elastic, power = self._radius(log_load + np.log(total))
+            elastic, power = self._radius(self._log_load + np.log(total))
             stiff = 1.0 + power * bend
             step = (radius - elastic) / stiff
             radius = radius - step
@@ -171,7 +144,7 @@ def _kernels(dimension: int) -> tuple[_Table, _Table]:
 
 
 class _Table:
-    """Cubic spline of values at equally spaced places and of their slope, read at once and faster than SciPy's."""
+    """Cubic spline of values at equally spaced places and of their slope, evaluated at once, faster than by SciPy."""
 
     def __init__(self, places: Array, values: Array) -> None:
         from scipy.interpolate import CubicSpline
@@ -187,3 +160,68 @@ class _Table:
         away = (along - number) * self._step
         a, b, c, d = np.take(self._coefficients, number, axis=-1)
         return np.asarray(((a * away + b) * away + c) * away + d)
+
+
+class Solved(NamedTuple):
+    """Results of solved contacts of one material, at k nodes.
+
+    `compliances` is (1 + m,), ln(1/E_inf) and every ln C; `log_speed`, `log_friction` and `error` (relative) are (k,);
+    `change` (k, 1 + m) and `load_slope` (k,) are the derivatives of ln μ by the compliances and by ln F.
+    """
+
+    compliances: Array
+    log_speed: Array
+    log_friction: Array
+    error: Array
+    change: Array
+    load_slope: Array
+
+
+class CorrectedFriction:
+    """ln μ at any speed and compliances, exact with its derivatives at the nodes of the solved material.
+
+    Parameters
+    ----------
+    first : FirstOrder
+    solved : Solved or None
+        None: the first-order form without correction.
+
+    Notes
+    -----
+    The error of the closed form in ln μ and in its derivatives varies so slowly with ln v that a cubic spline through a
+    few nodes per decade represents it; for other materials it is extrapolated linearly.  This is space mapping:
+    J. W. Bandler et al., IEEE Trans. Microw. Theory Tech. 42 (1994) 2536.
+    """
+
+    def __init__(self, first: FirstOrder, solved: Solved | None = None) -> None:
+        from scipy.interpolate import CubicSpline
+
+        self.first, self.solved = first, solved
+        if solved is not None:
+            crude = first(solved.compliances, solved.log_speed)
+            missing = [solved.log_friction - crude.log_friction, solved.change - crude.change, solved.load_slope]
+            self._missing = CubicSpline(solved.log_speed, np.column_stack(missing))
+
+    def __call__(self, compliances: Array, log_speed: Array, log_load: Array) -> tuple[Array, Array, Array]:
+        """Return ln μ (n,), its derivatives by the compliances (n, 1 + m) and by ln v (n,).
+
+        Parameters
+        ----------
+        compliances : (1 + m,) array
+            ln(1/E_inf), then every ln C.
+        log_speed, log_load : (n,) array
+            ln of the reduced speed, m/s, and of the load over that of the nodes.
+        """
+        crude = self.first(compliances, log_speed)
+        if self.solved is None:
+            return crude.log_friction, crude.change, crude.slope
+        nodes = self.solved.log_speed
+        inside = np.clip(log_speed, nodes[0], nodes[-1])
+        missing = self._missing(inside)
+        rising = np.where(inside == log_speed, 1.0, 0.0)[:, None] * self._missing(inside, 1)
+        moved = compliances - self.solved.compliances
+        return (
+            crude.log_friction + missing[:, 0] + missing[:, 1:-1] @ moved + missing[:, -1] * log_load,
+            crude.change + missing[:, 1:-1],
+            crude.slope + rising[:, 0] + rising[:, 1:-1] @ moved + rising[:, -1] * log_load,
+        )
