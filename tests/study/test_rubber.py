@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import DataFileError, InputError, LiquidError
-from viscofric.friction.identification.origin import with_origin
+from viscofric.friction.identification.conclusions import with_origin
 from viscofric.notes import codes
 from viscofric.study.rubber import make_rubber, rubber_groups
 from viscofric.study.rubber_results import run_material

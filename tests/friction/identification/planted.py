@@ -10,7 +10,7 @@ import numpy as np
 import viscofric as vf
 from friction.synthetic_curves import curves_of
 from viscofric.friction.identification.forward import FirstOrder
-from viscofric.friction.identification.response import friction_response
+from viscofric.friction.identification.solving import friction_response
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves

@@ -14,7 +14,7 @@ from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import SteadyMaterial
-from viscofric.friction.identification.response import friction_response
+from viscofric.friction.identification.solving import friction_response
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

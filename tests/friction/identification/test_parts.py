@@ -12,8 +12,7 @@ from friction.identification.planted import BALL, LOAD, RUBBER
 from friction.synthetic_curves import curves_of
 from viscofric.errors import InputError
 from viscofric.friction.identification.forward import FirstOrder
-from viscofric.friction.identification.known_moduli import known_part
-from viscofric.friction.identification.moduli import compliance, log_modulus
+from viscofric.friction.identification.moduli import compliance, known_part, log_modulus
 from viscofric.friction.identification.points import moderated_variances, usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
 from viscofric.friction.identification.shifts import Shifts

@@ -9,7 +9,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.response import FrictionResponse, friction_response
+from viscofric.friction.identification.solving import FrictionResponse, friction_response
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

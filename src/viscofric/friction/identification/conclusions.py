@@ -1,4 +1,4 @@
-"""What follows from a settled identification: honest errors, bands, the family of levels, the result."""
+"""Results of a settled identification: enlarged errors, bands, the family of levels, the material with its origin."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band
-from viscofric.friction.identification.fitting import Weighed, most_evident, weighed
+from viscofric.friction.identification.iteration import Weighed, most_evident, weighed
 from viscofric.friction.identification.level_family import level_family
-from viscofric.friction.identification.origin import with_origin
 from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedBand, IdentifiedMaterial, LevelFit
 from viscofric.friction.identification.solving import Contacts, spectrum_of
 from viscofric.notes import Note, codes
 from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 if TYPE_CHECKING:
@@ -39,6 +40,35 @@ FOLLOWING = 3.0
 CONTRADICTED = 4.0
 #: Bands of moduli end so far beyond the contact's frequencies v/a at the latest: Hertz's pressure has waves up to 3/a.
 BEYOND = 3.0
+
+
+def with_origin(found: IdentifiedMaterial, source: str) -> Material:
+    """Return the identified material with where it comes from, which goes into its file.
+
+    Parameters
+    ----------
+    found : IdentifiedMaterial
+    source : str
+        Of the friction curves; may be empty.
+    """
+    spectrum, band = found.material.spectrum, found.identified
+    if not isinstance(spectrum, RetardationSpectrum):
+        raise TypeError("an identified material is one of retardation modes.")
+    # Known nowhere: then all is extrapolated but the middle.
+    ends = (band.low, band.high) if band.high > band.low else (found.middle, found.middle)
+    behind = f" ({source})" if source else ""
+    origin = f"The rubber was identified from friction{behind}, no modulus of it was measured."
+    fit = SpectrumFit(
+        None,
+        None,
+        E0_extrapolated=True,
+        E_inf_extrapolated=True,
+        frequency_range=(float(ends[0]), float(ends[1])),
+        notes=(origin, *found.known),
+        method=FROM_FRICTION,
+        modes=len(spectrum),
+    )
+    return replace(found.material, spectrum=replace(spectrum, fit=fit))
 
 
 @dataclass(frozen=True, eq=False)

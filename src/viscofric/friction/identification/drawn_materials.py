@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.identification.fitting import Weighed, most_evident
+from viscofric.friction.identification.iteration import Weighed, most_evident
 from viscofric.friction.identification.posterior import draws
 from viscofric.friction.identification.result import IdentifiedBand
 from viscofric.friction.identification.solving import spectrum_of

@@ -13,7 +13,7 @@ from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.conclusions import Outcome, conclude
 from viscofric.friction.identification.iteration import identify
-from viscofric.friction.identification.known_moduli import Known, anchored, known_part
+from viscofric.friction.identification.moduli import Known, anchored, known_part
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.setting_up import alone_or_many, problem_of, shifts_of
 from viscofric.friction.identification.solving import Contacts

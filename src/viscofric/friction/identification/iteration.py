@@ -1,4 +1,4 @@
-"""Identification step by step: contacts are solved for a rubber, then the rubber is moved to fit what was measured."""
+"""Identification step by step: contacts are solved for a material, which is then fitted to the measurement."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.fitting import Weighed, most_evident, weighed
-from viscofric.friction.identification.posterior import descend
+from viscofric.friction.identification.posterior import Minimum, descend, log_evidence
+from viscofric.friction.identification.smoothness import ROUGHNESS
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -36,6 +36,42 @@ LEAST_GAIN, GOOD_GAIN = 0.1, 0.7
 #: By what the damping grows at least if a step is not made.
 GROWTH = 4.0
 HALVINGS = 4
+
+
+class Weighed(NamedTuple):
+    """A fit under one roughness of the prior, and the logarithm of the evidence for it."""
+
+    problem: Problem
+    minimum: Minimum
+    log_evidence: float
+
+
+def weighed(problem: Problem, start: Array) -> list[Weighed]:
+    """Fit under every roughness of the prior, outward from that of the problem; the smoothest comes first.
+
+    Raises
+    ------
+    ConvergenceError
+        If no fit settles.
+    """
+    middle = int(np.argmin(np.abs(np.log(ROUGHNESS / problem.smoothness.roughness))))
+    found: dict[int, Weighed] = {}
+    for way in (range(middle, len(ROUGHNESS)), range(middle - 1, -1, -1)):
+        place = start if middle not in found else found[middle].minimum.place
+        for number in way:
+            tried = replace(problem, smoothness=replace(problem.smoothness, roughness=float(ROUGHNESS[number])))
+            minimum = descend(tried, place, metric=tried.metric)
+            found[number] = Weighed(tried, minimum, log_evidence(minimum, tried.smoothness.log_volume))
+            place = minimum.place
+    settled = [found[number] for number in sorted(found) if found[number].minimum.settled]
+    if not settled:
+        raise ConvergenceError("the fit of the spectrum to the friction does not settle; give an anchor or a prior.")
+    return settled
+
+
+def most_evident(fits: list[Weighed]) -> Weighed:
+    """Return the fit of the roughness for which there is most evidence."""
+    return max(fits, key=lambda fit: fit.log_evidence)
 
 
 class Here(NamedTuple):

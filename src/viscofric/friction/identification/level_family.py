@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.friction.identification.drawn_materials import MaterialOf
-    from viscofric.friction.identification.fitting import Weighed
+    from viscofric.friction.identification.iteration import Weighed
     from viscofric.friction.identification.problem import Problem
     from viscofric.friction.identification.solving import Contacts
 

@@ -1,14 +1,32 @@
-"""Moduli as observations of an identification: an anchor, or a part of the rubber's modulus known beforehand."""
+"""Moduli as observations: an anchor, or a part of E(ω) that is known from a DMA."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.data import MasterCurve
+from viscofric.errors import InputError
+from viscofric.rheology.material import Material
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.units import angular_frequency as frequency_of
+
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from viscofric.arrays import Array, ComplexArray
+    from viscofric.friction.identification.anchors import ModulusAnchor
+    from viscofric.units import Quantity
+
+
+Known: TypeAlias = Material | MaterialSamples | MasterCurve
+
+#: A measured modulus enters at so many frequencies per decade: closer ones err alike.
+PER_DECADE = 4
+#: Samples of a material are not trusted beyond this, relative: their covariance at many frequencies is nearly singular.
+LEAST_ERROR = 3e-3
 
 
 def compliance(compliances: Array, tau: Array, log_frequency: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
@@ -57,3 +75,108 @@ class ModulusObservation:
         S, change, slope = compliance(compliances, tau, self.log_frequency + log_alpha)
         modelled, moved = log_modulus(self.part, S, np.column_stack([change, slope]))
         return modelled - self.log_modulus, moved[:, :-1], moved[:, -1]
+
+
+#: Observations that err together, and the matrix that whitens their errors.
+Block: TypeAlias = "tuple[tuple[ModulusObservation, ...], Array]"
+
+
+def anchored(anchors: Iterable[ModulusAnchor]) -> list[Block]:
+    """Return anchors as observations."""
+    return [
+        (
+            (
+                ModulusObservation(
+                    np.array([np.log(float(one.angular_frequency))]),
+                    float(one.temperature),
+                    one.part,
+                    np.array([np.log(float(one.modulus))]),
+                ),
+            ),
+            np.array([[1.0 / one.error]]),
+        )
+        for one in anchors
+    ]
+
+
+def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: float, reference: float) -> Block:
+    """Return E' and E'' of a rubber over the frequencies that were measured, as observations.
+
+    Parameters
+    ----------
+    prior : Material, MaterialSamples or MasterCurve
+    band : (low, high) or None
+        Angular frequencies at the prior's own reference, rad/s; those that it was measured at if None.
+    error : float
+        Relative standard error of each modulus; samples of a material have their own.
+    reference : float
+        Temperature that a material without a shift is taken to be at, K.
+
+    Raises
+    ------
+    InputError
+        If the prior is none of these, or its band is neither known nor given, or holds nothing.
+    """
+    if isinstance(prior, MasterCurve):
+        return _of_curve(prior, band, error)
+    if isinstance(prior, Material):
+        materials: tuple[Material, ...] = (prior,)
+        fit = getattr(prior.at(), "fit", None)
+        own = None if fit is None else fit.frequency_range
+    elif isinstance(prior, MaterialSamples):
+        materials = prior.materials
+        own = prior.frequency_range
+    else:
+        kind = type(prior).__name__
+        raise InputError(f"prior must be a Material, MaterialSamples or a MasterCurve, not {kind}.")
+    low, high = _checked(own if band is None else band)
+    count = max(2, round(PER_DECADE * np.log10(high / low)) + 1)
+    frequency = np.geomspace(low, high, count)
+    E = np.array([material.complex_modulus(frequency) for material in materials])
+    rows = np.log(np.concatenate([E.real, E.imag], axis=1))
+    if len(materials) > 1:
+        covariance = np.cov(rows, rowvar=False) + LEAST_ERROR**2 * np.eye(2 * count)
+        whitening = np.linalg.inv(np.linalg.cholesky(covariance))
+    else:
+        whitening = np.eye(2 * count) / error
+    temperature = materials[0].reference
+    middle = rows.mean(axis=0)
+    return _observations(np.log(frequency), reference if temperature is None else temperature, middle), whitening
+
+
+def _of_curve(curve: MasterCurve, band: tuple[Quantity, Quantity] | None, error: float) -> Block:
+    """Average ln E' and ln E'' over quarters of a decade."""
+    low, high = _checked(
+        (float(curve.angular_frequency[0]), float(curve.angular_frequency[-1])) if band is None else band
+    )
+    within = (curve.angular_frequency >= low) & (curve.angular_frequency <= high)
+    if not within.any():
+        raise InputError(f"prior_band = {low:.3g} to {high:.3g} rad/s: the master curve has no point there.")
+    E = curve.complex_modulus[within]
+    columns = np.log(np.stack([curve.angular_frequency[within], E.real, E.imag]))
+    part = np.floor(PER_DECADE * columns[0] / np.log(10.0))
+    means = np.array([columns[:, part == one].mean(axis=1) for one in np.unique(part)])
+    moduli = np.concatenate([means[:, 1], means[:, 2]])
+    return _observations(means[:, 0], curve.reference, moduli), np.eye(len(moduli)) / error
+
+
+def _observations(log_frequency: Array, temperature: float, moduli: Array) -> tuple[ModulusObservation, ...]:
+    storage, loss = np.split(moduli, 2)
+    return (
+        ModulusObservation(log_frequency, temperature, "storage", storage),
+        ModulusObservation(log_frequency, temperature, "loss", loss),
+    )
+
+
+def _checked(band: tuple[Quantity, Quantity] | None) -> tuple[float, float]:
+    if band is None:
+        raise InputError(
+            "prior_band is missing: a material that was not fitted does not tell which frequencies were measured; give "
+            "(lowest, highest) in rad/s at its reference temperature."
+        )
+    if np.shape(band) != (2,):
+        raise InputError(f"prior_band = {band!r}: must be two frequencies, such as ('0.1 Hz', '10 Hz').")
+    low, high = (float(frequency_of(end, "prior_band")) for end in band)
+    if low >= high:
+        raise InputError(f"prior_band = {low:g} to {high:g} rad/s: must be two frequencies above zero that ascend.")
+    return low, high

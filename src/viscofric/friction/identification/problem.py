@@ -10,7 +10,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.friction.identification.contacts import SolvedContact
+    from viscofric.friction.identification.anchors import SolvedContact
     from viscofric.friction.identification.forward import CorrectedFriction
     from viscofric.friction.identification.moduli import ModulusObservation
     from viscofric.friction.identification.points import Points

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.identification.known_moduli import Block
+    from viscofric.friction.identification.moduli import Block
     from viscofric.friction.identification.points import Points
     from viscofric.friction.identification.solving import Contacts
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
