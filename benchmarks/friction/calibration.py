@@ -23,8 +23,7 @@ from identify import BALL, FREQUENCY, KELVIN, MATERIALS, SPEEDS, measured
 import viscofric as vf
 from viscofric.errors import InputError
 from viscofric.friction.identification.drawn_materials import Posterior
-from viscofric.friction.identification.iteration import most_evident, weighed
-from viscofric.friction.identification.iteration import identify
+from viscofric.friction.identification.iteration import identify, most_evident, weighed
 from viscofric.friction.identification.moduli import anchored
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.problem import Observations, Problem
