@@ -108,8 +108,10 @@ def made_outcomes(sweep: Sweep, failed: Sequence[int] = (), fields: Sequence[int
     return found
 
 
-def made_results(folder: Path, sweep: Sweep | None = None, failed: Sequence[int] = (), **about: Any) -> StudyResults:
-    """Return stored results of a sweep: the made-up cases, and a group of one rubber, or of each of several."""
+def made_results(
+    folder: Path, sweep: Sweep | None = None, failed: Sequence[int] = (), stored: bool = True, **about: Any
+) -> StudyResults:
+    """Return results of a sweep, stored or only in memory: made-up cases, and a group of one or several materials."""
     sweep = sweep or made_sweep()
     outcomes = made_outcomes(sweep, failed, fields=[len(sweep.cases) - 1])
     materials = sweep.axes[0].columns["material"]
@@ -142,5 +144,6 @@ def made_results(folder: Path, sweep: Sweep | None = None, failed: Sequence[int]
         **provenance(),
         **about,
     }
-    save_results(tree, folder)
+    if stored:
+        save_results(tree, folder)
     return StudyResults(tree, folder)

@@ -46,6 +46,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> StudyResults:
     return run_study(write(tmp_path_factory.mktemp("bands")))
 
 
+@pytest.mark.slow
 def test_bands_are_those_of_the_python_interface(results: StudyResults) -> None:
     rubber = make_rubber(load_study(results.folder.parent / "study.toml").material)
     assert rubber.fit is not None

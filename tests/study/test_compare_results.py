@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,20 +14,20 @@ import viscofric as vf
 from study.refusals import refused
 from study.sweeps import made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
-from viscofric.study.results.file import save_results
+from viscofric.study.results.results import StudyResults
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from viscofric.study.results.results import StudyResults
+#: Comparisons need no files.
+made = partial(made_results, stored=False)
 
 
 def changed(results: StudyResults, folder: Path, name: str, factor: float, case: int) -> StudyResults:
-    """Store results with one number of them changed."""
+    """Return results with one number of them changed."""
     tree = results.tree.copy(deep=True)
     tree["prediction"][name].values.reshape(-1)[case] *= factor
-    save_results(tree, folder)
-    return vf.open_results(folder)
+    return StudyResults(tree, folder)
 
 
 def difference(found: vf.ResultsComparison, name: str) -> Any:
@@ -45,7 +46,7 @@ def test_results_are_the_same_as_themselves(tmp_path: Path) -> None:
 
 
 def test_the_largest_difference_is_found_where_it_is(tmp_path: Path) -> None:
-    results = made_results(tmp_path / "a")
+    results = made(tmp_path / "a")
     sweep = made_sweep()
     other = changed(results, tmp_path / "b", "friction_coefficient", 1.01, 7)
     found = vf.compare_results(results, other, tolerance=1e-3)
@@ -67,7 +68,7 @@ def test_the_largest_difference_is_found_where_it_is(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("in_errors", "equal"), [(1.9, True), (2.1, False)])
 def test_without_a_tolerance_the_stated_errors_count(tmp_path: Path, in_errors: float, equal: bool) -> None:
-    results = made_results(tmp_path / "a")
+    results = made(tmp_path / "a")
     # Both state 1e3 Pa of 1e6 Pa: together √2 times as much.
     other = changed(results, tmp_path / "b", "max_pressure", 1.0 + in_errors * np.sqrt(2.0) * 1e-3, 4)
     found = vf.compare_results(results, other)
@@ -76,32 +77,32 @@ def test_without_a_tolerance_the_stated_errors_count(tmp_path: Path, in_errors: 
 
 
 def test_what_has_no_error_of_its_own_agrees_within_the_accuracy(tmp_path: Path) -> None:
-    results = made_results(tmp_path / "a")
+    results = made(tmp_path / "a")
     for factor, equal in ((1.0019, True), (1.0021, False)):
         other = changed(results, tmp_path / "b", "centre_of_pressure", factor, 0)
         assert vf.compare_results(results, other).equal is equal
 
 
 def test_a_beyond_small_error_is_pointed_at_rather_than_a_larger_one_within(tmp_path: Path) -> None:
-    results = made_results(tmp_path / "a")
+    results = made(tmp_path / "a")
     tree = results.tree.copy(deep=True)
     prediction = tree["prediction"]
     prediction["indentation_error"].values.reshape(-1)[2] = 1.0
     prediction["indentation"].values.reshape(-1)[2] *= 1.5
     prediction["indentation"].values.reshape(-1)[11] *= 1.01
-    save_results(tree, tmp_path / "b")
-    indentation = difference(vf.compare_results(results, tmp_path / "b"), "indentation")
+    other = StudyResults(tree, tmp_path / "b")
+    indentation = difference(vf.compare_results(results, other), "indentation")
     assert indentation.largest == pytest.approx(1 / 3)
     assert indentation.second / indentation.first == pytest.approx(1.01)
     assert not indentation.equal
 
 
 def test_order_and_extent_of_axes_do_not_matter_to_cases_in_common(tmp_path: Path) -> None:
-    whole = made_results(tmp_path / "a", made_sweep(together=False))
+    whole = made(tmp_path / "a", made_sweep(together=False))
     turned = made_sweep(
         loads=[25.0], radii=[0.01], speeds=(0.2, 0.1, 0.4), temperatures=(363.15, 303.15), together=False
     )
-    found = vf.compare_results(whole, made_results(tmp_path / "b", turned), tolerance=0.0)
+    found = vf.compare_results(whole, made(tmp_path / "b", turned), tolerance=0.0)
     assert not found.equal
     assert (found.cases, found.only_first, found.only_second) == (4, 32, 2)
     assert all(one.equal for one in found.differences)
@@ -113,12 +114,12 @@ def test_order_and_extent_of_axes_do_not_matter_to_cases_in_common(tmp_path: Pat
 def test_coordinates_that_differ_by_rounding_are_the_same(tmp_path: Path) -> None:
     speeds = (0.1, 0.2)
     other = made_sweep(speeds=[speed * (1.0 + 1e-14) for speed in speeds])
-    pair = [made_results(tmp_path / name, sweep) for name, sweep in (("a", made_sweep(speeds=speeds)), ("b", other))]
+    pair = [made(tmp_path / name, sweep) for name, sweep in (("a", made_sweep(speeds=speeds)), ("b", other))]
     assert vf.compare_results(*pair).cases == 12
 
 
 def test_cases_that_one_only_solved_are_counted(tmp_path: Path) -> None:
-    found = vf.compare_results(made_results(tmp_path / "a", failed=[1]), made_results(tmp_path / "b", failed=[2]))
+    found = vf.compare_results(made(tmp_path / "a", failed=[1]), made(tmp_path / "b", failed=[2]))
     assert found.solved_once == 2
     assert not found.equal
 
@@ -133,7 +134,7 @@ def test_other_provenance_is_named(tmp_path: Path) -> None:
         viscofric_version="0.0.1",
         software=json.dumps({"numpy": "1.0"}),
     )
-    said = vf.compare_results(made_results(tmp_path / "a"), other).provenance
+    said = vf.compare_results(made(tmp_path / "a"), other).provenance
     assert "Another accuracy: 0.001 and 0.01." in said
     assert "The input dma.csv has other contents." in said
     assert "The input mtm.csv belongs to the second only." in said
@@ -142,12 +143,12 @@ def test_other_provenance_is_named(tmp_path: Path) -> None:
 
 
 def test_the_same_input_elsewhere_is_the_same(tmp_path: Path) -> None:
-    moved = made_results(tmp_path / "b", input_hashes=json.dumps({"another/folder/dma.csv": "0" * 64}))
-    assert vf.compare_results(made_results(tmp_path / "a"), moved).provenance == ()
+    moved = made(tmp_path / "b", input_hashes=json.dumps({"another/folder/dma.csv": "0" * 64}))
+    assert vf.compare_results(made(tmp_path / "a"), moved).provenance == ()
 
 
 def test_friction_curves_are_compared_with_results(tmp_path: Path) -> None:
-    results = made_results(tmp_path, made_sweep(loads=[25.0], radii=[0.01]))
+    results = made(tmp_path, made_sweep(loads=[25.0], radii=[0.01]))
     cases = results.dataset.stack(case=["temperature", "speed"])
     friction = cases["friction_coefficient"].values
     curves = vf.FrictionCurves(
@@ -172,10 +173,10 @@ def test_friction_curves_are_compared_with_results(tmp_path: Path) -> None:
 
 def test_what_cannot_be_paired_is_told(tmp_path: Path) -> None:
     one = made_results(tmp_path / "a")
-    cold = made_results(tmp_path / "b", made_sweep(temperatures=[253.15]))
+    cold = made(tmp_path / "b", made_sweep(temperatures=[253.15]))
     with refused(InputError, "no-common-cases"):
         vf.compare_results(one, cold)
-    several = made_results(tmp_path / "c", made_sweep(materials=("NBR", "EPDM")))
+    several = made(tmp_path / "c", made_sweep(materials=("NBR", "EPDM")))
     with refused(InputError, "no-common-cases"):
         vf.compare_results(one, several)
     with refused(InputError, "tolerance"):
@@ -185,7 +186,7 @@ def test_what_cannot_be_paired_is_told(tmp_path: Path) -> None:
 
 
 def test_an_exported_table_is_compared_with_results(tmp_path: Path) -> None:
-    results = made_results(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[4])
+    results = made(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[4])
     table = results.to_csv(tmp_path / "cases.csv")
     found = vf.compare_results(results, table, tolerance=0.0)
     assert found.equal
@@ -203,7 +204,7 @@ def test_an_exported_table_is_compared_with_results(tmp_path: Path) -> None:
 
 
 def test_an_exported_table_of_one_load_is_one_of_friction_curves(tmp_path: Path) -> None:
-    results = made_results(tmp_path, made_sweep(loads=[25.0], radii=[0.01]))
+    results = made(tmp_path, made_sweep(loads=[25.0], radii=[0.01]))
     curves = vf.read_friction_curves(results.to_csv(tmp_path / "cases.csv"))
     np.testing.assert_array_equal(curves.viscoelastic, results.dataset["friction_coefficient"].values.ravel())
     np.testing.assert_array_equal(curves.viscoelastic_error, results.dataset["friction_error"].values.ravel())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,9 @@ from viscofric.study.results.export import FORMS
 if TYPE_CHECKING:
     from pathlib import Path
 
+#: Exports need no results file.
+made = partial(made_results, stored=False)
+
 
 def rows_of(path: Path) -> tuple[list[str], list[dict[str, str]]]:
     lines = path.read_text(encoding="utf-8").splitlines()
@@ -34,7 +38,7 @@ def sheets(path: Path) -> dict[str, list[list[Any]]]:
 
 def test_table_has_a_row_for_each_case_with_units_in_its_headings(tmp_path: Path) -> None:
     sweep = made_sweep(materials=("NBR", "EPDM"), together=False)
-    results = made_results(tmp_path, sweep, failed=[5])
+    results = made(tmp_path, sweep, failed=[5])
     comments, rows = rows_of(results.to_csv(tmp_path / "cases.csv"))
     assert list(rows[0])[:5] == ["material", "radius (m)", "load (N)", "temperature (degC)", "speed (m/s)"]
     for number, (case, row) in enumerate(zip(sweep.cases, rows, strict=True)):
@@ -52,7 +56,7 @@ def test_table_has_a_row_for_each_case_with_units_in_its_headings(tmp_path: Path
 
 def test_cases_stepped_together_and_single_coordinates_are_columns(tmp_path: Path) -> None:
     sweep = made_sweep(temperatures=[303.15])
-    _, rows = rows_of(made_results(tmp_path, sweep).to_csv(tmp_path / "cases.csv"))
+    _, rows = rows_of(made(tmp_path, sweep).to_csv(tmp_path / "cases.csv"))
     assert [(float(row["load (N)"]), float(row["radius (m)"])) for row in rows] == [
         (case.load, case.indenter.radius)  # type: ignore[attr-defined]
         for case in sweep.cases
@@ -62,7 +66,7 @@ def test_cases_stepped_together_and_single_coordinates_are_columns(tmp_path: Pat
 
 def test_workbook_holds_every_table_and_says_what_its_headings_mean(tmp_path: Path) -> None:
     sweep = made_sweep(materials=("NBR", "EPDM / carbon black [50 phr]: a name beyond all bounds"), together=False)
-    path = made_results(tmp_path, sweep, failed=[5]).to_excel(tmp_path / "all.xlsx")
+    path = made(tmp_path, sweep, failed=[5]).to_excel(tmp_path / "all.xlsx")
     found = sheets(path)
     assert list(found)[:3] == ["summary", "prediction", "NBR spectrum"]
     assert list(found)[3].startswith("EPDM   carbon black  50 phr")
@@ -85,7 +89,7 @@ def test_workbook_holds_every_table_and_says_what_its_headings_mean(tmp_path: Pa
 def test_headings_stay_in_sight(tmp_path: Path) -> None:
     import zipfile
 
-    path = made_results(tmp_path).to_excel(tmp_path / "all.xlsx")
+    path = made(tmp_path).to_excel(tmp_path / "all.xlsx")
     with zipfile.ZipFile(path) as archive:
         page = archive.read("xl/worksheets/sheet2.xml").decode()
     assert '<pane xSplit="4" ySplit="1"' in page  # load, radius, temperature and speed
@@ -93,7 +97,7 @@ def test_headings_stay_in_sight(tmp_path: Path) -> None:
 
 
 def test_the_same_results_make_the_same_files(tmp_path: Path) -> None:
-    results = made_results(tmp_path)
+    results = made(tmp_path)
     for write, name in ((results.to_csv, "a.csv"), (results.to_excel, "a.xlsx")):
         once, again = (write(tmp_path / f"{number}{name}").read_bytes() for number in (1, 2))
         assert once == again
@@ -102,14 +106,14 @@ def test_the_same_results_make_the_same_files(tmp_path: Path) -> None:
 def test_more_cases_than_a_sheet_has_rows_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(export, "MOST_ROWS", 10)
     with refused(InputError, "too-many-rows"):
-        made_results(tmp_path).to_excel(tmp_path / "all.xlsx")
+        made(tmp_path).to_excel(tmp_path / "all.xlsx")
 
 
 @pytest.mark.parametrize("form", ["netcdf", "zarr"])
 def test_labelled_cases_come_back_from_other_formats(tmp_path: Path, form: Any) -> None:
     if form == "zarr":
         pytest.importorskip("zarr", reason="the extra zarr is not installed")
-    results = made_results(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[3])
+    results = made(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[3])
     for _ in range(2):  # the second time in place of the first
         path = results.export(form)
     opened = xarray.open_dataset(path, engine="h5netcdf") if form == "netcdf" else xarray.open_zarr(path)
@@ -124,11 +128,11 @@ def test_labelled_cases_come_back_from_other_formats(tmp_path: Path, form: Any) 
 def test_without_zarr_is_a_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "zarr", None)
     with refused(InputError, "not-installed"):
-        made_results(tmp_path).export("zarr")
+        made(tmp_path).export("zarr")
 
 
 def test_nothing_else_is_replaced(tmp_path: Path) -> None:
-    results = made_results(tmp_path)
+    results = made(tmp_path)
     (tmp_path / "folder").mkdir()
     (tmp_path / "folder" / "precious.txt").touch()
     for form in FORMS:

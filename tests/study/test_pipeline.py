@@ -13,7 +13,8 @@ from scipy.interpolate import CubicSpline
 import viscofric as vf
 from contact.dense_reference import dense_friction
 from study.refusals import refused
-from viscofric.study import StudyResults, open_results, run_study
+from viscofric.study import StudyResults, load_study, open_results, run_study
+from viscofric.study.checking import check_study
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = Path(str(files("viscofric"))) / "example"
@@ -156,6 +157,7 @@ def test_left_out_isotherms_and_small_strain_are_told(results: StudyResults) -> 
     assert results.failures == ()
 
 
+@pytest.mark.slow
 def test_a_second_run_solves_nothing_again(results: StudyResults, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
@@ -176,6 +178,7 @@ def _real_study(
     return path
 
 
+@pytest.mark.slow
 def test_real_acrylic_isotherms_run_to_friction(real_data: Path, tmp_path: Path) -> None:
     results = run_study(_real_study(real_data, tmp_path, "0.05 N", 6))
     assert results.failures == ()
@@ -193,6 +196,7 @@ def test_real_acrylic_isotherms_run_to_friction(real_data: Path, tmp_path: Path)
     assert np.all(np.abs(prediction["energy_balance"]) < 5e-3)
 
 
+@pytest.mark.slow
 def test_real_acrylic_friction_is_that_of_an_independent_solution(real_data: Path) -> None:
     sweeps = vf.read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
     fit = vf.superpose(sweeps, reference="20 degC")
@@ -209,6 +213,7 @@ def test_real_acrylic_friction_is_that_of_an_independent_solution(real_data: Pat
     assert solution.indentation == pytest.approx(indentation, rel=0.005)
 
 
+@pytest.mark.slow
 def test_contacts_wider_than_the_ball_are_told_and_the_others_kept(real_data: Path, tmp_path: Path) -> None:
     results = run_study(_real_study(real_data, tmp_path, "25 N", 2))
     # At 0.1 mm/s the rubber is too soft at 30 and 60 °C, but not at 0 °C, nor at 10 m/s.
@@ -247,6 +252,7 @@ def _small_study(folder: Path, **changes: str) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_every_line_of_a_study_reaches_the_answer(tmp_path: Path) -> None:
     """In one folder, so that a stored case of another study taken for this one's shows as well."""
 
@@ -276,6 +282,7 @@ def test_every_line_of_a_study_reaches_the_answer(tmp_path: Path) -> None:
     assert friction() == first
 
 
+@pytest.mark.slow
 def test_moduli_measured_in_shear_become_tensile_with_the_given_poisson_ratio(tmp_path: Path) -> None:
     text = (EXAMPLE / "dma.csv").read_text(encoding="utf-8").replace("E' (MPa),E'' (MPa)", "G' (MPa),G'' (MPa)")
     path = _small_study(tmp_path, deformation='deformation = "shear"', poisson_ratio="poisson_ratio = 0.3")
@@ -289,14 +296,15 @@ def test_moduli_measured_in_shear_become_tensile_with_the_given_poisson_ratio(tm
 
 def test_a_file_that_tells_neither_tension_nor_shear_needs_it_told(tmp_path: Path) -> None:
     path = _small_study(tmp_path, deformation="")
-    run_study(path)  # its header says E'
+    check_study(load_study(path), path)  # its header says E'
     text = (EXAMPLE / "dma.csv").read_text(encoding="utf-8")
     untold = text.replace("E' (MPa),E'' (MPa)", "storage modulus (MPa),loss modulus (MPa)")
     (tmp_path / "dma.csv").write_text(untold, encoding="utf-8")
     with pytest.raises(vf.InputError, match="tension or in shear"):
-        run_study(path, resume=True)
+        check_study(load_study(path), path)
 
 
+@pytest.mark.slow
 def test_contacts_beyond_the_measured_frequencies_are_told(tmp_path: Path) -> None:
     results = run_study(_small_study(tmp_path, speed='speed = ["100 mm/s", "1e8 m/s"]'))
     assert results.tree["prediction"]["within_measured_frequencies"].values.tolist() == [1, 0]

@@ -115,7 +115,7 @@ def test_a_place_tells_all_that_varies(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("wrong", [1.5, None, [], {}, b"x", object(), True])
 def test_what_is_no_name_of_a_file_is_told(tmp_path: Path, wrong: Any) -> None:
-    made = made_results(tmp_path)
+    made = made_results(tmp_path, stored=False)
     for verb in (vf.open_results, vf.load_study, vf.run_study, partial(vf.compare_results, made)):
         with pytest.raises(InputError, match="is not the name of a file"):
             verb(wrong)

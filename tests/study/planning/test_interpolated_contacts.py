@@ -90,6 +90,7 @@ def test_accuracy_is_kept_over_twelve_decades(material: vf.Material, slowest: fl
         assert one.friction_coefficient == pytest.approx(true.friction_coefficient, rel=1e-2)  # the accuracy
 
 
+@pytest.mark.slow
 def test_sensitivity_of_an_interpolated_contact_tells_what_its_own_would() -> None:
     material = vf.Material(
         vf.RetardationSpectrum(1e6, 1e7, [4e-7, 5e-7], [1e-4, 1e-2]), shift=vf.Arrhenius(80e3, reference=303.15)

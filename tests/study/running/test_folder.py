@@ -30,6 +30,7 @@ with study_folder(pathlib.Path(sys.argv[1]), True):
 """
 
 
+@pytest.mark.slow
 def test_two_runs_do_not_meet_and_a_killed_one_leaves_no_lock(tmp_path: Path) -> None:
     holder = subprocess.Popen(
         [sys.executable, "-c", HOLD, str(tmp_path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True

@@ -37,6 +37,7 @@ def pair() -> Iterator[Processes]:
         yield executor
 
 
+@pytest.mark.slow
 def test_processes_find_the_same_bits_and_one_may_be_killed(
     alone: tuple[TwoWaves, CaseStore], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -75,11 +76,12 @@ def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -
     assert [event.event for event in heard] == ["stage", *["stored"] * 8, "stage"]
 
 
-@pytest.mark.parametrize("processes", [False, True], ids=["serial", "processes"])
-def test_failed_cases_leave_the_others_alone(pair: Processes, processes: bool, tmp_path: Path) -> None:
+@pytest.mark.parametrize("processes", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["serial", "processes"])
+def test_failed_cases_leave_the_others_alone(request: pytest.FixtureRequest, processes: bool, tmp_path: Path) -> None:
     plan, store = TwoWaves(), CaseStore(tmp_path)
     heard: list[Event] = []
-    run_plan(plan, store, pair if processes else Serial(), heard.append, solve=solve_some)
+    executor = request.getfixturevalue("pair") if processes else Serial()
+    run_plan(plan, store, executor, heard.append, solve=solve_some)
     failures = [one for one in plan.known.values() if isinstance(one, Failure)]
     assert [str(one) for one in failures] == [
         "0.1 m/s: it does not converge.",
@@ -92,6 +94,7 @@ def test_failed_cases_leave_the_others_alone(pair: Processes, processes: bool, t
     assert len(list(store.stored())) == 7
 
 
+@pytest.mark.slow
 def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processes, tmp_path: Path) -> None:
     plan, store = TwoWaves(), CaseStore(tmp_path)
     run_plan(plan, store, pair, solve=solve_or_end)
@@ -162,6 +165,7 @@ def test_fields_are_kept_beside_the_numbers(tmp_path: Path) -> None:
     assert store.get(asked.key) == record
 
 
+@pytest.mark.slow
 def test_worker_with_another_solver_is_refused(
     pair: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
